@@ -39,27 +39,27 @@ std::unique_ptr<Checkpoint> newest_whole(const fs::path& folder) {
       is_any_damaged = true;
     }
   }
-  if (is_any_damaged) throw OutputError(folder, "resume", "no checkpoint is whole");
-  throw CannotResume(
-      fmt::format("{}: cannot resume: there is no checkpoint{} (checkpoint-*.h5)", folder.string(),
-                  files.empty() ? "" : " of the run that wrote this run.h5, only of others"));
+  if (is_any_damaged) throw OutputError(folder, "resume", "there is no intact checkpoint");
+  throw CannotResume(fmt::format(
+      "{}: cannot resume: there is no checkpoint{} (checkpoint-*.h5)", folder.string(),
+      files.empty() ? "" : " of the run that wrote this run.h5, only those of other runs"));
 }
 
 void check_version(const fs::path& folder, const CheckpointInfo& info) {
   if (info.version == program_version() && info.commit == program_commit()) return;
   throw CannotResume(
-      fmt::format("{}: cannot resume: the checkpoint was written by pulvis {} ({}), this is {} "
-                  "({}), which might go on otherwise; allowed: that program",
+      fmt::format("{}: cannot resume: the checkpoint was written by pulvis {} ({}), but this is {} "
+                  "({}), which could give different results; allowed: the program that wrote it",
                   folder.string(), info.version, info.commit, program_version(), program_commit()));
 }
 
 LoadedScene scene_of(const fs::path& folder, const Checkpoint& checkpoint) {
   LoadedScene scene = load_scene(folder / "scene.toml");
   if (hash_text(scene) != checkpoint.info().scene_hash)
-    throw CannotResume(fmt::format(
-        "{}: cannot resume: the checkpoint is of another scene (hash {}, that of scene.toml and "
-        "the files it names is {})",
-        folder.string(), checkpoint.info().scene_hash, hash_text(scene)));
+    throw CannotResume(
+        fmt::format("{}: cannot resume: the checkpoint belongs to another scene (its hash is {}, "
+                    "that of scene.toml and the files it names is {})",
+                    folder.string(), checkpoint.info().scene_hash, hash_text(scene)));
   return scene;
 }
 
@@ -143,7 +143,7 @@ bool can_go_on(const fs::path& folder, std::uint64_t scene_hash) {
     require_stopped_run(folder);
     return find_stopped_run(folder).scene.hash == scene_hash;
   } catch (const CannotResume&) {
-  } catch (const OutputError&) {  // no checkpoint is whole
+  } catch (const OutputError&) {  // there is no intact checkpoint
   } catch (const SceneError&) {   // somebody changed scene.toml
   }
   return false;

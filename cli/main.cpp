@@ -110,65 +110,73 @@ ExitCode report(const Options& options) {
 
 void add_report(CLI::App& app, Options& options, ExitCode& code) {
   auto* command = app.add_subcommand(
-      "report", "write report.html anew for a finished run, or lay several runs side by side");
+      "report", "rewrite report.html of a finished run, or compare several runs side by side");
   command->add_option("folders", options.folders, "results folders of runs")->required();
   command
       ->add_option("-o,--output", options.comparison,
-                   "page that lays the runs side by side (default comparison.html)")
+                   "page that compares the runs side by side (default comparison.html)")
       ->transform(without_detours);
   command->callback([&] { code = report(options); });
 }
 
 // What of a figure is a matter of taste; the scripts refuse values that are not allowed.
 void add_look(CLI::App& command, FigureOptions& options) {
-  command.add_option("--width", options.width,
-                     "width of every figure, as 85mm, in mm, cm, in or pt (default: of its kind)");
-  command.add_option("--height", options.height, "height of every figure, as 60mm");
-  command.add_flag("--no-title", options.no_title, "no titles over the figures");
+  command.add_option(
+      "--width", options.width,
+      "width of every figure in mm, cm, in or pt, e.g. 85mm (default: depends on the figure)");
+  command.add_option("--height", options.height, "height of every figure, e.g. 60mm");
+  command.add_flag("--no-title", options.no_title, "no titles above the figures");
   command.add_option(
       "--cmap", options.colours,
-      "colour map of what is on a scale, by matplotlib's name, as cividis or magma_r");
-  command.add_option("--range", options.range,
-                     "LOW:HIGH of the colours of the field, as 0:400MPa; one end may be missing");
-  command.add_option("--dpi", options.dpi, "dots per inch of a PNG (default 200)");
+      "colour map for continuous values: a name of matplotlib, e.g. cividis or magma_r");
+  command.add_option(
+      "--range", options.range,
+      "colour range of the field as LOW:HIGH, e.g. 0:400MPa; either end may be omitted");
+  command.add_option("--dpi", options.dpi, "resolution of a PNG in dots per inch (default 200)");
   command
       .add_option("--animate", options.animation,
-                  "file .mp4 or .gif: the field of all frames (MP4 needs ffmpeg)")
+                  "animate the field over all frames; output file .mp4 or .gif (MP4 needs ffmpeg)")
       ->transform(without_detours);
 }
 
 void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
   auto* command = app.add_subcommand(
-      "figure", "draw pictures of a run for papers (PNG, SVG, PDF), or write their numbers (CSV)");
+      "figure",
+      "draw figures of a run for publication (PNG, SVG, PDF), or export their data (CSV)");
   command->add_option("folder", options.folder, "results folder of a run, a study or a probe")
       ->required();
   command->add_option("--field", options.field,
-                      "draw this field of the particles; name:2 is its second component");
-  command->add_option("--frame", options.frame, "number of the frame, from 0 (default: the last)");
+                      "draw this particle field; name:2 selects its second component");
+  command->add_option("--frame", options.frame,
+                      "frame number, starting at 0 (default: the last frame)");
   command
-      ->add_option("--series", options.series, "draw this series of the history; several: overlaid")
+      ->add_option("--series", options.series,
+                   "draw this history series; repeat the option to overlay several")
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--against", options.against, "series of the other axis (default: time)");
+  command->add_option("--against", options.against,
+                      "series on the horizontal axis (default: time)");
   command
       ->add_option("-o,--output", options.output,
-                   "file, .png .svg .pdf or .csv; without --field and --series a folder for all "
-                   "figures (default: pictures/ in the run's folder)")
+                   "output file (.png, .svg, .pdf or .csv); without --field and --series a folder "
+                   "for all figures (default: pictures/ in the run's folder)")
       ->transform(without_detours);
   command
       ->add_option("--format", options.format,
-                   "of all figures: png, svg, pdf or csv; gsf: a raster's images for Gwyddion")
+                   "format of all figures: png, svg, pdf or csv; gsf: raster images for Gwyddion")
       ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "gsf"}));
   command
       ->add_option("--level", options.level,
-                   "levelling of a raster's images: none, plane, or lines (the median of each)")
+                   "levelling of raster images: none, plane, or lines (the median of each line is "
+                   "subtracted)")
       ->check(CLI::IsMember({"none", "plane", "lines"}));
   command
-      ->add_option(
-          "--across", options.across,
-          "axis that sections and density maps are across, in three dimensions (default y)")
+      ->add_option("--across", options.across,
+                   "3D only: axis normal to sections and density maps (default y)")
       ->check(CLI::IsMember({"x", "y", "z"}));
-  command->add_option("--at", options.at, "where, as 2mm (default: near the middle)");
+  command->add_option(
+      "--at", options.at,
+      "position of the section along that axis, e.g. 2mm (default: near the middle)");
   add_look(*command, options);
   command->callback([&] { code = draw_figures(options); });
 }
@@ -195,7 +203,7 @@ CLI::Validator positive(const char* what) {
 // What is refused here is told once, not by every rank.
 ExitCode in_ranks(const Options& options, const std::filesystem::path& folder) {
   if (started_as_rank()) {
-    tell(stderr, "pulvis: --ranks: this process was started as one of several ranks itself\n");
+    tell(stderr, "pulvis: --ranks: this process was itself started as one of several ranks\n");
     return ExitCode::usage;
   }
   require_mpi();
@@ -205,20 +213,21 @@ ExitCode in_ranks(const Options& options, const std::filesystem::path& folder) {
 void add_ranks(CLI::App& command, Options& options) {
   command
       .add_option("--ranks", options.ranks,
-                  "processes that share the run, by Open MPI; --threads is for each of them "
-                  "(default: the processors shared out)")
+                  "number of MPI processes that share the run (Open MPI); --threads is then per "
+                  "process (default: all processors, divided among the processes)")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
 }
 
 void add_course(CLI::App& command, RunOptions& options) {
-  command.add_flag("--quiet", options.quiet, "print nothing but what goes wrong");
-  command.add_flag("--json", options.json, "the same, and the summary (summary.json) when it ends");
+  command.add_flag("--quiet", options.quiet, "print warnings and errors only");
+  command.add_flag("--json", options.json,
+                   "like --quiet, and print the summary (summary.json) at the end");
   command.add_option("--threads", options.threads, "worker threads (default: all processors)")
       ->check(CLI::Range(1, 1024));
   command
       .add_option("--checkpoint-every", options.checkpoints.every,
-                  "seconds between checkpoints, as the clock on the wall has them")
+                  "seconds of wall-clock time between checkpoints")
       ->capture_default_str()
       ->check(positive<double>("seconds"));
   command
@@ -233,15 +242,15 @@ void add_course(CLI::App& command, RunOptions& options) {
             if (!(options.checkpoints.time > 0))
               throw CLI::ValidationError("--checkpoint-time", text + ", allowed: > 0 s");
           },
-          "a checkpoint every so much simulated time, as \"0.5 ms\", too")
+          "additional checkpoints at this interval of simulated time, e.g. \"0.5 ms\"")
       ->type_name("TIME");
   command
       .add_option("--checkpoint-steps", options.checkpoints.steps,
-                  "a checkpoint every so many steps, too (of an AFM scene: increments)")
+                  "additional checkpoints every so many steps (AFM scenes: increments)")
       ->check(positive<std::int64_t>("a whole number"));
   command
       .add_option("--stop-after", options.checkpoints.stop_after,
-                  "stop at this step with a checkpoint, as an interrupt would (exit code 130)")
+                  "stop at this step and write a checkpoint, as on an interrupt (exit code 130)")
       ->check(positive<std::int64_t>("a whole number"));
 }
 
@@ -250,8 +259,7 @@ void add_run(CLI::App& app, Options& options, ExitCode& code) {
   add_scene(*run, options);
   run->add_option("-o,--output", options.run.folder, "results folder (default runs/<scene name>)")
       ->transform(without_detours);
-  run->add_flag("--overwrite", options.run.overwrite,
-                "replace a run that is already in the folder");
+  run->add_flag("--overwrite", options.run.overwrite, "replace an existing run in the folder");
   add_course(*run, options.run);
   add_ranks(*run, options);
   run->callback([&options, &code] {
@@ -268,13 +276,13 @@ void add_check(CLI::App& app, Options& options, ExitCode& code) {
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);
   checks
-      ->add_option(
-          "--reference", options.reference,
-          "print the scene language instead: text or schema, in three dimensions text-3d or "
-          "schema-3d; or the library of materials")
+      ->add_option("--reference", options.reference,
+                   "print the reference of the scene language instead: text or schema (3D: text-3d "
+                   "or schema-3d), or materials for the material library")
       ->check(CLI::IsMember({"text", "schema", "text-3d", "schema-3d", "materials"}));
-  checks->add_flag("--print", options.print,
-                   "print the scene whole instead: what it extends, overrides and defaults put in");
+  checks->add_flag(
+      "--print", options.print,
+      "print the complete scene instead, with extended files, overrides and defaults filled in");
   checks->callback([&options, &code] {
     if (options.run.scene.empty() && options.reference.empty()) throw CLI::RequiredError("scene");
     code = check(options);
@@ -283,7 +291,7 @@ void add_check(CLI::App& app, Options& options, ExitCode& code) {
 
 void add_resume(CLI::App& app, Options& options, ExitCode& code) {
   auto* resume = app.add_subcommand(
-      "resume", "go on with a run that was stopped or killed, from its last checkpoint");
+      "resume", "continue a run that was stopped or killed, from its last checkpoint");
   resume->add_option("folder", options.run.folder, "results folder of the run")->required();
   add_course(*resume, options.run);
   add_ranks(*resume, options);
@@ -299,7 +307,7 @@ bool refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     commands.push_back(command->get_name());
   if (std::ranges::find(commands, argv[1]) != commands.end()) return false;
-  tell(stderr, "pulvis: there is no command '{}'{}, allowed: {}; pulvis --help says more\n",
+  tell(stderr, "pulvis: there is no command '{}'{}, allowed: {}; see pulvis --help\n",
        printable(argv[1]), suggestion(argv[1], commands), listed(commands));
   return true;
 }
@@ -330,9 +338,8 @@ int parse_and_run(int argc, char** argv) {
       "--version", program_version() + " (" + program_commit() + ", " + instruction_set() + ")");
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done; 2 bad usage, or a scene that was refused; 3 the run failed, or not "
-      "as\n"
-      "the scene's [[expect]] tables say; 4 disk or memory; 130 interrupted, see resume.");
+      "Exit codes: 0 success; 2 wrong usage, or the scene was refused; 3 the run failed or did not "
+      "meet\nthe scene's [[expect]] tables; 4 disk or memory error; 130 interrupted, see resume.");
 
   add_run(app, options, code);
   add_resume(app, options, code);
@@ -343,16 +350,15 @@ int parse_and_run(int argc, char** argv) {
   add_check(app, options, code);
   add_preview(app, options.preview, code);
 
-  auto* plans =
-      app.add_subcommand("plan", "print the systems, graph and columns that a scene asks for");
+  auto* plans = app.add_subcommand("plan", "print the systems, task graph and columns of a scene");
   add_scene(*plans, options);
-  plans->add_flag("--dot", options.dot, "the graph as Graphviz input");
+  plans->add_flag("--dot", options.dot, "print the task graph as Graphviz input");
   plans->callback([&] { code = plan(options); });
 
   auto* packs = app.add_subcommand(
-      "pack", "make the packing of a scene and write it as a table, for kind = \"csv\"");
+      "pack", "generate the packing of a scene and write it as a table for kind = \"csv\"");
   add_scene(*packs, options);
-  packs->add_option("-o,--output", options.packing, "table (CSV), default packing.csv")
+  packs->add_option("-o,--output", options.packing, "output table (CSV, default packing.csv)")
       ->transform(without_detours);
   packs->callback([&] {
     code = pack_scene(read_scene(options.run.scene, options.run.overrides), options.packing);

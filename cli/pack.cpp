@@ -23,8 +23,8 @@ std::string packing_summary(const Scene& scene) {
     if (packing.kind != PackingSpec::Kind::random) continue;
     text += fmt::format(
         "packing[{}]: {}, relative density {:.4f}, die {:.6g} m x {:.6g} "
-        "m, mean gap to the three nearest neighbours {:.3g} diameters, contacts of a particle "
-        "(mean) {:.3g}\n",
+        "m, mean gap to the three nearest neighbours {:.3g} diameters, mean contacts per particle "
+        "{:.3g}\n",
         i, counted(packing.placed.size(), "particle"), packing.reached.density, packing.width,
         packing.top - packing.corner.y(), packing.reached.mean_gap,
         2.0 * packing.reached.touches / static_cast<double>(packing.placed.size()));
@@ -48,7 +48,7 @@ ExitCode pack_in_space(const Scene& scene, const std::filesystem::path& file) {
 ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file) {
   if (scene.afm)
     throw SceneError({{scene.file.string(), 1, 1, "", "family",
-                       "an AFM scene has no particles, allowed: a scene of particles to pack"}});
+                       "an AFM scene has no particles, allowed: a scene with particles to pack"}});
   require_another(scene.file, file);
   require_own_or_none(file, role::packing);
   if (scene.space) return pack_in_space(scene, file);

@@ -21,7 +21,7 @@ std::string stage_name(const StagePlan& stage) {
 }  // namespace
 
 std::string plan_text(const GraphPlan& plan, const World& world) {
-  std::string out = "systems of a step, in order; those of one line are fused chunk by chunk\n";
+  std::string out = "systems of a step, in order; systems on one line are fused chunk by chunk\n";
   for (std::size_t s = 0; s < plan.stages.size(); ++s) {
     const StagePlan& stage = plan.stages[s];
     out += fmt::format("{:3}  {} {}\n", s, stage.by_chunk ? "chunk" : "world", stage_name(stage));
@@ -44,7 +44,8 @@ std::string plan_text(const GraphPlan& plan, const World& world) {
     total += column->bytes();
   }
   return out +
-         fmt::format("  {:>60} B in all (contact rows come and go with the contacts)\n", total);
+         fmt::format("  {:>60} B in total (the number of contact rows varies with the contacts)\n",
+                     total);
 }
 
 std::string plan_dot(const GraphPlan& plan) {

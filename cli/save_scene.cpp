@@ -42,7 +42,7 @@ void save_inputs(const fs::path& folder, const std::vector<InputFile>& inputs) {
       make_copy(input, target);
     else if (!holds(target, input))
       throw RunFolderTaken(target, "keep a copy of " + input.source.string() + " there",
-                           "it is another file, allowed: another folder");
+                           "a different file is there already, allowed: another folder");
   }
 }
 
@@ -53,7 +53,7 @@ void save_scene(const fs::path& folder, const LoadedScene& loaded) {
 
 void require_saved_scene(const fs::path& folder) {
   if (!fs::exists(folder / "scene.toml"))
-    throw OutputError(folder / "scene.toml", "go on without the file", "it is no longer there");
+    throw OutputError(folder / "scene.toml", "continue without the file", "it is no longer there");
 }
 
 LoadedScene as_saved(const fs::path& folder, LoadedScene loaded) {

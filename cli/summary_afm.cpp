@@ -104,18 +104,17 @@ Json curve_json(const ForceCurveFigures& curve) {
 
 std::string unsettled_text(const FrictionLoop& loop) {
   std::string text =
-      "  W is not that of friction: in the half of a traverse that it is taken from ";
+      "  W is not caused by friction alone: in the half of the traverse where it is evaluated ";
   if (loop.slides <= 1 - 1e-3)
-    text += fmt::format("the probe sticks for {:.0f}%", 100 * (1 - loop.slides));
+    text += fmt::format("the probe sticks {:.0f}% of the time", 100 * (1 - loop.slides));
   else if (loop.turned <= 1 - 1e-3)
     text += fmt::format(
-        "{:.1f}% of friction point along the scan, the rest still where the press "
-        "left it",
+        "only {:.1f}% of the friction acts along the scan, the rest still as the press left it",
         100 * loop.turned);
   else
     text += fmt::format("the force drifts by {:.1f}% of W", 100 * loop.drift);
   return text + (loop.needed > 0 ? fmt::format(": a scan of {:.2g} m is needed\n", loop.needed)
-                                 : ": a longer scan, or one at a kept force, is needed\n");
+                                 : ": a longer scan, or a scan at constant force, is needed\n");
 }
 
 }  // namespace

@@ -110,8 +110,9 @@ std::string wedge_text(const wedge::Calibration& calibration) {
   text += fmt::format("friction {}\nlateral sensitivity {}\n", text_of(calibration.friction, 1, ""),
                       text_of(calibration.sensitivity, 1e9, "nN/V"));
   if (calibration.crosstalk)
-    text += fmt::format("crosstalk of the load {} was taken off; friction on the flat {:.5g}\n",
-                        text_of(*calibration.crosstalk, 1, "V/N"), *calibration.flat_friction);
+    text +=
+        fmt::format("crosstalk of the load {} was subtracted; friction on the flat facet {:.5g}\n",
+                    text_of(*calibration.crosstalk, 1, "V/N"), *calibration.flat_friction);
   return text;
 }
 

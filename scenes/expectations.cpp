@@ -38,7 +38,7 @@ std::string unit_of(const std::vector<SeriesInfo>& all, const std::string& name)
 
 std::string what_of(const ExpectSpec& expect) {
   static constexpr const char* words[] = {"at the end", "always", "largest",
-                                          "smallest",   "mean",   "largest less smallest"};
+                                          "smallest",   "mean",   "largest minus smallest"};
   std::string text = expect.series;
   if (!is_figure_of_a_run(expect.series))
     text += fmt::format(", {}", words[static_cast<int>(when_of(expect))]);
@@ -52,8 +52,8 @@ std::string allowed_of(const ExpectSpec& expect, const std::string& unit) {
   const double within = expect.within.value_or(0);
   const std::string other = name_before_copying(expect.like);
   if (!other.empty() && expect.scale != 1)
-    return fmt::format("within {:g} of {:g} times that of {}", within, expect.scale, other);
-  if (!other.empty()) return fmt::format("within {:g} of that of {}", within, other);
+    return fmt::format("within {:g} of {:g} times the value of {}", within, expect.scale, other);
+  if (!other.empty()) return fmt::format("within {:g} of the value of {}", within, other);
   if (expect.equals && expect.equals->number == 0) return "0 within " + with_unit(within, unit);
   if (expect.equals)
     return fmt::format("{} within {:g} of it", with_unit(expect.equals->number, unit), within);
@@ -180,7 +180,7 @@ std::string measured_deviation(const Values& here, const Values& other, double d
   if (here.size() != other.size())
     return fmt::format("{} samples against {}", here.size(), other.size());
   if (std::isinf(deviation)) return "some samples have a value in one run only";
-  return fmt::format("{:.4g} off", deviation);
+  return fmt::format("off by {:.4g}", deviation);
 }
 
 Verdict compare(const ExpectSpec& expect, const Values& here, const OtherRun& other) {
@@ -216,7 +216,8 @@ Verdict outcome_of(const Scene& scene, const std::optional<std::string>& failure
   const ExpectSpec* stop = stop_of(scene);
   return {"outcome",
           failure ? "stopped: " + *failure : "reached its end",
-          stop == nullptr ? "reaches its end" : fmt::format("stops, saying '{}'", stop->message),
+          stop == nullptr ? "reaches its end"
+                          : fmt::format("stops with the message '{}'", stop->message),
           {},
           ended_as_expected(scene, failure)};
 }

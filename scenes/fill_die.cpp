@@ -62,7 +62,7 @@ class DieFiller {
       if (!wrong_)
         problems_.add(origin_, "die.width",
                       "required key is missing, allowed: a quantity in m; without it there must be "
-                      "one packing that says how wide it is");
+                      "exactly one packing with a width");
       return;
     }
     for (std::size_t i = 0; packings_ != nullptr && i < packings_->size(); ++i)
@@ -126,9 +126,10 @@ class DieFiller {
       if (document::find(packing, "width") == nullptr)
         packing.push_back({"width", origin_, length_of(*spec_.width, origin_)});
       else if (width && differs(width->number, *spec_.width))
-        problems_.add(document::find(packing, "width")->origin, path + ".width",
-                      fmt::format("is {:g} m, but the die is {:g} m wide, allowed: one of them",
-                                  width->number, *spec_.width));
+        problems_.add(
+            document::find(packing, "width")->origin, path + ".width",
+            fmt::format("is {:g} m, but the die is {:g} m wide, allowed: only one of the two",
+                        width->number, *spec_.width));
     }
     if (spec_.corner && is_kind(packing, {"random", "square", "hexagonal"}) &&
         document::find(packing, "corner") == nullptr)
@@ -175,8 +176,8 @@ class DieFiller {
     const double x = corner().x() + (wall.normal_x < 0 ? *spec_.width : 0);
     if (differs(point->vector.x(), x))
       problems_.add(document::find(tool, "point")->origin, path + ".point",
-                    fmt::format("stands at x = {:g} m, but this side of the die is at {:g} m, "
-                                "allowed: there, or no tool '{}'",
+                    fmt::format("is at x = {:g} m, but this side of the die is at {:g} m, allowed: "
+                                "the same position, or no tool '{}'",
                                 point->vector.x(), x, wall.name));
   }
 

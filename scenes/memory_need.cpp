@@ -121,7 +121,7 @@ MemoryNeed require_memory(const Scene& scene) {
   const std::uint64_t there = available_memory();
   if (need.total() > there)
     throw OutputError(scene.file, "run it",
-                      fmt::format("it needs about {} of memory, {} are available",
+                      fmt::format("it needs about {} of memory, but only {} are available",
                                   bytes_text(need.total()), bytes_text(there)));
   return need;
 }

@@ -180,7 +180,7 @@ void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, 
 // Files have been put together when overrides are applied.
 void refuse_extending(const Table& root, Problems& problems) {
   if (const document::Entry* entry = document::find(root, "extends"))
-    problems.add(entry->origin, "extends", "cannot be set here, allowed: in a scene's file");
+    problems.add(entry->origin, "extends", "cannot be set here, allowed: in the scene file");
 }
 
 // Which language a scene is in must be known before its variables are.

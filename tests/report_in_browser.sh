@@ -134,7 +134,7 @@ body=$(body_of levers "$reports/levers.html" 1200,2000 ready)
 [[ $(grep -o '<h2>Stiffness compared with closed forms: ' "$work/page.html" | wc -l) -eq 2 ]] || fail "levers: not both calibrations"
 [[ $(grep -o 'data-drawn="' "$work/page.html" | wc -l) -eq 3 ]] || fail "levers: a picture is missing"
 grep -q 'Lever, under a force along the lever' "$work/page.html" || fail "levers: not told what a calibration shows"
-grep -q 'Lever, [0-9.]* actions done' "$work/page.html" && fail "levers: a calibration has no actions"
+grep -q 'Lever, [0-9.]* actions completed' "$work/page.html" && fail "levers: a calibration has no actions"
 picture_of "$reports/levers.html" 1200,2000 "$reports/levers.png"
 echo "ok: comparison of levers"
 

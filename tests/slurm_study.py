@@ -193,7 +193,7 @@ class Check:
 
     def submit(self, file, results, *options):
         told = self.study(file, results, "--slurm", *options)
-        return re.search(r"submitted as Slurm's job (\d+)", told)[1]
+        return re.search(r"submitted as Slurm job (\d+)", told)[1]
 
     @staticmethod
     def outcome(run):

@@ -85,7 +85,7 @@ async function driveSpace() {
     cells.push(Number(canvas().dataset.cells));
   }
   told("cut", allDiffer(cuts) && cells.every(count => count > 0));
-  told("cutTold", /Cut at plane as chosen/.test(canvas().getAttribute("aria-label")) && canvas().getAttribute("role") === "img");
+  told("cutTold", /Cut at chosen plane/.test(canvas().getAttribute("aria-label")) && canvas().getAttribute("role") === "img");
   await settle("cut", "z");
   await settle("cut-at", 0.3, "input");
   key("z", canvas());

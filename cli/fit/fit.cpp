@@ -60,7 +60,8 @@ class Fitting {
     while (search_.state() == GaussNewton::State::going)
       if (const auto failed = round()) return *failed;
     if (search_.best().empty()) {
-      tell(stderr, "pulvis: no value beside the start makes a scene: nothing can be sought\n");
+      tell(stderr,
+           "pulvis: no value other than the start gives a valid scene: nothing can be fitted\n");
       return ExitCode::run_failed;
     }
     FitResult result{fit_, comparison_, search_, std::move(trials_), {}, {}};
@@ -97,7 +98,7 @@ class Fitting {
     tell("round {}: ", search_.rounds() + 1);
     runner.go();
     if (interrupted()) {
-      tell(stderr, "pulvis: interrupted; the same command continues\n");
+      tell(stderr, "pulvis: interrupted; run the same command again to continue\n");
       return ExitCode::interrupted;
     }
     std::vector<Eigen::VectorXd> residuals;
@@ -129,10 +130,11 @@ class Fitting {
       const std::string name = fit_.spec.parameters[k].short_name();
       if (search_.is_at_bound(k))
         told.push_back(
-            fmt::format("{} is at the end of its range: the interval says nothing", name));
+            fmt::format("{} is at the end of its range: its interval is not meaningful", name));
       if (!(search_.jacobian().col(static_cast<Eigen::Index>(k)).norm() > 0))
-        told.push_back(
-            fmt::format("the simulated friction does not depend on {}: it is not found", name));
+        told.push_back(fmt::format(
+            "the simulated friction does not depend on {}, which therefore cannot be determined",
+            name));
     }
     if (search_.state() != GaussNewton::State::converged)
       told.push_back("not converged: the values are those of the best run");

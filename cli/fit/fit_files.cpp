@@ -135,8 +135,7 @@ void write_fit(const std::filesystem::path& folder, const FitResult& result) {
   for (std::size_t k = 0; k < result.parameters.size(); ++k)
     page.charts.push_back(misfit_chart(result, k));
   page.tables.push_back(parameters_table(result));
-  page.tables.push_back(
-      sentences_table("Where the two may be compared", result.comparison.limits()));
+  page.tables.push_back(sentences_table("Range of valid comparison", result.comparison.limits()));
   if (!result.warnings.empty()) page.tables.push_back(sentences_table("Warnings", result.warnings));
   page.tables.push_back(trials_table(result));
   write_lab_page(folder, page, result.fit.text, role::fit);

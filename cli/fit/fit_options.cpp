@@ -7,18 +7,21 @@ namespace pulvis {
 
 void add_fit(CLI::App& app, FitOptions& options, ExitCode& code) {
   auto* command = app.add_subcommand(
-      "fit", "find the friction at which a simulated sliding-plate test is a measured one");
+      "fit",
+      "calibrate the friction so that a simulated sliding-plate test reproduces a measured one");
   command->add_option("fit", options.fit, "fit file (TOML), docs/fit.md");
   command
       ->add_option("-o,--output", options.folder,
-                   "results folder (default runs/<fit name>); what is finished in it is kept")
+                   "results folder (default runs/<fit name>); finished runs in it are kept")
       ->transform(without_detours);
   command
       ->add_option("--jobs", options.jobs,
-                   "runs at once, one thread each (default: as many as there are processors)")
+                   "number of concurrent runs, one thread each (default: the number of processors)")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--fresh", options.fresh, "run everything again");
-  command->add_option("--reference", options.reference, "print the fit language instead: text")
+  command
+      ->add_option("--reference", options.reference,
+                   "print the reference of the fit file instead: text")
       ->check(CLI::IsMember({"text"}));
   add_overrides(*command, options.overrides, "every run");
   command->callback([&options, &code] {

@@ -132,7 +132,8 @@ Json densities_chart(const Compressions& all) {
     line["isSimulated"] = true;
     chart["lines"].push_back(line);
   }
-  chart["note"] = "Loading and unloading of each record; the press's own give is taken out.";
+  chart["note"] =
+      "Loading and unloading of each record, corrected for the compliance of the press.";
   return chart;
 }
 
@@ -148,7 +149,7 @@ Json laws_chart(const lab::ReducedCurve& one) {
 Json laws_table(const Compressions& all) {
   Json table{{"title", "Laws"},
              {"head",
-              {"curve", "law", "parameter", "value", "of it scatter", "height", "mass",
+              {"curve", "law", "parameter", "value", "due to scatter", "height", "mass",
                "compliance", "rms of density"}},
              {"rows", Json::array()}};
   for (const auto& curve : all.curves)
@@ -168,18 +169,19 @@ Json laws_table(const Compressions& all) {
       }
     }
   table["note"] = fmt::format(
-      "± is the half width of the {:g} % interval; the columns behind it are one standard "
-      "uncertainty each, of the scatter about the law and of what is stated for the instruments.",
+      "± is the half width of the {:g} % interval. The next columns are one standard uncertainty "
+      "each, due to the scatter about the law and to the stated uncertainties of the instruments.",
       100 * all.confidence);
   return table;
 }
 
 Json curves_table(const Compressions& all) {
-  Json table{{"title", "Curves"},
-             {"head",
-              {"curve", "density where loading begins", "largest pressure", "density under it",
-               "the press gives", "unloaded density", "axial recovery", "unloading modulus"}},
-             {"rows", Json::array()}};
+  Json table{
+      {"title", "Curves"},
+      {"head",
+       {"curve", "density at start of loading", "largest pressure", "density at largest pressure",
+        "press deflection", "unloaded density", "axial recovery", "unloading modulus"}},
+      {"rows", Json::array()}};
   const auto with_unit = [](double value, const char* unit) {
     return Json{{"value", value}, {"unit", unit}};
   };
@@ -199,7 +201,7 @@ Json curves_table(const Compressions& all) {
 Json misfits_table(const Compressions& all) {
   Json table{{"title", "Simulations against records"},
              {"head",
-              {"simulation", "curve", "densities", "pressure, simulated over measured",
+              {"simulation", "curve", "densities", "simulated / measured pressure",
                "rms of its logarithm", "rms of density at equal pressure"}},
              {"rows", Json::array()}};
   for (const auto& m : all.misfits) {
@@ -230,14 +232,13 @@ std::string compressions_text(const Compressions& all) {
     }
   }
   for (const auto& m : all.misfits)
-    text +=
-        m.not_compared.empty()
-            ? fmt::format(
-                  "{} over {}: pressure {:.3f} times the measured, rms of its "
-                  "logarithm {:.3f}, of the density {:.4f}\n",
-                  m.simulation, m.curve, std::exp(m.log_pressure), m.rms_log_pressure,
-                  m.rms_density)
-            : fmt::format("{} over {}: not compared: {}\n", m.simulation, m.curve, m.not_compared);
+    text += m.not_compared.empty() ? fmt::format(
+                                         "{} against {}: pressure {:.3f} times the measured one, "
+                                         "rms of its logarithm {:.3f}, of the density {:.4f}\n",
+                                         m.simulation, m.curve, std::exp(m.log_pressure),
+                                         m.rms_log_pressure, m.rms_density)
+                                   : fmt::format("{} against {}: not compared: {}\n", m.simulation,
+                                                 m.curve, m.not_compared);
   return text;
 }
 
@@ -246,12 +247,12 @@ std::string lead_of(const Compressions& all) {
   std::string lead = counted(count, "compression curve");
   if (all.machine.meeting)
     lead += fmt::format(
-        "; the press gives {:.4g} mm at {:.4g} kN (record of the empty press, {:.2g} "
-        "µm rms about the polynomial)",
+        "; the press deflects {:.4g} mm at {:.4g} kN (record of the empty press, {:.2g} µm rms "
+        "about the polynomial)",
         1e3 * all.machine.at(all.machine.largest_force), 1e-3 * all.machine.largest_force,
         1e6 * all.machine.rms);
   else if (all.machine.coefficients.empty())
-    lead += "; the press is taken as rigid: nothing is said about its compliance";
+    lead += "; the press is assumed rigid: no compliance is given";
   return lead + ".";
 }
 

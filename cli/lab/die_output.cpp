@@ -113,8 +113,8 @@ Json steps_table(const DieResult& one) {
                              measured_cell(step.stress_ratio, one.confidence),
                              measured_cell(step.friction, one.confidence)});
   table["note"] = fmt::format(
-      "± is the half width of the {:g} % interval. The friction is the one that is mobilised: "
-      "where the wall sticks it is below the coefficient{}.",
+      "± is the half width of the {:g} % interval. The friction is the mobilised one: where the "
+      "powder sticks to the wall it is below the coefficient{}.",
       100 * one.confidence,
       one.curve.friction ? fmt::format(" ({:g} at the walls of the scene)", *one.curve.friction)
                          : "");
@@ -125,7 +125,7 @@ std::string slices_text(const std::vector<DieResult>& all) {
   std::string text;
   for (const DieResult& one : all) {
     text += one.label() + ":\n";
-    if (one.steps.empty()) text += "  no step of the density has enough samples\n";
+    if (one.steps.empty()) text += "  no density step has enough samples\n";
     for (const lab::SliceStep& step : one.steps)
       text += fmt::format("  density {:.4f}: {}, {}\n", step.density,
                           measured_text(step.stress_ratio, one.confidence),
@@ -143,8 +143,8 @@ LabOutput die_output(const lab::LoadedSettings& loaded,
   LabOutput output;
   output.title = named.empty() ? "Instrumented die" : named;
   output.lead =
-      "Wall friction and stress ratio K by the balance of a slice of the compact: axial stress "
-      "falls exponentially from the top punch to the bottom one.";
+      "Wall friction and stress ratio K from the force balance on a slice of the compact: the "
+      "axial stress decays exponentially from the top punch to the bottom punch.";
   output.summary = slices_json(all);
   output.files.emplace_back("slices.csv", slices_csv(all));
   output.charts.push_back(steps_chart(all, "Stress ratio K", "radial over axial stress",

@@ -163,16 +163,16 @@ Json conditions_table(const Matrix& m) {
     table["rows"].push_back(row);
   }
   table["note"] = fmt::format(
-      "± is the half width of the {:g} % interval by the condition's own runs; \"of all\" is that "
-      "by the scatter of repeated runs over all conditions, which is more certain where conditions "
-      "have few runs each.",
+      "± is the half width of the {:g} % interval from the condition's own runs; \"of all\" is the "
+      "one from the scatter of repeated runs over all conditions, which is more reliable where "
+      "conditions have few runs each.",
       100 * m.confidence);
   return table;
 }
 
 Json effects_table(const Response& r) {
   Json table{{"title", fmt::format("Effects on the {} coefficient", r.name)},
-             {"head", {"factor", "level", "effect", "F", "probability without an effect"}},
+             {"head", {"factor", "level", "effect", "F", "p-value (no effect)"}},
              {"rows", Json::array()}};
   const lab::Effects& e = r.effects;
   if (!e.not_found.empty()) {
@@ -198,8 +198,8 @@ Json effects_table(const Response& r) {
   table["note"] = fmt::format(
       "Mean {:.4f}; an effect is what a level adds to it. Standard deviation of one run {:.2g} "
       "({}, "
-      "{} degrees of freedom). Interactions: what the conditions differ from the sum of the "
-      "effects; where they are probable, effects of single factors do not say all.",
+      "{} degrees of freedom). Interactions: deviations of the conditions from the sum of the "
+      "effects; where they are significant, the effects of single factors do not suffice.",
       e.mean, e.deviation, e.is_pure_error ? "of repeated runs" : "of the residuals", e.freedom);
   return table;
 }

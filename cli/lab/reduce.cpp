@@ -43,7 +43,7 @@ Inputs sorted_inputs(const Paths& files) {
       continue;
     }
     if (!inputs.settings.empty())
-      refuse(file, "settings", "is a second one, allowed: one file of settings (.toml)");
+      refuse(file, "settings", "is a second settings file, allowed: one (.toml)");
     inputs.settings = file;
   }
   return inputs;
@@ -95,7 +95,8 @@ lab::LoadedSettings settings_of(const Inputs& inputs, std::vector<std::string> o
   const auto loops = std::ranges::find_if(inputs.records, wedge::holds_loops);
   if (loops != inputs.records.end()) {
     if (inputs.records.size() > 1)
-      refuse(*loops, "records", "friction loops beside other records, allowed: one file of loops");
+      refuse(*loops, "records",
+             "friction loops together with other records, allowed: one file of loops");
     const std::string path = std::filesystem::absolute(*loops).string();
     overrides.push_back("wedge.loops=" + document::value_text({path, {}}));
   }
@@ -182,7 +183,8 @@ ExitCode reduce_volts(const ReduceOptions& options, const Inputs& inputs,
                       const lab::LoadedSettings& loaded) {
   if (!inputs.records.empty())
     refuse(inputs.records.front(), "records",
-           "stands beside settings with afm.loops, allowed: files that the settings name");
+           "is given together with settings that have afm.loops, allowed: files that the settings "
+           "name");
   const VoltsReduction done = volts_reduction(loaded);
   open_folder(options, volts_files());
   write_volts(options.folder, done);
@@ -214,8 +216,9 @@ ExitCode reduce_records(const ReduceOptions& options) {
   if (loaded.settings.volts.wanted()) return reduce_volts(options, inputs, loaded);
   if (const auto output = output_of(options, loaded)) {
     if (!inputs.records.empty())
-      refuse(inputs.records.front(), "records",
-             "stands beside settings that name their records, allowed: the settings alone");
+      refuse(
+          inputs.records.front(), "records",
+          "is given together with settings that name their records, allowed: the settings alone");
     write_output(options, *output, loaded);
     return ExitCode::done;
   }

@@ -47,8 +47,8 @@ RunEstimate estimate_run(Simulation& simulation) {
 
 std::string estimate_text(const RunEstimate& estimate) {
   return fmt::format(
-      "run: about {} steps of {:.2g} s; {} on one thread of this machine (by its first steps: "
-      "powder that is pressed takes shorter and dearer ones)",
+      "run: about {} steps of {:.2g} s; {} on one thread of this machine (estimated from its first "
+      "steps; during compaction, steps get shorter and more expensive)",
       rounded(estimate.steps), estimate.dt, duration_text(estimate.seconds));
 }
 

@@ -8,7 +8,7 @@ const CLI::Validator picture_name(
       const std::string ending = std::filesystem::path(name).extension().string();
       for (const char* known : {".png", ".svg", ".pdf", ".json"})
         if (ending == known) return std::string();
-      return "'" + name + "' ends in none of .png .svg .pdf .json";
+      return "'" + name + "' does not end in .png, .svg, .pdf or .json";
     },
     "FILE", "picture_name");
 
@@ -17,12 +17,12 @@ const CLI::Validator picture_name(
 void add_preview(CLI::App& app, PreviewOptions& options, ExitCode& code) {
   auto* command = app.add_subcommand(
       "preview",
-      "draw the set-up of a scene before it runs: die, tools, particles, stages; or the lever");
+      "draw the set-up of a scene before it runs: die, tools, particles and stages, or the lever");
   command->add_option("scene", options.scene, "scene file (TOML)")->required();
   command
       ->add_option("-o,--output", options.output,
-                   "picture, .png .svg or .pdf, or .json: what would be drawn, in SI units "
-                   "(default preview.png)")
+                   "output file: .png, .svg or .pdf, or .json with the data of the drawing in SI "
+                   "units (default preview.png)")
       ->transform(without_detours)
       ->check(picture_name);
   add_overrides(*command, options.overrides, "this picture");

@@ -34,7 +34,7 @@ namespace {
 
 // A run that fails in its first steps has no estimate; `run` says why.
 std::string estimate_line(Simulation* simulation) {
-  if (simulation == nullptr) return "warning: this machine has not enough memory for the run";
+  if (simulation == nullptr) return "warning: this machine does not have enough memory for the run";
   try {
     return estimate_text(estimate_run(*simulation));
   } catch (const RunFailure& failure) {
@@ -106,7 +106,7 @@ SceneFindings findings_of(const Scene& scene, const AfmModel& model) {
   findings.warnings = lever_warnings(scene);
   if (increments > 0)
     findings.run = fmt::format(
-        "run: {} at least; one takes as long as one to three factorisations of the stiffness",
+        "run: at least {}, each as long as one to three factorisations of the stiffness matrix",
         counted(increments, "increment"));
   findings.verdict = fmt::format("{}: good: {}, {}", scene.file.string(),
                                  counted(model.elements, "element"), counted(model.nodes, "node"));

@@ -96,7 +96,8 @@ bool went(StudyRunner& runner, const char* what) {
   tell("{}: ", what);
   runner.go();
   if (!interrupted()) return true;
-  tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command continues\n",
+  tell(stderr,
+       "pulvis: interrupted; {} of {} runs were finished; run the same command again to continue\n",
        runner.done(), runner.to_do());
   return false;
 }
@@ -161,8 +162,8 @@ class Probing {
     tell(
         stderr,
         "pulvis: warning: path '{}', relative density {:.4f}, seed {}: the moduli (c11 {:.3g}, c12 "
-        "{:.3g}, c22 {:.3g}, g {:.3g} GPa) are of no solid, and so are the fits: less "
-        "elastic_strain ({:g}), or a longer duration\n",
+        "{:.3g}, c22 {:.3g}, g {:.3g} GPa) are not physical, nor are the fits: use a smaller "
+        "elastic_strain ({:g}) or a longer duration\n",
         state.path, state.density, state.seed, m.c11 * 1e-9, m.c12 * 1e-9, m.c22 * 1e-9, m.g * 1e-9,
         probe_.spec.elastic_strain);
   }

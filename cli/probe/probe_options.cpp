@@ -7,19 +7,22 @@ namespace pulvis {
 
 void add_probe(CLI::App& app, ProbeOptions& options, ExitCode& code) {
   auto* command = app.add_subcommand(
-      "probe", "find where a powder yields at set densities, and fit cap models to it");
+      "probe", "find the yield surface of a powder at given densities and fit cap models to it");
   command->add_option("probe", options.probe, "probe file (TOML), docs/probe.md");
   command
       ->add_option("-o,--output", options.folder,
-                   "results folder (default runs/<probe name>); what is finished in it is kept")
+                   "results folder (default runs/<probe name>); finished runs in it are kept")
       ->transform(without_detours);
   command
       ->add_option("--jobs", options.jobs,
-                   "runs at once, one thread each (default: as many as there are processors)")
+                   "number of concurrent runs, one thread each (default: the number of processors)")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--fresh", options.fresh, "run everything again");
-  command->add_flag("--list", options.list, "check everything, print the runs, run nothing");
-  command->add_option("--reference", options.reference, "print the probe language instead: text")
+  command->add_flag("--list", options.list,
+                    "check everything and print the runs without running them");
+  command
+      ->add_option("--reference", options.reference,
+                   "print the reference of the probe file instead: text")
       ->check(CLI::IsMember({"text"}));
   add_overrides(*command, options.overrides, "the scene of every path");
   command->callback([&options, &code] {

@@ -86,7 +86,7 @@ std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& 
     };
     if (const double before = value_at(stage->begin, "relative_density"); before >= density) {
       passed.push_back(fmt::format(
-          "{}: the powder has a relative density of {:.4f} before it is pressed to {:g}",
+          "{}: the powder already has a relative density of {:.4f} before it is pressed to {:g}",
           loading.name, before, density));
       continue;
     }

@@ -40,7 +40,7 @@ const MpiPlugin& mpi_plugin() {
   const MpiPlugin* plugin = nullptr;
   if (entry != nullptr) plugin = reinterpret_cast<const MpiPlugin* (*)()>(entry)();
   if (plugin == nullptr || plugin->build != build_identity())
-    throw NoMpi(fmt::format("{} is of another build, {}; this program is {}: install both anew",
+    throw NoMpi(fmt::format("{} is from another build, {}; this program is {}: reinstall both",
                             MpiPlugin::library, plugin == nullptr ? "unknown" : plugin->build,
                             build_identity()));
   return *plugin;
@@ -118,10 +118,10 @@ void require_alike(Ranks& ranks, const std::string& own) {
     const auto [first, first_host] = told(all[0]);
     const auto [other, other_host] = told(all[i]);
     if (other != first)
-      refusal = bytes_of(
-          fmt::format("ranks of one run must be the same program on processors of one kind: "
-                      "rank 0 on {} is {}, rank {} on {} is {}",
-                      first_host, first, i, other_host, other));
+      refusal =
+          bytes_of(fmt::format("all ranks of a run must be the same program on the same kind of "
+                               "processor: rank 0 on {} is {}, rank {} on {} is {}",
+                               first_host, first, i, other_host, other));
   }
   ranks.broadcast(refusal);
   if (!refusal.empty()) throw UnlikeRanks(ranks.is_root() ? text_of(refusal) : "");
@@ -133,9 +133,8 @@ std::unique_ptr<Ranks> join_ranks() {
   if (ranks->count() == 1) {
     ranks.reset();
     throw NoMpi(
-        "this process was started as one of several ranks, but Open MPI sees it alone: start them "
-        "by "
-        "mpirun, or by srun --mpi=pmix");
+        "this process was started as one of several ranks, but Open MPI sees only this one: start "
+        "the ranks with mpirun or srun --mpi=pmix");
   }
   try {
     require_alike(*ranks, build_identity() + " with " + instruction_set());

@@ -93,13 +93,12 @@ pid_t start(const std::vector<std::string>& command, const SignalsHeld& signals)
 
 void tell_how_to_go_on(const fs::path& folder) {
   if (checkpoints_in(folder).empty())
-    tell(
-        stderr,
-        "pulvis: there is no checkpoint yet that could go on; once the cause is gone run it again, "
-        "with --overwrite where {} holds a run.h5\n",
-        folder.string());
+    tell(stderr,
+         "pulvis: there is no checkpoint to continue from; once the cause is fixed, run it again, "
+         "with --overwrite if {} holds a run.h5\n",
+         folder.string());
   else
-    tell(stderr, "pulvis: once the cause is gone continue with: pulvis resume {}\n",
+    tell(stderr, "pulvis: once the cause is fixed, continue with: pulvis resume {}\n",
          folder.string());
 }
 
@@ -122,13 +121,12 @@ ExitCode end_of(int status, bool asked, const fs::path& folder) {
     tell(stderr, "pulvis: mpirun was killed by signal {} ({}), and the ranks with it\n",
          WTERMSIG(status), strsignal(WTERMSIG(status)));
   else if (code > killed)
-    tell(stderr, "pulvis: a rank was killed by signal {} ({}), and the others were ended\n",
+    tell(stderr, "pulvis: a rank was killed by signal {} ({}), and the others were terminated\n",
          code - killed, strsignal(code - killed));
   else
-    tell(
-        stderr,
-        "pulvis: the ranks were not started, or not to their end: mpirun ended with exit code {}\n",
-        code);
+    tell(stderr,
+         "pulvis: the ranks did not start or did not finish: mpirun ended with exit code {}\n",
+         code);
   tell_how_to_go_on(folder);
   return ExitCode::machine;
 }
@@ -141,7 +139,7 @@ void require_room_to_start(const fs::path& folder, std::uintmax_t bytes) {
   if (error || room.available >= bytes) return;
   throw OutputError(
       folder, "start the ranks",
-      fmt::format("mpirun needs {} MB there, {} are free: take another folder by TMPDIR",
+      fmt::format("mpirun needs {} MB there, {} are free: set TMPDIR to another folder",
                   bytes >> 20, room.available >> 20));
 }
 

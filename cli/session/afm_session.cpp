@@ -24,7 +24,8 @@ namespace pulvis {
 namespace {
 
 // A lever's programme has no time.
-const SeriesInfo actions_done{"actions", "-", "actions done, a part of one included"};
+const SeriesInfo actions_done{"actions", "-",
+                              "actions completed, including the part of the current one"};
 
 RunMesh mesh_of(const AfmSimulation& simulation) {
   const World& world = const_cast<AfmSimulation&>(simulation).world();
@@ -49,13 +50,14 @@ RunMesh mesh_of(const AfmSimulation& simulation) {
 void write_load_cases(const std::filesystem::path& folder, const LoadedScene& loaded, int threads,
                       AfmSimulation& simulation) {
   const RunMesh mesh = mesh_of(simulation);
-  Recorder recorder(folder,
-                    {program_version(), program_commit(), loaded.scene.title,
-                     fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
-                    mesh, {{"tip/displacement", "m", "of the tip's end, as drawn"}},
-                    {{"position", "m", "deformed, drawn larger than life", FieldPlace::node, 3},
-                     {"displacement", "m", "as drawn", FieldPlace::node, 3}},
-                    {"load_case", "-", "0 at rest, then a force normal, lateral, along the lever"});
+  Recorder recorder(
+      folder,
+      {program_version(), program_commit(), loaded.scene.title, fmt::format("{:016x}", loaded.hash),
+       loaded.scene.seed, threads},
+      mesh, {{"tip/displacement", "m", "of the tip's end, as drawn"}},
+      {{"position", "m", "deformed, displacements exaggerated", FieldPlace::node, 3},
+       {"displacement", "m", "as drawn", FieldPlace::node, 3}},
+      {"load_case", "-", "0 at rest, then a force normal to, across and along the lever"});
   const double drawn = 0.1 * loaded.scene.afm->lever.length;
   const std::array<Vec3, 4> directions{Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitY(), Vec3::UnitX()};
   for (std::size_t i = 0; i < directions.size(); ++i) {

@@ -50,10 +50,10 @@ OpenFolder open_stopped(const std::filesystem::path& folder, bool driven_too) {
   open.run = find_stopped_run(folder);
   const std::vector<std::string> driven = driven_in(*open.run.checkpoint);
   if (!driven_too && !driven.empty())
-    throw CannotResume(fmt::format(
-        "{}: cannot resume: the run was driven from Python ({}), and nobody drives it here; "
-        "allowed: pulvis.resume(\"{}\") in Python",
-        folder.string(), listed(driven), folder.string()));
+    throw CannotResume(
+        fmt::format("{}: cannot resume: the run was driven from Python ({}) and can only be "
+                    "continued there; allowed: pulvis.resume(\"{}\") in Python",
+                    folder.string(), listed(driven), folder.string()));
   clear_other_checkpoints(folder, open.run.checkpoint->info().run);
   return open;
 }

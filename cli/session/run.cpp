@@ -68,7 +68,7 @@ ExitCode stopped(Session& run, const RunOptions& options, const std::string& mes
   const bool expected = ended_as_expected(run.loaded().scene, message);
   run.finish((expected ? "stopped as expected: " : "failed: ") + message);
   if (!expected)
-    tell(stderr, "pulvis: the run failed: {}\nwhat was written before is in {}\n", message,
+    tell(stderr, "pulvis: the run failed: {}\nthe results up to then are in {}\n", message,
          run.folder().string());
   if (!run.verdicts().empty() || options.json) print_end(run, options);
   return expected && all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
@@ -77,15 +77,14 @@ ExitCode stopped(Session& run, const RunOptions& options, const std::string& mes
 // After the machine failed the run.
 void tell_what_is_left(const std::filesystem::path& folder) {
   if (checkpoints_in(folder).empty())
-    tell(
-        stderr,
-        "pulvis: there is no checkpoint yet that could go on; once the cause is gone run it again, "
-        "with --overwrite where {} holds a run.h5\n",
-        folder.string());
+    tell(stderr,
+         "pulvis: there is no checkpoint to continue from; once the cause is fixed, run it again, "
+         "with --overwrite if {} holds a run.h5\n",
+         folder.string());
   else
     tell(stderr,
-         "pulvis: what was written before is in {}; once the cause is gone continue with: "
-         "pulvis resume {}\n",
+         "pulvis: the results up to then are in {}; once the cause is fixed, continue with: pulvis "
+         "resume {}\n",
          folder.string(), folder.string());
 }
 

@@ -36,8 +36,9 @@ void print_afm_end(const AfmReport& report, const std::filesystem::path& folder)
 
 void refuse_checkpoint_time(const LoadedScene& loaded, const RunOptions& options) {
   if (options.checkpoints.time > 0)
-    throw SceneError({{loaded.scene.file, 1, 1, "", "--checkpoint-time",
-                       "a lever's programme has no time, allowed: --checkpoint-steps"}});
+    throw SceneError(
+        {{loaded.scene.file, 1, 1, "", "--checkpoint-time",
+          "the programme of a lever has no simulated time, allowed: --checkpoint-steps"}});
 }
 
 ExitCode complete_programme(AfmSession& run, const RunOptions& options, const Checkpoint* from) {

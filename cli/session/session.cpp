@@ -286,7 +286,7 @@ RunQuality Session::quality() const {
   quality.warnings.insert(quality.warnings.end(), bond_warnings_.begin(), bond_warnings_.end());
   if (!driven_.empty())
     quality.warnings.push_back(
-        fmt::format("driven from Python ({}): the scene alone does not say what happened",
+        fmt::format("driven from Python ({}): the scene alone does not describe the run",
                     listed({driven_.begin(), driven_.end()})));
   return quality;
 }
@@ -301,8 +301,12 @@ void Session::finish(const std::string& outcome) {
   recorder_ = nullptr;
   const std::filesystem::path& folder = options_.folder;
   remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
-  RunCost cost{progress_->seconds(), clock().step, options_.threads,
-               fmt::format("{:016x}", loaded_.hash), outcome, simulation_->costs()};
+  RunCost cost{progress_->seconds(),
+               clock().step,
+               options_.threads,
+               fmt::format("{:016x}", loaded_.hash),
+               outcome,
+               simulation_->costs()};
   cost.state_hash = hash;
   if (const Balance* balance = simulation_->balance()) {
     cost.bytes_a_step = simulation_->bytes_a_step();

@@ -34,9 +34,9 @@ std::vector<SlurmArray> arrays_in(const fs::path& file) {
     }
     return arrays;
   } catch (const nlohmann::json::exception& error) {
-    throw OutputError(file, "read which runs Slurm has", error.what());
+    throw OutputError(file, "read the list of Slurm runs", error.what());
   } catch (const UnfitInput& error) {
-    throw OutputError(file, "read which runs Slurm has", error.what());
+    throw OutputError(file, "read the list of Slurm runs", error.what());
   }
 }
 
@@ -68,8 +68,8 @@ std::optional<std::set<std::size_t>> tasks_in_queue(const SlurmArray& array, std
 
 void tell_unknown(const fs::path& folder, const SlurmArray& array, const std::string& reason) {
   tell(stderr,
-       "pulvis: Slurm cannot be asked about its job {} ({}): its runs that are not finished count "
-       "as under way; once the job is gone, remove {}\n",
+       "pulvis: cannot query Slurm about job {} ({}): its unfinished runs are treated as under "
+       "way; once the job has ended, remove {}\n",
        array.job, reason, (folder / slurm_arrays_file).string());
 }
 
@@ -88,7 +88,7 @@ SlurmQueue::SlurmQueue(fs::path folder) : folder_(std::move(folder)) {
     arrays_.push_back(array);
     for (std::size_t i = 0; i < array.runs.size(); ++i)
       if (const std::size_t task = i % array.tasks; !tasks || tasks->contains(task))
-        runs_[array.runs[i]] = fmt::format("under way: task {} of Slurm's job {}", task, array.job);
+        runs_[array.runs[i]] = fmt::format("under way: task {} of Slurm job {}", task, array.job);
   }
 }
 

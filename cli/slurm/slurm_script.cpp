@@ -41,21 +41,21 @@ long warning_seconds(const std::string& time) {
 }
 
 constexpr const char* task_text = R"(
-# Task i of {tasks} does the runs i, i + {tasks}, ...; those that are finished it leaves as they are.
+# Task i of {tasks} does the runs i, i + {tasks}, ...; finished runs are left as they are.
 mine=()
 for ((i = SLURM_ARRAY_TASK_ID; i < ${{#runs[@]}}; i += {tasks})); do mine+=(--run "${{runs[i]}}"); done
 
 {program} study study.toml -o . "${{mine[@]}}" --jobs 1 --threads-per-run "$SLURM_CPUS_PER_TASK" &
 pulvis=$!
 
-# USR1 comes before the time limit, TERM when somebody ends the job: at both runs stop with a checkpoint.
+# USR1 comes before the time limit, TERM when the job is cancelled: on both, runs stop with a checkpoint.
 near_limit=
 trap 'near_limit=yes; kill -TERM "$pulvis"' USR1
 trap 'kill -TERM "$pulvis"' TERM
 while wait "$pulvis"; kill -0 "$pulvis" 2>/dev/null; do :; done  # a signal ends a wait, too
 wait "$pulvis"
 code=$?
-# By the array's number and the task's: the job's own number would mean the whole array in one of them.
+# By array and task number: the job's own number would mean the whole array in one of its tasks.
 if [[ -n $near_limit && $code == 130 ]]; then scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID"; fi
 exit "$code"
 )";
@@ -77,8 +77,7 @@ std::string shell_word(const std::string& text) {
 
 std::string slurm_script(const SlurmJob& job, const SlurmOptions& options) {
   const std::size_t tasks = task_count(options, job.runs.size());
-  std::string text =
-      "#!/bin/bash\n# Written by pulvis study --slurm; to be submitted from its folder.\n";
+  std::string text = "#!/bin/bash\n# Written by pulvis study --slurm; submit it from its folder.\n";
   const auto option = [&](const std::string& word) {
     text += "#SBATCH " + shell_word(word) + "\n";
   };

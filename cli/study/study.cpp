@@ -81,7 +81,8 @@ bool keep_only(Study& study, const std::vector<std::string>& names) {
 }
 
 ExitCode tell_interrupted(const StudyRunner& runner) {
-  tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command continues\n",
+  tell(stderr,
+       "pulvis: interrupted; {} of {} runs were finished; run the same command again to continue\n",
        runner.done(), runner.to_do());
   return ExitCode::interrupted;
 }
@@ -100,8 +101,7 @@ ExitCode run_part(const StudyOptions& options, const Study& study, const fs::pat
   }
   if (runner.has_come_further()) return tell_interrupted(runner);
   // A task that is queued again for this would never come to an end.
-  tell(stderr,
-       "pulvis: interrupted before the first step of a run; it needs more time than that\n");
+  tell(stderr, "pulvis: interrupted before the first step of a run; more time is needed\n");
   return ExitCode::machine;
 }
 

@@ -12,7 +12,7 @@ constexpr const char* slurm_group = "On a cluster with Slurm (docs/cluster.md)";
 const CLI::Validator one_line(
     [](const std::string& text) {
       const bool good = !text.empty() && printable(text) == text;
-      return good ? std::string() : "'" + printable(text) + "': allowed: text without line ends";
+      return good ? std::string() : "'" + printable(text) + "': allowed: text without line breaks";
     },
     "", "one_line");
 
@@ -20,14 +20,15 @@ const CLI::Validator time_limit(
     [](const std::string& text) {
       return time_limit_seconds(text)
                  ? std::string()
-                 : "'" + printable(text) + "' is no time limit, allowed: " + time_limit_forms;
+                 : "'" + printable(text) + "' is not a time limit, allowed: " + time_limit_forms;
     },
     "", "time_limit");
 
 // Those by which a task knows its runs and its folder are not for others to set.
 const CLI::Validator other_option(
     [](const std::string& text) {
-      if (!text.starts_with('-')) return "'" + text + "': allowed: an option, as --account=powders";
+      if (!text.starts_with('-'))
+        return "'" + text + "': allowed: an option, e.g. --account=powders";
       const std::string name = text.substr(0, text.find('='));
       for (const char* const own : {"--array", "--chdir", "--cpus-per-task", "-a", "-D", "-c"})
         if (name == own) return "'" + name + "' is set by the study itself";
@@ -38,29 +39,32 @@ const CLI::Validator other_option(
 void add_slurm(CLI::App& command, SlurmOptions& options) {
   auto* slurm = command.add_flag(
       "--slurm", options.submit,
-      "submit what is to do as an array job instead of running it; --jobs then bounds the tasks "
-      "that run at once, --threads-per-run gives the processors of each (default 1)");
+      "submit the remaining runs as an array job instead of running them; --jobs then limits the "
+      "number of concurrent tasks, --threads-per-run sets the processors per task (default 1)");
   const auto belongs = [&](CLI::Option* option) {
     return option->needs(slurm)->group(slurm_group);
   };
   slurm->group(slurm_group);
-  belongs(
-      command.add_flag("--dry-run", options.dry_run,
-                       "print the job's script and the command that submits it; change nothing"));
-  belongs(
-      command.add_option("--partition", options.partition, "partition (default: the cluster's)"))
+  belongs(command.add_flag("--dry-run", options.dry_run,
+                           "print the job script and the command that submits it; change nothing"));
+  belongs(command.add_option("--partition", options.partition,
+                             "partition (default: that of the cluster)"))
       ->check(one_line);
-  belongs(command.add_option("--time", options.time,
-                             "time limit of a task, as 30 (minutes), 1:30:00 or 2-12 (days-hours); "
-                             "shortly before it runs stop with a checkpoint and are queued again"))
+  belongs(
+      command.add_option("--time", options.time,
+                         "time limit of a task, e.g. 30 (minutes), 1:30:00 or 2-12 (days-hours); "
+                         "shortly before it, runs stop with a checkpoint and are requeued"))
       ->check(time_limit)
       ->type_name("TIME");
-  belongs(command.add_option("--array-size", options.array_size,
-                             "tasks at most; more runs than that are dealt out to them in turn"))
+  belongs(
+      command.add_option(
+          "--array-size", options.array_size,
+          "maximum number of tasks; if there are more runs, they are distributed over the tasks"))
       ->capture_default_str()
       ->check(CLI::Range(1, 4'000'000));
-  belongs(command.add_option("--sbatch", options.more,
-                             "another option of sbatch, as --sbatch=--account=powders; several"))
+  belongs(command.add_option(
+              "--sbatch", options.more,
+              "another option of sbatch, e.g. --sbatch=--account=powders; may be repeated"))
       ->allow_extra_args(false)
       ->take_all()
       ->check(one_line)
@@ -71,24 +75,28 @@ void add_slurm(CLI::App& command, SlurmOptions& options) {
 }
 
 void add_course_of_study(CLI::App& command, StudyOptions& options) {
-  command.add_option("--jobs", options.jobs, "runs at once (default: what the processors allow)")
+  command
+      .add_option("--jobs", options.jobs,
+                  "number of concurrent runs (default: as many as the processors allow)")
       ->check(CLI::Range(1, 1024));
   command
       .add_option("--threads-per-run", options.threads,
-                  "threads of each run (default: one, more where runs are fewer than processors)")
+                  "threads per run (default: one, more if there are fewer runs than processors)")
       ->check(CLI::Range(1, 1024));
   command
       .add_option("--run", options.only,
-                  "only the run of this name, without the study's table; several: each with --run")
+                  "run only the run of this name, without the study's table; may be repeated")
       ->allow_extra_args(false)
       ->take_all()
       ->type_name("NAME");
   auto* fresh =
       command.add_flag("--fresh", options.fresh,
-                       "run everything from its beginning, finished and broken off runs too");
-  command.add_flag("--list", options.list, "check everything, print the runs, run nothing");
+                       "rerun everything from the start, including finished and interrupted runs");
+  command.add_flag("--list", options.list,
+                   "check everything and print the runs without running them");
   command
-      .add_flag("--gather", options.gather, "run nothing; table and report of what has finished")
+      .add_flag("--gather", options.gather,
+                "run nothing; write table and report of the finished runs")
       ->excludes(fresh);
 }
 
@@ -96,14 +104,16 @@ void add_course_of_study(CLI::App& command, StudyOptions& options) {
 
 void add_study(CLI::App& app, StudyOptions& options, ExitCode& code) {
   auto* command = app.add_subcommand(
-      "study", "run a scene with a table of variations; table, curves and trends in one report");
+      "study", "run variations of a scene; table, curves and trends in one report");
   command->add_option("study", options.study, "study file (TOML), docs/study.md");
   command
       ->add_option("-o,--output", options.folder,
-                   "results folder (default runs/<study name>); what is finished in it is kept")
+                   "results folder (default runs/<study name>); finished runs in it are kept")
       ->transform(without_detours);
   add_course_of_study(*command, options);
-  command->add_option("--reference", options.reference, "print the study language instead: text")
+  command
+      ->add_option("--reference", options.reference,
+                   "print the reference of the study file instead: text")
       ->check(CLI::IsMember({"text"}));
   add_overrides(*command, options.overrides, "every run");
   add_slurm(*command, options.slurm);

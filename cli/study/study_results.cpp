@@ -198,7 +198,8 @@ void read_result(StudyResult& result) {
   if (!result.usable && !outcome.empty())
     result.failure = outcome;
   else if (any_unmet(result.summary))
-    result.failure = "not as its scene expects: " + expectations_met(result.summary) + " met";
+    result.failure =
+        "expectations of its scene not met: " + expectations_met(result.summary) + " met";
   else
     result.failure = fmt::format("ended with exit code {}", result.code);
 }

@@ -36,7 +36,7 @@ SlurmJob job_of(const StudyOptions& options, std::vector<std::string> runs) {
 }
 
 void print_job(const SlurmJob& job, const SlurmOptions& options, const fs::path& folder) {
-  tell("\n# {}\n{}\n# It would be submitted by\ncd {} && sbatch --parsable {}\n",
+  tell("\n# {}\n{}\n# It would be submitted with\ncd {} && sbatch --parsable {}\n",
        (folder / slurm_script_file).string(), slurm_script(job, options),
        shell_word(folder.string()), slurm_script_file);
 }
@@ -67,8 +67,8 @@ ExitCode submit_study(const StudyOptions& options, const Study& study, const fs:
   array.runs = job.runs;
   queue.add(array);
   tell(
-      "submitted as Slurm's job {}: {} of {}; logs in {}\n"
-      "the same command without --slurm and its options gathers what has finished\n",
+      "submitted as Slurm job {}: {} of {}; logs in {}\nthe same command without --slurm and its "
+      "options collects the finished runs\n",
       array.job, counted(array.tasks, "task"), counted(job.threads, "thread"),
       (folder / slurm_log_folder).string());
   return ExitCode::done;

@@ -161,7 +161,7 @@ std::string volts_text(const VoltsReduction& reduction) {
   text += line("lateral sensitivity", "lateral_sensitivity", 1e9, "nN/V ");
   text += line("adhesion, pull-off", "adhesion", 1e9, "nN ");
   if (result.nominal.adhesion_of_line)
-    text += line("adhesion, friction without load", "adhesion_of_line", 1e9, "nN ");
+    text += line("adhesion, friction at zero load", "adhesion_of_line", 1e9, "nN ");
   const bool has_line = result.nominal.adhesion_of_line.has_value();
   text += line(has_line ? "friction, slope over the loads" : "friction", "friction", 1, "");
   if (has_line) text += line("friction, mean of the loops", "friction_of_loops", 1, "");
@@ -173,7 +173,7 @@ std::string volts_text(const VoltsReduction& reduction) {
                         100 * share.drawn, 100 * share.linear);
   }
   if (result.failed > 0)
-    text += fmt::format("{} of {} draws fit no friction and were left out\n", result.failed,
+    text += fmt::format("{} of {} draws gave no valid friction and were left out\n", result.failed,
                         result.draws);
   return text;
 }

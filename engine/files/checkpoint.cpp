@@ -68,7 +68,7 @@ void sign(const fs::path& path) {
   const Head head = head_of(content_of(file, path));
   if (pwrite(file.get(), head.data(), head.size(), 0) != static_cast<ssize_t>(head.size()))
     fail(path, "write the checkpoint");
-  if (fsync(file.get()) != 0) fail(path, "bring the checkpoint to the disk");
+  if (fsync(file.get()) != 0) fail(path, "flush the checkpoint to disk");
 }
 
 hdf5::File verified(const fs::path& path) {
@@ -76,13 +76,13 @@ hdf5::File verified(const fs::path& path) {
   if (!file) throw DamagedCheckpoint(std::string("cannot be opened: ") + std::strerror(errno));
   Head head{};
   if (pread(file.get(), head.data(), head.size(), 0) != static_cast<ssize_t>(head.size()))
-    throw DamagedCheckpoint("it is cut short");
+    throw DamagedCheckpoint("it is truncated");
   if (is_of_format_1(head))
-    throw OtherFormat("an older pulvis wrote it, in format 1; allowed: format 2");
+    throw OtherFormat("it was written by an older pulvis in format 1; allowed: format 2");
   const Content content = content_of(file, path);
   if (head != head_of(content))
     throw DamagedCheckpoint(
-        fmt::format("its {} bytes are not those that were written: the checksum is another",
+        fmt::format("its {} bytes are not those that were written: the checksum differs",
                     head_bytes + content.bytes));
   try {
     return hdf5::File::open(path);
@@ -143,7 +143,8 @@ void write_state(const fs::path& path, const CheckpointInfo& info, const State& 
   try {
     write_content(temporary, info, world, run, visit);
     sign(temporary);
-    if (rename(temporary.c_str(), path.c_str()) != 0) fail(path, "put the checkpoint in its place");
+    if (rename(temporary.c_str(), path.c_str()) != 0)
+      fail(path, "move the checkpoint to its final name");
   } catch (...) {
     fs::remove(temporary, ignored);
     throw;

@@ -41,8 +41,8 @@ void GrowingTable::renew(hdf5::File& file) {
 void GrowingTable::cut(hdf5::File& file, std::int64_t rows) {
   const std::uint64_t there = file.shape(group() + "/" + info_.columns.front().name).front();
   if (there < static_cast<std::uint64_t>(rows))
-    throw OutputError(file.path(), "go on",
-                      fmt::format("rows of {} are missing: {} are there, {} had been written",
+    throw OutputError(file.path(), "continue",
+                      fmt::format("rows of {} are missing: {} are present, {} had been written",
                                   group(), there, rows));
   written_ = rows;
   renew(file);

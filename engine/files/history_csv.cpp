@@ -41,10 +41,10 @@ void HistoryCsv::flush() {
 void HistoryCsv::require_name() const {
   struct stat own {
   }, named{};
-  if (fstat(fileno(file_.get()), &own) != 0) fail("look at the file");
+  if (fstat(fileno(file_.get()), &own) != 0) fail("examine the file");
   const bool there = stat(path_.c_str(), &named) == 0;
   if (there && own.st_dev == named.st_dev && own.st_ino == named.st_ino) return;
-  throw OutputError(path_, "go on with the file",
+  throw OutputError(path_, "continue the file",
                     there ? "another file took its place" : "it is no longer there");
 }
 

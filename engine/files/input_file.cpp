@@ -19,7 +19,7 @@ const char* kind_of(mode_t mode) {
   if (S_ISFIFO(mode)) return "is a named pipe";
   if (S_ISSOCK(mode)) return "is a socket";
   if (S_ISCHR(mode) || S_ISBLK(mode)) return "is a device";
-  return "is no regular file";
+  return "is not a regular file";
 }
 
 // Without waiting for whoever would write into a pipe.

@@ -130,7 +130,7 @@ void write_beside(const fs::path& new_file, const fs::path& file, std::string_vi
 }
 
 void put_in_place(const fs::path& file) {
-  if (::rename(beside(file).c_str(), file.c_str()) != 0) fail_to(file, "put it in its place");
+  if (::rename(beside(file).c_str(), file.c_str()) != 0) fail_to(file, "move it to its final name");
 }
 
 Line line_of(const fs::path& file, std::string_view of, std::string_view bytes, const char* state) {
@@ -158,19 +158,20 @@ void require_own_or_none(const fs::path& file, std::string_view of) {
   if (!is_there(file) || is_own(file, of)) return;
   if (!is_there(file))
     return;  // its folder went away between the two looks: who writes will name that
-  throw ForeignFile(file, "write it",
-                    fmt::format("there is one that Pulvis did not write as a file of a {}, or that "
-                                "was changed since; allowed: another folder or name, or moving it "
-                                "away",
-                                of));
+  throw ForeignFile(
+      file, "write it",
+      fmt::format(
+          "there is already a file that was not written by Pulvis as a file of a {}, or that has "
+          "been changed since; allowed: another folder or name, or moving the file away",
+          of));
 }
 
 void require_another(const fs::path& read, const fs::path& file) {
   std::error_code ignored;
   if (fs::equivalent(read, file, ignored))
-    throw ForeignFile(file, "write it",
-                      fmt::format("it is {}, which is being read; allowed: another folder or name",
-                                  read.string()));
+    throw ForeignFile(
+        file, "write it",
+        fmt::format("it is {}, which is an input; allowed: another folder or name", read.string()));
 }
 
 void note_own(const fs::path& file, std::string_view of, std::string_view bytes, Extent extent) {

@@ -121,7 +121,7 @@ void Recorder::put_in_place(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "run.h5";
   std::error_code error;
   std::filesystem::rename(file_.path(), path, error);
-  if (error) throw OutputError(path, "put the file in its place", error.message());
+  if (error) throw OutputError(path, "move the file to its final name", error.message());
   sync_folder(folder);
   file_ = hdf5::File::open_to_change(path);
 }
@@ -151,10 +151,11 @@ void Recorder::cut(const RecorderPosition& position) {
   const std::uint64_t rows_there = file_.shape("/history/time").front();
   const auto there = static_cast<std::int64_t>(file_.children("/frames").size());
   if (there < position.frames || rows_there < rows)
-    throw OutputError(file_.path(), "go on",
-                      fmt::format("frames or samples are missing: {} and {} are there, {} and {} "
-                                  "had been written",
-                                  there, rows_there, position.frames, rows));
+    throw OutputError(
+        file_.path(), "continue",
+        fmt::format(
+            "frames or samples are missing: {} and {} are present, {} and {} had been written",
+            there, rows_there, position.frames, rows));
   for (; frames_ < position.frames; ++frames_) {
     const std::string group = "/frames" + frame_name(frames_);
     xdmf_.add(file_.number_attribute(group, "time"), group);

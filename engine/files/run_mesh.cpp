@@ -38,7 +38,7 @@ void write_tag(hdf5::File& file, const RunMesh& mesh, const ParticleTag& tag) {
 void write_tools(hdf5::File& file, const ToolLines& tools) {
   file.write("/tools/lines", tools.ends, {tools.tool.size(), 2});
   describe(file, "/tools/lines", "-",
-           "rows of tools/outline that a line joins; each tool's lines close");
+           "rows of tools/outline connected by a line; the lines of each tool are closed");
   file.write("/tools/line_tool", tools.tool, {tools.tool.size()});
   describe(file, "/tools/line_tool", "-", "tool of the line, position in `names`");
   file.set_attribute("/tools/line_tool", "names", std::string_view(one_a_line(tools.names)));
@@ -47,7 +47,7 @@ void write_tools(hdf5::File& file, const ToolLines& tools) {
 void write_tools(hdf5::File& file, const ToolFaces& tools) {
   file.write("/tools/quads", tools.corners, {tools.tool.size(), 4});
   describe(file, "/tools/quads", "-",
-           "rows of tools/outline, the corners of each piece of a surface; triangles repeat one");
+           "rows of tools/outline, the corners of each surface piece; triangles repeat one");
   file.write("/tools/quad_tool", tools.tool, {tools.tool.size()});
   describe(file, "/tools/quad_tool", "-", "tool of the piece, position in `names`");
   file.set_attribute("/tools/quad_tool", "names", std::string_view(one_a_line(tools.names)));

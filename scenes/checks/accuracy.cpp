@@ -109,8 +109,8 @@ void fill_meshes(document::Table& root, Problems& problems) {
   const Entry* accuracy = document::find(root, "accuracy");
   if (accuracy != nullptr && !used)
     problems.add(accuracy->value.origin, "accuracy",
-                 "has no effect: every particle's mesh says how fine it is, allowed: a particle "
-                 "without these keys");
+                 "has no effect: the mesh of every particle sets its own resolution, allowed: a "
+                 "particle without these keys");
 }
 
 }  // namespace pulvis

@@ -59,9 +59,9 @@ std::vector<std::string> bending_warnings(const Scene& scene) {
     const double error = bending_error(scene, particle).value_or(0);
     if (std::abs(error) <= max_error) continue;
     lines.push_back(fmt::format(
-        "the elements of particle '{}' bend with a stiffness that is off by {:+.0f}%: "
-        "element.formulation = \"one-point\" is right with any number of rows, here {:.0f} times "
-        "as many in both directions would do",
+        "the bending stiffness of the elements of particle '{}' is wrong by {:+.0f}%: use "
+        "element.formulation = \"one-point\", which is accurate with any number of rows, or {:.0f} "
+        "times as many elements in both directions",
         particle.name, 100 * error, std::ceil(std::sqrt(std::abs(error) / good_error))));
   }
   return lines;

@@ -23,17 +23,16 @@ std::string what_would_bond(const BondTotals::Gap& nearest, const World& world) 
   const ContactIndex* index = world.has<ContactIndex>() ? &world.resource<ContactIndex>() : nullptr;
   if (nearest.share == std::numeric_limits<double>::infinity())
     return index == nullptr
-               ? "there is nothing that could touch, allowed: bodies that touch at the start"
+               ? "no bodies can touch each other, allowed: bodies that touch at the start"
                : fmt::format(
-                     "no surfaces of them face each other within {:.4g} m, as far as this "
-                     "`reach` looks, allowed: bodies that touch at the start, or a larger "
-                     "reach",
+                     "none of their surfaces face each other within {:.4g} m, the search distance "
+                     "of this `reach`, allowed: bodies that touch at the start, or a larger reach",
                      index->skin + index->reach);
   const double needed = 1.001 * nearest.share;  // as it is printed, it must do
   if (needed > largest_reach)
     return fmt::format(
-        "the nearest surfaces are {:.4g} m apart, {:.3g} of their edge, allowed: bodies "
-        "that touch, or a gap of at most {} of the edge",
+        "the nearest surfaces are {:.4g} m apart, {:.3g} of their edge length, allowed: bodies "
+        "that touch, or a gap of at most {} of the edge length",
         nearest.width, nearest.share, largest_reach);
   return fmt::format("the nearest surfaces are {:.4g} m apart, allowed: reach >= {:.4g}",
                      nearest.width, needed);
@@ -98,7 +97,7 @@ void require_initial_bonds(const Scene& scene, const World& world) {
     problems.push_back(
         {scene.file_of(bond.mark).string(), bond.mark.line, bond.mark.column, "",
          fmt::format("bond[{}].reach", i),
-         fmt::format("nothing of '{}' and '{}' is bonded at the start: {}", bond.first, bond.second,
+         fmt::format("no part of '{}' and '{}' is bonded at the start: {}", bond.first, bond.second,
                      what_would_bond(totals.nearest[i], world))});
   }
   if (!problems.empty()) throw SceneError(problems);
@@ -126,9 +125,9 @@ std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
   std::vector<std::string> lines;
   for (const auto& [law, worst] : coarse)
     lines.push_back(fmt::format(
-        "bond[{}] between '{}' and '{}' breaks over {:.3g} boundary edges ahead of a crack, at "
-        "least "
-        "{} resolve it: edges of {:.3g} m would do, they are up to {:.3g} m long",
+        "bond[{}] between '{}' and '{}': the cohesive zone ahead of a crack spans {:.3g} boundary "
+        "edges, at least {} are needed to resolve it: use edges of {:.3g} m, they are up to {:.3g} "
+        "m long",
         law, entry(scene.bonds, law).first, entry(scene.bonds, law).second, worst.zone / worst.edge,
         edges_in_zone, worst.zone / edges_in_zone, worst.edge));
   return lines;

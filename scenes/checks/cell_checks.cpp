@@ -23,8 +23,8 @@ class CellChecks {
     for (std::size_t m = 0; m < scene_.materials.size(); ++m)
       if (scene_.materials[m].mass_damping > 0)
         refuse(fmt::format("material[{}].damping.mass_proportional", m),
-               "it brakes against the ground, and a cell has none, allowed: "
-               "stiffness_proportional");
+               "it damps the motion relative to a fixed frame, which a cell does not have, "
+               "allowed: stiffness_proportional");
   }
 
  private:
@@ -42,20 +42,20 @@ class CellChecks {
     for (const PackingSpec& packing : scene_.packings)
       any = any || packing.kind == PackingSpec::Kind::random;
     if (any && !fills)
-      refuse("packing[1]", "a random packing fills the cell, allowed: no other packing beside it");
+      refuse("packing[1]", "a random packing fills the cell, allowed: no other packing");
     if (fills && cell.height)
       refuse("cell.height",
-             "the random packing decides on it, allowed: `density` or `height` of the "
-             "packing");
+             "it follows from the random packing, allowed: `density` or `height` of the packing");
     if (!any && !cell.height)
       refuse("cell", "height is missing, allowed: a quantity in m, or a random packing");
     if (!fills) return;
     const PackingSpec& packing = scene_.packings[0];
     if (packing.width != cell.width)
       refuse("packing[0].width",
-             fmt::format("the packing fills the cell, allowed: {:g} m, the cell's", cell.width));
+             fmt::format("the packing fills the cell, allowed: {:g} m, the width of the cell",
+                         cell.width));
     if (packing.corner != cell.corner)
-      refuse("packing[0].corner", "the packing fills the cell, allowed: the cell's corner");
+      refuse("packing[0].corner", "the packing fills the cell, allowed: the corner of the cell");
   }
 
   void stages() {
@@ -75,7 +75,7 @@ class CellChecks {
     if (!scene_.stages[i].keep_state) return;
     if (!scene_.cell)
       refuse(path + "keep_state",
-             "only a powder in a periodic cell can begin with a state, allowed: in a scene with "
+             "only a powder in a periodic cell can start from a state, allowed: in a scene with "
              "[cell]");
     for (std::size_t k = 0; k < i; ++k)
       if (scene_.stages[k].keep_state && scene_.stages[k].name == scene_.stages[i].name)
@@ -91,13 +91,14 @@ class CellChecks {
         std::pair{".stress_yy", drive.strain_yy && drive.stress_yy},
         std::pair{".stress_xy", drive.strain_xy && drive.stress_xy}};
     for (const auto& [key, twice] : both)
-      if (twice) refuse(path + key, "this component has a strain, too, allowed: one of both");
+      if (twice)
+        refuse(path + key, "this component has a strain as well, allowed: only one of the two");
     const int of_xx = int{drive.strain_xx || drive.stress_xx} +
                       int{drive.stress_ratio.has_value()} + int{drive.mean_stress.has_value()};
     if (of_xx > 1)
       refuse(path + (drive.mean_stress ? ".mean_stress" : ".stress_ratio"),
-             "the component xx has something else to follow, too, allowed: one of strain_xx, "
-             "stress_xx, stress_ratio and mean_stress");
+             "the component xx is prescribed twice, allowed: one of strain_xx, stress_xx, "
+             "stress_ratio and mean_stress");
     unused(drive, path);
   }
 
@@ -128,7 +129,7 @@ class CellChecks {
       refuse(path + (drive.strain_xy ? "cell.strain_xy" : "cell.stress_xy"),
              "planes cannot shear, allowed: in a periodic cell");
     if (drive.rotation != 0)
-      refuse(path + "cell.rotation", "planes cannot turn, allowed: in a periodic cell");
+      refuse(path + "cell.rotation", "planes cannot rotate, allowed: in a periodic cell");
     for (const int tool : {die->left, die->right, die->bottom, die->top})
       if (scene_.tools[static_cast<std::size_t>(tool)].shape != ToolSpec::Shape::plane)
         refuse(fmt::format("tool[{}]", tool),
@@ -136,10 +137,11 @@ class CellChecks {
     for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
       if (!scene_.stages[s].servos.empty())
         refuse(fmt::format("stage[{}].servo[0]", s),
-               "another stage moves the walls by [stage.cell], allowed: one of both in a scene");
+               "another stage moves the walls by [stage.cell], allowed: only one of the two in a "
+               "scene");
       if (!scene_.stages[s].moves.empty() && scene_.stages[s].cell)
         refuse(fmt::format("stage[{}].move[0]", s),
-               "[stage.cell] moves the walls, allowed: one of both in a stage");
+               "[stage.cell] moves the walls, allowed: only one of the two in a stage");
     }
   }
 

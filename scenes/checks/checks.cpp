@@ -122,9 +122,10 @@ class Checks {
 
   void grains(const std::string& path, const ParticleSpec& particle) {
     if (particle.grains->number.has_value() == particle.grains->size.has_value())
-      refuse(path + "grains", "how many there are is not said, or twice, allowed: number or size");
+      refuse(path + "grains", "neither or both of number and size are given, allowed: one of them");
     if (std::holds_alternative<RingOutline>(particle.outline))
-      refuse(path + "grains", "a ring is not cut, allowed: an outline without a hole");
+      refuse(path + "grains",
+             "a ring cannot be divided into grains, allowed: an outline without a hole");
     const auto* disc = std::get_if<DiscMesh>(&particle.mesh);
     if (disc != nullptr && disc->refinement != 1)
       refuse(path + "mesh.refinement", "has no effect on grains, allowed: 1");
@@ -137,7 +138,7 @@ class Checks {
     if (!particle.mesh_size) return true;
     for (const char* count : {"boundary_edges", "rings", "columns", "rows"})
       if (const auto found = origins_.find(path + "mesh." + count); found != origins_.end()) {
-        refuse(found->first, "has no effect together with size, allowed: either of them");
+        refuse(found->first, "has no effect together with size, allowed: only one of them");
         return false;
       }
     return true;
@@ -149,12 +150,11 @@ class Checks {
     const auto& mesh = std::get<DiscMesh>(spec);
     if (mesh.core == DiscMesh::Core::coarse) {
       if (mesh.boundary_edges % 12 != 0)
-        refuse(
-            path + "mesh.boundary_edges",
-            fmt::format("{} edges cannot be dealt out to a coarse core, allowed: a multiple of 12",
-                        mesh.boundary_edges));
+        refuse(path + "mesh.boundary_edges",
+               fmt::format("{} edges do not match a coarse core, allowed: a multiple of 12",
+                           mesh.boundary_edges));
       if (mesh.refinement > 1)
-        refuse(path + "mesh.refinement", "a refined outline needs an even core, allowed: 1");
+        refuse(path + "mesh.refinement", "a refined outline needs a uniform core, allowed: 1");
       return;
     }
     if (mesh.rings == 0 && mesh.boundary_edges > max_edges_without_rings)
@@ -179,8 +179,8 @@ class Checks {
     } else if (mesh.boundary_edges < 4096 &&
                share_edges(outline, mesh.boundary_edges).growth > max_edge_growth) {
       refuse(path + "mesh.boundary_edges",
-             fmt::format("{} edges are too few for corners this sharp, neighbours would differ too "
-                         "much in length, allowed: >= {}",
+             fmt::format("{} edges are too few for corners this sharp: neighbouring edges would "
+                         "differ too much in length, allowed: >= {}",
                          mesh.boundary_edges, fewest_edges(outline)));
     }
   }
@@ -190,9 +190,9 @@ class Checks {
                                         outline.diameter));
     if (std::get<RingMesh>(spec).boundary_edges < min_edges_of_a_ring)
       refuse(path + "mesh.boundary_edges",
-             fmt::format("a ring needs more, allowed: >= {}", min_edges_of_a_ring));
+             fmt::format("too few for a ring, allowed: >= {}", min_edges_of_a_ring));
     if (std::get<RingMesh>(spec).rings == 0)
-      refuse(path + "mesh.rings", "a ring is made of rings, allowed: >= 1");
+      refuse(path + "mesh.rings", "a ring needs at least one ring of elements, allowed: >= 1");
   }
 
   // Only where the counts are good: the mesh is made to see how good its elements are.
@@ -289,10 +289,9 @@ class Checks {
       if (const auto box = rounded_box(outline); box && box->half.isZero(0))
         packing.spacing = 2 * box->radius;
       else
-        problems_.add(
-            origin(path), path + ".spacing",
-            "required key is missing: only discs and rings have a spacing of their own, allowed: a "
-            "quantity in m");
+        problems_.add(origin(path), path + ".spacing",
+                      "required key is missing: only discs and rings have a default spacing, "
+                      "allowed: a quantity in m");
     }
   }
 
@@ -317,7 +316,7 @@ class Checks {
                            scene_.tools[static_cast<std::size_t>(move.tool)].name));
       if (move.displacement.isZero(0))
         refuse(path + ".displacement",
-               "a move by nothing has no effect, allowed: a displacement that is not 0");
+               "a move by zero has no effect, allowed: a displacement that is not 0");
     }
   }
 
@@ -344,9 +343,10 @@ class Checks {
       for (const ToolSpec& tool : scene_.tools)
         if (tool.shape == ToolSpec::Shape::constraint &&
             (tool.name == first || tool.name == second))
-          refuse(path, fmt::format("nothing touches the constraint '{}', allowed: tools that are "
-                                   "no constraints",
-                                   tool.name));
+          refuse(path,
+                 fmt::format(
+                     "the constraint '{}' has no contact, allowed: tools that are not constraints",
+                     tool.name));
       if (!named.insert({bond.origin, bond.inside, first, second}).second)
         refuse(path, fmt::format("the pair '{}' and '{}' is named twice with this origin, allowed: "
                                  "once",

@@ -38,9 +38,7 @@ class ExpectChecks {
       path_ = fmt::format("expect[{}]", i);
       ExpectSpec& expect = scene_.expects[i];
       if (expect.series.empty() == !expect.stops)
-        refuse("",
-               "says neither or both of what it is about, allowed: either `series` or "
-               "`outcome`");
+        refuse("", "neither or both of `series` and `outcome` are given, allowed: one of them");
       else if (expect.stops)
         outcome(expect, i);
       else
@@ -58,14 +56,14 @@ class ExpectChecks {
   void outcome(const ExpectSpec& expect, std::size_t i) {
     const auto first = std::ranges::find(scene_.expects, true, &ExpectSpec::stops);
     if (first - scene_.expects.begin() < static_cast<std::ptrdiff_t>(i))
-      refuse("outcome", "is the second of the scene, allowed: one, a run ends once");
+      refuse("outcome", "is the second one of the scene, allowed: one, since a run ends only once");
     if (expect.message.empty())
       refuse("message",
-             "required key is missing, allowed: a regular expression that is found in "
-             "what the stopped run says");
+             "required key is missing, allowed: a regular expression that matches part of the "
+             "message of the stopped run");
     if (const re2::RE2 pattern(expect.message, re2::RE2::Quiet); !pattern.ok())
-      refuse("message", fmt::format("no regular expression ({}), allowed: RE2's syntax, with \\ "
-                                    "before characters that mean themselves",
+      refuse("message", fmt::format("not a regular expression ({}), allowed: the syntax of RE2, "
+                                    "with \\ before literal special characters",
                                     pattern.error()));
   }
 
@@ -131,7 +129,7 @@ class ExpectChecks {
         refuse("like", fmt::format("a run of '{}' has no series '{}', allowed: a scene with it",
                                    expect.like, expect.series));
     } catch (const SceneError& error) {
-      refuse("like", fmt::format("{}, allowed: a scene that is right", error.what()));
+      refuse("like", fmt::format("{}, allowed: a valid scene", error.what()));
     }
   }
 
@@ -160,7 +158,7 @@ std::vector<SeriesInfo> expectable_series(const Scene& scene) {
 
 std::string settle_bound(std::optional<ExpectSpec::Bound>& bound, const std::string& unit) {
   if (!bound || bound->quantity.empty()) return "";
-  if (unit == "-") return "is compared with what has no unit, allowed: a number";
+  if (unit == "-") return "is compared with a dimensionless series, allowed: a number";
   try {
     bound->number = parse_quantity(bound->quantity, unit);
   } catch (const UnitError& error) {

@@ -28,9 +28,8 @@ std::string unusual_stiffness(const Scene& scene) {
   const double k = *rough_stiffness(scene);
   if (k >= softest && k <= stiffest) return "";
   return fmt::format(
-      "lever: a stiffness of some {:.2g} N/m, usual: {:g} to {:g} N/m; are the units of its "
-      "length, width "
-      "and thickness right?",
+      "lever: stiffness of about {:.2g} N/m, usual: {:g} to {:g} N/m; check the units of its "
+      "length, width and thickness",
       k, softest, stiffest);
 }
 
@@ -57,13 +56,13 @@ std::vector<std::string> lever_warnings(const Scene& scene) {
   std::vector<std::string> lines;
   for (const Ratio& ratio :
        {Ratio{"lever.length", lever.length, "lever.thickness", lever.thickness, 10,
-              "a body as thick as this is no lever: the closed forms for beams do not hold"},
+              "a body this thick is not a beam: the closed forms for beams do not hold"},
         Ratio{"lever.length", lever.length, width, wide, 1.5,
-              "a lever as wide as this bends as a plate"},
+              "a lever this wide bends like a plate"},
         Ratio{width, wide, "lever.thickness", lever.thickness, 1,
               "it bends sideways more easily than towards the sample"},
         Ratio{"lever.length", lever.length, ball ? "the ball's diameter" : "tip.height", high, 1,
-              "a tip higher than the lever is long"}})
+              "the tip is higher than the lever is long"}})
     if (const std::string line = unusual(ratio); !line.empty()) lines.push_back(line);
   if (lines.empty())
     if (const std::string line = unusual_stiffness(scene); !line.empty()) lines.push_back(line);

@@ -265,9 +265,10 @@ class Report {
         {scene_.file_of(tool.mark).string(), tool.mark.line, tool.mark.column, "",
          fmt::format("tool[{}].{}", number, plane ? "normal" : "points"),
          plane
-             ? fmt::format("tool '{}' faces away from the powder: every particle lies behind it, "
-                           "allowed: the normal out of the tool into the powder, [{:g}, {:g}]",
-                           tool.name, 0 - tool.normal.x(), 0 - tool.normal.y())
+             ? fmt::format(
+                   "tool '{}' faces away from the powder: every particle lies behind it, "
+                   "allowed: a normal that points from the tool into the powder, [{:g}, {:g}]",
+                   tool.name, 0 - tool.normal.x(), 0 - tool.normal.y())
              : fmt::format("tool '{}' faces away from the powder: every particle lies inside it, "
                            "allowed: the points in the opposite order, with the powder to the left",
                            tool.name)});
@@ -286,7 +287,7 @@ class Report {
     const bool last = problems_.size() == max_reports;
     problems_.push_back({scene_.file_of(body.mark).string(), body.mark.line, body.mark.column, "",
                          last ? "scene" : key_of(body),
-                         last ? "there are more overlaps, not listed" : message});
+                         last ? "there are more overlaps that are not listed" : message});
   }
 
   // A packing's particles share its mark, so the mark tells where a particle comes from.

@@ -17,10 +17,9 @@ void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t dri
                        "\"settle\" or \"hold\"",
                        movers));
   if (!needs_moves && moves > 0)
-    refuse(
-        path + ".move[0]",
-        "tools stand still in a stage of this kind, allowed: moves in stages of other kinds than "
-        "\"settle\" and \"hold\"");
+    refuse(path + ".move[0]",
+           "tools do not move in a stage of this kind, allowed: moves in stages of a kind other "
+           "than \"settle\" and \"hold\"");
 }
 
 void check_frictions(const Scene& scene, const std::vector<std::string>& tools,

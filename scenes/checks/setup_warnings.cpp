@@ -36,10 +36,9 @@ std::string too_fast(const Scene& scene, const FastTool& fast, const std::string
   if (fast.share <= quasi_static) return "";
   const StageSpec& stage = scene.stages[static_cast<std::size_t>(fast.stage)];
   return fmt::format(
-      "stage '{}': tool '{}' moves at up to {:.3g} m/s: the kinetic energy of powder at that "
-      "speed, {:.2g} MPa, "
-      "is {:.2g} of what the particles bear; quasi-static is <= {:g}, here up to {:.2g} m/s (a "
-      "duration of {:.2g} s)",
+      "stage '{}': tool '{}' moves at up to {:.3g} m/s: the kinetic energy density of the powder "
+      "at that speed, {:.2g} MPa, is {:.2g} of the strength of the particles; quasi-static loading "
+      "needs <= {:g}, i.e. at most {:.2g} m/s (a duration of {:.2g} s)",
       stage.name, tool, fast.speed, fast.energy / 1e6, fast.share, quasi_static,
       fast.speed * std::sqrt(quasi_static / fast.share),
       stage.duration * std::sqrt(fast.share / quasi_static));
@@ -76,9 +75,8 @@ std::string wall_apart(const Scene& scene) {
   constexpr double close = 1e-3;  // -, of the width
   if (apart <= close * width) return "";
   return fmt::format(
-      "packing[0] is made for a die {:.6g} m wide (x = {:.6g} to {:.6g} m), but the walls '{}' and "
-      "'{}' stand {:.6g} "
-      "m apart (x = {:.6g} and {:.6g} m)",
+      "packing[0] is generated for a die {:.6g} m wide (x = {:.6g} to {:.6g} m), but the walls "
+      "'{}' and '{}' are {:.6g} m apart (x = {:.6g} and {:.6g} m)",
       width, room->left, room->right, left.name, right.name, between, left.point.x(),
       right.point.x());
 }

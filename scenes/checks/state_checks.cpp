@@ -9,15 +9,15 @@ namespace {
 
 // Why the scene cannot begin with it; empty: it can.
 std::string unfit_state(const std::filesystem::path& file, std::uint64_t powder_hash) {
-  const std::string allowed = "allowed: a state-*.h5 that a run kept (stage.keep_state)";
+  const std::string allowed = "allowed: a state-*.h5 file saved by a run (stage.keep_state)";
   if (!std::filesystem::is_regular_file(file))
-    return fmt::format("'{}' is no file, {}", file.string(), allowed);
+    return fmt::format("'{}' is not a file, {}", file.string(), allowed);
   try {
     const Checkpoint state(file);
     if (state.info().powder_hash != fmt::format("{:016x}", powder_hash))
       return fmt::format(
-          "'{}' is the state of another powder, allowed: of a scene that differs in title, "
-          "[[stage]], [[expect]], [limits], output.samples and output.frames alone",
+          "'{}' is the state of another powder, allowed: the state of a scene that differs only in "
+          "title, [[stage]], [[expect]], [limits], output.samples and output.frames",
           file.string());
   } catch (const DamagedCheckpoint& damage) {
     return fmt::format("'{}': {}, {}", file.string(), damage.what(), allowed);
@@ -32,7 +32,7 @@ void check_initial_state(const Scene& scene, std::uint64_t powder_hash,
   if (!scene.initial_state) return;
   const std::string unfit =
       scene.cell ? unfit_state(scene.file.parent_path() / *scene.initial_state, powder_hash)
-                 : "only a powder in a periodic cell can begin with a state, allowed: in a scene "
+                 : "only a powder in a periodic cell can start from a state, allowed: in a scene "
                    "with [cell]";
   if (!unfit.empty()) problems.add(origins.at("initial_state"), "initial_state", unfit);
 }

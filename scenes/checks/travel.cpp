@@ -98,12 +98,11 @@ FullDensity reached_in(const Scene& scene, const Sides& sides, const DieSides& d
 
 std::string described(const Scene& scene, const FullDensity& full) {
   const std::string density = full.density > 100
-                                  ? "none of the die is left"
+                                  ? "no volume is left in the die"
                                   : fmt::format("relative density {:.3g}", full.density);
   return fmt::format(
-      "stage '{}': tool '{}' travels {:.4g} m, beyond full density, which it reaches after {:.4g} "
-      "m "
-      "({} at its end)",
+      "stage '{}': tool '{}' travels {:.4g} m, beyond full density, which is reached after {:.4g} "
+      "m ({} at the end)",
       scene.stages[static_cast<std::size_t>(full.stage)].name,
       scene.tools[static_cast<std::size_t>(full.tool)].name, full.travel, full.until_full, density);
 }
@@ -162,7 +161,7 @@ void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
     if (move.tool != full->tool) continue;
     throw SceneError({{scene.file_of(move.mark).string(), move.mark.line, move.mark.column, "",
                        fmt::format("stage[{}].move[{}].displacement", full->stage, m),
-                       fmt::format("{}, allowed: a travel of up to some {:.4g} m",
+                       fmt::format("{}, allowed: a travel of up to about {:.4g} m",
                                    described(scene, *full), full->until_full)}});
   }
 }
@@ -174,8 +173,9 @@ std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<B
   constexpr double times_yield = 3;  // powder that is nearly dense stands as much anyway
   constexpr double elastic = 0.05;   // -, volume strain
   if (full->volume_strain() < elastic && pressure < times_yield * yield_of(scene)) return {};
-  return {fmt::format("{}: the solid has to give way elastically, under some {:.2g} GPa",
-                      described(scene, *full), pressure / 1e9)};
+  return {
+      fmt::format("{}: beyond it the solid can only be compressed elastically, at about {:.2g} GPa",
+                  described(scene, *full), pressure / 1e9)};
 }
 
 }  // namespace pulvis

@@ -139,20 +139,22 @@ std::vector<Vec2> only_outline(const std::vector<Chain>& chains) {
   std::vector<const Chain*> closed, open;
   for (const Chain& chain : chains) (chain.closed ? closed : open).push_back(&chain);
   if (closed.size() > 1)
-    throw BadDrawing(fmt::format("{} closed outlines (in {}), allowed: one, or the key layer",
-                                 closed.size(), layers_of(closed)));
+    throw BadDrawing(
+        fmt::format("{} closed outlines (in {}), allowed: one, or select it by the key layer",
+                    closed.size(), layers_of(closed)));
   if (closed.empty() && !open.empty()) {
     const auto& points = open.front()->points;
     throw BadDrawing(fmt::format(
-        "the outline is open: it begins at ({:g}, {:g}) m and ends at ({:g}, {:g}) m, allowed: a "
+        "the outline is open: it starts at ({:g}, {:g}) m and ends at ({:g}, {:g}) m, allowed: a "
         "closed one",
         points.front().x(), points.front().y(), points.back().x(), points.back().y()));
   }
-  if (closed.empty()) throw BadDrawing("no outline is in it, allowed: one closed outline");
+  if (closed.empty()) throw BadDrawing("it contains no outline, allowed: one closed outline");
   if (!open.empty())
-    throw BadDrawing(fmt::format(
-        "open lines beside the outline (in {}), allowed: the outline alone, or the key layer",
-        layers_of(open)));
+    throw BadDrawing(
+        fmt::format("open lines besides the outline (in {}), allowed: only the outline, or select "
+                    "it by the key layer",
+                    layers_of(open)));
   refuse_size(*closed.front(), "outline");
   std::vector<Vec2> points = evenly(closed.front()->points);
   refuse_crossing(points);
@@ -167,11 +169,12 @@ std::vector<Vec2> only_line(const std::vector<Chain>& chains) {
         fmt::format("a closed outline (in {}), allowed: one open line, the face of the tool",
                     layers_of(closed)));
   if (open.size() > 1)
-    throw BadDrawing(fmt::format(
-        "{} lines whose ends do not meet (in {}), allowed: one open line, or the key layer",
-        open.size(), layers_of(open)));
+    throw BadDrawing(
+        fmt::format("{} lines whose ends do not meet (in {}), allowed: one open line, or select it "
+                    "by the key layer",
+                    open.size(), layers_of(open)));
   if (open.empty())
-    throw BadDrawing("no line is in it, allowed: one open line, the face of the tool");
+    throw BadDrawing("it contains no line, allowed: one open line, the face of the tool");
   refuse_size(*open.front(), "line");
   const double near = meeting * diagonal(chains);
   std::vector<Vec2> points;
@@ -192,10 +195,10 @@ void Selection::require_found() const {
   if (empty() || found_) return;
   const std::vector<std::string> first(
       names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(std::min(most, names_.size())));
-  throw BadDrawing(fmt::format("there is no layer '{}'{}, allowed: {}{}", layer_,
-                               suggestion(layer_, names_),
-                               names_.empty() ? "none, the drawing names none" : listed(first),
-                               names_.size() > most ? ", ..." : ""));
+  throw BadDrawing(
+      fmt::format("there is no layer '{}'{}, allowed: {}{}", layer_, suggestion(layer_, names_),
+                  names_.empty() ? "none, since the drawing has no names" : listed(first),
+                  names_.size() > most ? ", ..." : ""));
 }
 
 }  // namespace pulvis::drawing

@@ -43,7 +43,7 @@ struct Entity {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-      throw BadDrawing(fmt::format("'{}' where a number is wanted", text.substr(0, 20)));
+      throw BadDrawing(fmt::format("'{}' where a number is expected", text.substr(0, 20)));
     return value;
   }
 };
@@ -56,7 +56,7 @@ std::string trimmed(const std::string& text) {
 
 std::vector<Group> groups_of(const std::string& text) {
   if (text.starts_with("AutoCAD Binary DXF"))
-    throw BadDrawing("a binary DXF file, allowed: one of text");
+    throw BadDrawing("a binary DXF file, allowed: a text (ASCII) DXF file");
   std::istringstream stream(text);
   std::vector<Group> groups;
   for (std::string code, value; std::getline(stream, code) && std::getline(stream, value);) {
@@ -65,7 +65,7 @@ std::vector<Group> groups_of(const std::string& text) {
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), group.code);
     if (read.ec != std::errc() || read.ptr != digits.data() + digits.size())
       throw BadDrawing(
-          fmt::format("no DXF: '{}' where the code of a group is wanted", digits.substr(0, 20)));
+          fmt::format("not a DXF file: '{}' where a group code is expected", digits.substr(0, 20)));
     groups.push_back(std::move(group));
   }
   return groups;
@@ -109,7 +109,7 @@ double scale_of(int code, const std::string& unit) {
                                                          {14, 0.1}}};
   const auto* const found = std::ranges::find(known, code, &std::pair<int, double>::first);
   if (found != known.end() && !unit.empty())
-    throw BadDrawing("its header says its unit already, allowed: no key unit beside it");
+    throw BadDrawing("its header already gives the unit, allowed: no key unit");
   if (found != known.end()) return found->second;
   if (unit.empty()) throw BadDrawing("no unit, allowed: $INSUNITS in its header, or the key unit");
   try {
@@ -187,7 +187,7 @@ class Spline {
                        knots_.size() == places_.size() + static_cast<std::size_t>(degree_) + 1 &&
                        std::ranges::is_sorted(knots_);
     if (!whole)
-      throw BadDrawing("a spline without control points and knots, allowed: one that has both");
+      throw BadDrawing("a spline without control points and knots, allowed: a spline with both");
     weights_.resize(places_.size(), 1);
   }
 
@@ -244,7 +244,7 @@ std::optional<Chain> chain_of(const Entity& entity) {
 std::vector<Chain> chains_of_dxf(const std::string& text, const std::string& unit,
                                  const std::string& layer) {
   const Drawing drawing = drawing_of(groups_of(text));
-  if (drawing.entities.empty()) throw BadDrawing("no DXF, or one without entities");
+  if (drawing.entities.empty()) throw BadDrawing("not a DXF file, or one without entities");
   const double scale = scale_of(drawing.unit, unit);
   std::vector<Chain> chains;
   Selection selection(layer);

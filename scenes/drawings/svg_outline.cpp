@@ -45,7 +45,7 @@ class Scanner {
     double value = 0;
     const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
     if (error != std::errc() || !std::isfinite(value))
-      throw BadDrawing(fmt::format("'{}' where a number is wanted", rest_.substr(0, 20)));
+      throw BadDrawing(fmt::format("'{}' where a number is expected", rest_.substr(0, 20)));
     rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
   }
@@ -178,7 +178,7 @@ class PathReader {
       else if (command == 'M' || command == 'm')
         command = command == 'M' ? 'L' : 'l';
       else if (command == '\0' || command == 'Z' || command == 'z')
-        throw BadDrawing("a path that does not begin with a command");
+        throw BadDrawing("a path that does not start with a command");
       step(command);
     }
     finish(false);
@@ -291,7 +291,7 @@ Chain corners_of(const pugi::xml_node& node, bool closed) {
 
 Chain rectangle_of(const pugi::xml_node& node) {
   if (node.attribute("rx") || node.attribute("ry"))
-    throw BadDrawing("a rectangle with rounded corners, allowed: sharp ones, or a path");
+    throw BadDrawing("a rectangle with rounded corners, allowed: sharp corners, or a path");
   const Vec2 low(node.attribute("x").as_double(), node.attribute("y").as_double());
   const Vec2 size(node.attribute("width").as_double(), node.attribute("height").as_double());
   return {{low, low + Vec2(size.x(), 0), low + size, low + Vec2(0, size.y())}, true, {}};
@@ -375,8 +375,7 @@ double scale_of(const pugi::xml_node& svg, const std::string& unit) {
   const std::string own(size ? width.rest() : "");
   const bool physical = !own.empty() && own != "px" && own != "%" && own != "em";
   if (physical && !unit.empty())
-    throw BadDrawing(
-        fmt::format("its width is in {} already, allowed: no key unit beside it", own));
+    throw BadDrawing(fmt::format("its width already has the unit {}, allowed: no key unit", own));
   if (!physical && unit.empty())
     throw BadDrawing(
         "no unit, allowed: a width such as \"40mm\" in its first element, or the key unit");
@@ -385,7 +384,7 @@ double scale_of(const pugi::xml_node& svg, const std::string& unit) {
     const double metres = parse_quantity(fmt::format("{} {}", *size, own), "m");
     Scanner box(svg.attribute("viewBox").value());
     if (box.ended())
-      throw BadDrawing("no viewBox, allowed: one that says what its width stands for");
+      throw BadDrawing("no viewBox, allowed: a viewBox that gives the scale of the width");
     box.point();
     const double extent = box.number();
     if (!(extent > 0)) throw BadDrawing("a viewBox without a width");
@@ -403,8 +402,9 @@ std::vector<Chain> chains_of_svg(const std::string& text, const std::string& uni
   const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
   const pugi::xml_node svg = document.child("svg");
   if (!parsed)
-    throw BadDrawing(fmt::format("no SVG: {} at byte {}", parsed.description(), parsed.offset));
-  if (!svg) throw BadDrawing("no SVG: its first element is another, allowed: svg");
+    throw BadDrawing(
+        fmt::format("not an SVG file: {} at byte {}", parsed.description(), parsed.offset));
+  if (!svg) throw BadDrawing("not an SVG file: its root element is a different one, allowed: svg");
   const double scale = scale_of(svg, unit);
   return Collector(layer).chains_in(svg, Map{{scale, 0, 0, -scale, 0, 0}});  // y points down there
 }

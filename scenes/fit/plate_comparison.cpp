@@ -76,8 +76,8 @@ void PlateComparison::set_reach(const lab::SimulatedCurve& simulated) {
   if (!has_record()) {
     if (m.dynamic && !(fit_.spec.dynamic_from < 0.95 * simulated_way_))
       refuse(fit_.file, "fit.dynamic_from",
-             fmt::format("{:.4g} mm, and the simulated target slides {:.4g} mm, allowed: less than "
-                         "95% of that",
+             fmt::format("{:.4g} mm, but the simulated target slides only {:.4g} mm, allowed: less "
+                         "than 95% of that",
                          fit_.spec.dynamic_from * 1e3, simulated_way_ * 1e3));
     return;
   }
@@ -87,8 +87,8 @@ void PlateComparison::set_reach(const lab::SimulatedCurve& simulated) {
     if (distance_[i] >= from() && distance_[i] <= until_) compared_.push_back(i);
   if (compared_.size() < fewest_compared)
     refuse(fit_.file, "measured.record",
-           fmt::format("{} of its samples lie within {:.4g} and {:.4g} mm, allowed: at least {} "
-                       "where it is compared",
+           fmt::format("{} of its samples lie between {:.4g} and {:.4g} mm, allowed: at least {} "
+                       "in the compared range",
                        compared_.size(), from() * 1e3, until_ * 1e3, fewest_compared));
 }
 
@@ -113,13 +113,11 @@ std::vector<std::string> PlateComparison::limits() const {
   std::vector<std::string> told;
   const double own = simulated_way_ / simulated_diameter_;
   told.push_back(
-      fmt::format("The simulated target slides {:.4g} mm, {:.2g} of its particles' "
-                  "diameters ({:.4g} mm).",
+      fmt::format("The simulated target slides {:.4g} mm, {:.2g} particle diameters of {:.4g} mm.",
                   simulated_way_ * 1e3, own, simulated_diameter_ * 1e3));
   if (has_record() && m.particle_diameter)
     told.push_back(fmt::format(
-        "The record is {:.4g} mm long, {:.3g} of its particles' diameters "
-        "({:.4g} mm).",
+        "The record is {:.4g} mm long, {:.3g} particle diameters of {:.4g} mm.",
         measured_way_ * 1e3, measured_way_ / *m.particle_diameter, *m.particle_diameter * 1e3));
   if (has_record() && std::ranges::max(distance_) > until_)
     told.push_back(fmt::format("Not compared: the record beyond {:.4g} mm of the simulated travel.",
@@ -128,21 +126,20 @@ std::vector<std::string> PlateComparison::limits() const {
     told.push_back(fmt::format("Not compared: the first {:.4g} mm.", from() * 1e3));
   if (own < 1)
     told.push_back(
-        "No particle of the simulation has passed its own diameter: what the record "
-        "shows by particles that rearrange must not be compared.");
+        "No simulated particle has moved by its own diameter: effects of particle rearrangement in "
+        "the record must not be compared.");
   if (has_record() && m.particle_diameter && !m.by_diameters()) {
     const double ratio = simulated_diameter_ / *m.particle_diameter;
     if (ratio > 2 || ratio < 0.5)
-      told.push_back(
-          fmt::format("Compared at equal distances, while the diameters differ by a "
-                      "factor of {:.3g}: only what slip of the surfaces does may be "
-                      "compared, not what rearrangement does.",
-                      ratio));
+      told.push_back(fmt::format(
+          "Compared at equal distances, although the diameters differ by a factor of {:.3g}: only "
+          "effects of surface slip may be compared, not those of rearrangement.",
+          ratio));
   }
   if (has_record() && m.by_diameters())
     told.push_back(
-        "Compared at equal multiples of the diameters: lengths of the surfaces, as a "
-        "decay length, are then those of the simulation, not of the plate.");
+        "Compared at equal multiples of the diameters: lengths of the surfaces, such as a decay "
+        "length, are then those of the simulation, not of the plate.");
   return told;
 }
 

@@ -16,10 +16,10 @@ const char* const introduction = R"(# The fit file
 
 <!-- Generated from the declarations in scenes/fit/declare_fit.cpp: change those, not this file. -->
 
-A fit is a TOML file that names a scene of a sliding-plate test, keys of it that are sought, and what was measured. `pulvis fit
-FIT.toml` runs the scene with changed keys, several runs at once, until its friction is that of the record, and tells the
-values with their intervals and where the two must not be compared. The same command goes on where it was broken off. How it
-is done is in [laboratory.md](laboratory.md#from-test-to-simulation).
+A fit is a TOML file that names the scene of a sliding-plate test, the keys to be fitted, and the measured data. `pulvis fit
+FIT.toml` runs the scene with different values of these keys, several runs at once, until its friction matches the record.
+It reports the values with confidence intervals, and the ranges in which test and simulation must not be compared. If
+interrupted, the same command resumes. The method is described in [laboratory.md](laboratory.md#from-test-to-simulation).
 
 ```toml
 scene = "plate-scene.toml"
@@ -99,7 +99,7 @@ class PlateFitReader {
         add("high", fmt::format("{:g} is not above low, allowed: > {:g}", one.high, one.low));
       else if (one.start < one.low || one.start > one.high)
         add("start",
-            fmt::format("{:g}, allowed: within {:g} and {:g}", one.start, one.low, one.high));
+            fmt::format("{:g}, allowed: between {:g} and {:g}", one.start, one.low, one.high));
       else if (one.step > (one.high - one.low) / 2)
         add("step", fmt::format("{:g}, allowed: up to half of high - low, {:g}", one.step,
                                 (one.high - one.low) / 2));
@@ -121,8 +121,9 @@ class PlateFitReader {
                                  "coefficients"
                                : "a record and coefficients are given, allowed: one of them");
     else if (m.record.empty() && targets < static_cast<int>(fit_.spec.parameters.size()))
-      add("", fmt::format("{} coefficient for {} parameters, allowed: as many at least", targets,
-                          fit_.spec.parameters.size()));
+      add("", fmt::format("{} coefficient for {} parameters, allowed: at least as many "
+                          "coefficients as parameters",
+                          targets, fit_.spec.parameters.size()));
     if (m.until && !(*m.until > m.from))
       add(".until", fmt::format("{:g} m is not beyond from, allowed: > {:g} m", *m.until, m.from));
     if (m.by_diameters() && !m.particle_diameter)

@@ -155,8 +155,8 @@ void make_grains(Scene& scene, const schema::Origins& origins, Problems& problem
     const double area = outline_area(particle.outline);
     const int number = Cutter::number_of(*particle.grains, area);
     if (number < 2 || number > max_grains) {
-      refuse("size", fmt::format("it makes {} of an area of {:.4g} m^2, allowed: 2 to {} grains: a "
-                                 "size of {:.4g} to {:.4g} m",
+      refuse("size", fmt::format("it gives {} for an area of {:.4g} m^2, allowed: 2 to {} grains: "
+                                 "a size of {:.4g} to {:.4g} m",
                                  number > max_grains ? fmt::format("more than {}", max_grains)
                                                      : fmt::format("{} grains", number),
                                  area, max_grains, std::sqrt(4 * area / pi / max_grains),

@@ -20,112 +20,110 @@ Key<BondSpec> strength_key(const char* name, std::optional<double> BondSpec::*me
 }
 
 std::vector<Key<BondSpec>> bond_law_keys() {
-  return {
-      {{.name = "strength",
-        .kind = Kind::quantity,
-        .unit = "Pa",
-        .range = above(0, 1e13),
-        .required = true,
-        .only_for = of_bonds,
-        .doc = "Tensile stress at which the bond begins to break; of a pressed bond the largest "
-               "that it reaches."},
-       to(&BondSpec::strength)},
-      strength_key("shear_strength", &BondSpec::shear_strength,
-                   "Shear stress at which it begins to break."),
-      {{.name = "fracture_energy",
-        .kind = Kind::quantity,
-        .unit = "J/m^2",
-        .range = above(0, 1e9),
-        .required = true,
-        .only_for = of_bonds,
-        .doc = "Energy that opening it takes, per area (mode I)."},
-       to(&BondSpec::fracture_energy)},
-      {{.name = "shear_fracture_energy",
-        .kind = Kind::quantity,
-        .unit = "J/m^2",
-        .range = above(0, 1e9),
-        .only_for = of_bonds,
-        .doc = "Energy that shearing it off takes, per area (mode II).",
-        .fallback_doc = "`fracture_energy`"},
-       to(&BondSpec::shear_fracture_energy)},
-      {{.name = "mixed_mode_exponent",
-        .kind = Kind::number,
-        .range = within(0.5, 10),
-        .fallback = value_of(2.0),
-        .only_for = of_bonds,
-        .doc = "Eta of Benzeggagh and Kenane: how strength and energy go from opening to "
-               "shear."},
-       to(&BondSpec::mixed_mode_exponent)},
-      {{.name = "stiffness",
-        .kind = Kind::number,
-        .range = within(1, 1000),
-        .fallback = value_of(20.0),
-        .only_for = of_bonds,
-        .doc = "Stiffness of the unbroken bond over that of the contact spring. Stiffer bonds "
-               "give less and ask for shorter time steps."},
-       to(&BondSpec::stiffness)}};
+  return {{{.name = "strength",
+            .kind = Kind::quantity,
+            .unit = "Pa",
+            .range = above(0, 1e13),
+            .required = true,
+            .only_for = of_bonds,
+            .doc = "Tensile stress at which damage of the bond begins; for pressed bonds, the "
+                   "largest value this strength can reach."},
+           to(&BondSpec::strength)},
+          strength_key("shear_strength", &BondSpec::shear_strength,
+                       "Shear stress at which damage begins."),
+          {{.name = "fracture_energy",
+            .kind = Kind::quantity,
+            .unit = "J/m^2",
+            .range = above(0, 1e9),
+            .required = true,
+            .only_for = of_bonds,
+            .doc = "Mode I fracture energy per area (opening)."},
+           to(&BondSpec::fracture_energy)},
+          {{.name = "shear_fracture_energy",
+            .kind = Kind::quantity,
+            .unit = "J/m^2",
+            .range = above(0, 1e9),
+            .only_for = of_bonds,
+            .doc = "Mode II fracture energy per area (shear).",
+            .fallback_doc = "`fracture_energy`"},
+           to(&BondSpec::shear_fracture_energy)},
+          {{.name = "mixed_mode_exponent",
+            .kind = Kind::number,
+            .range = within(0.5, 10),
+            .fallback = value_of(2.0),
+            .only_for = of_bonds,
+            .doc = "Exponent eta of the Benzeggagh-Kenane law: how strength and fracture energy "
+                   "vary between mode I and mode II."},
+           to(&BondSpec::mixed_mode_exponent)},
+          {{.name = "stiffness",
+            .kind = Kind::number,
+            .range = within(1, 1000),
+            .fallback = value_of(20.0),
+            .only_for = of_bonds,
+            .doc = "Stiffness of the intact bond divided by that of the contact spring. Stiffer "
+                   "bonds deform less but need smaller time steps."},
+           to(&BondSpec::stiffness)}};
 }
 
 std::vector<Key<BondSpec>> bond_origin_keys() {
-  return {
-      {{.name = "reach",
-        .kind = Kind::number,
-        .range = within(0, 0.5),
-        .fallback = value_of(0.01),
-        .only_for = "initial",
-        .doc = "Share of the boundary edge within which surfaces that face each other are "
-               "bonded."},
-       to(&BondSpec::reach)},
-      {{.name = "inside",
-        .kind = Kind::flag,
-        .fallback = value_of(false),
-        .only_for = "initial",
-        .doc = "Only between grains of one particle, where it goes before another bond of these "
-               "materials."},
-       flag_to(&BondSpec::inside)},
-      {{.name = "weibull_modulus",
-        .kind = Kind::number,
-        .range = within(0.5, 1000),
-        .only_for = "initial",
-        .doc = "Strengths and fracture energies of the bonds between two neighbours are a share "
-               "of those given, drawn from a Weibull law with this modulus and the scene's "
-               "`seed`.",
-        .fallback_doc = "all alike"},
-       to(&BondSpec::weibull_modulus)},
-      {{.name = "threshold",
-        .kind = Kind::quantity,
-        .unit = "Pa",
-        .range = within(0, 1e13),
-        .required = true,
-        .only_for = "pressed",
-        .doc = "Contact pressure from which on surfaces weld. The bond holds once the pressure "
-               "has fallen to half of its largest."},
-       to(&BondSpec::threshold)},
-      {{.name = "growth",
-        .kind = Kind::number,
-        .range = above(0, 100),
-        .required = true,
-        .only_for = "pressed",
-        .doc = "Tensile strength gained over pressure beyond the threshold, up to `strength`; "
-               "the other values grow along."},
-       to(&BondSpec::growth)},
-      {{.name = "work",
-        .kind = Kind::quantity,
-        .unit = "J/m^2",
-        .range = above(0, 1e6),
-        .required = true,
-        .only_for = "adhesion",
-        .doc = "Work of adhesion: what parting the surfaces takes, per area."},
-       to(&BondSpec::work)},
-      {{.name = "range",
-        .kind = Kind::quantity,
-        .unit = "m",
-        .range = within(smallest_size, largest_size),
-        .required = true,
-        .only_for = "adhesion",
-        .doc = "Gap at which the attraction has faded. The traction of surfaces that touch is "
-               "2 `work`/`range`."},
-       to(&BondSpec::range)}};
+  return {{{.name = "reach",
+            .kind = Kind::number,
+            .range = within(0, 0.5),
+            .fallback = value_of(0.01),
+            .only_for = "initial",
+            .doc = "Maximum distance between facing surfaces that are bonded, as a fraction of "
+                   "the boundary edge length."},
+           to(&BondSpec::reach)},
+          {{.name = "inside",
+            .kind = Kind::flag,
+            .fallback = value_of(false),
+            .only_for = "initial",
+            .doc = "Restrict the bond to grains of the same particle, where it takes precedence "
+                   "over other bonds of these materials."},
+           flag_to(&BondSpec::inside)},
+          {{.name = "weibull_modulus",
+            .kind = Kind::number,
+            .range = within(0.5, 1000),
+            .only_for = "initial",
+            .doc = "Weibull modulus: strengths and fracture energies of the bonds between two "
+                   "neighbours are the given values times a random factor from a Weibull "
+                   "distribution with this modulus and the scene's `seed`.",
+            .fallback_doc = "no scatter"},
+           to(&BondSpec::weibull_modulus)},
+          {{.name = "threshold",
+            .kind = Kind::quantity,
+            .unit = "Pa",
+            .range = within(0, 1e13),
+            .required = true,
+            .only_for = "pressed",
+            .doc = "Contact pressure above which surfaces weld. The bond forms once the pressure "
+                   "has fallen to half its maximum."},
+           to(&BondSpec::threshold)},
+          {{.name = "growth",
+            .kind = Kind::number,
+            .range = above(0, 100),
+            .required = true,
+            .only_for = "pressed",
+            .doc = "Tensile strength gained per unit of pressure above the threshold, up to "
+                   "`strength`; the other bond properties grow in proportion."},
+           to(&BondSpec::growth)},
+          {{.name = "work",
+            .kind = Kind::quantity,
+            .unit = "J/m^2",
+            .range = above(0, 1e6),
+            .required = true,
+            .only_for = "adhesion",
+            .doc = "Work of adhesion: energy per area needed to separate the surfaces."},
+           to(&BondSpec::work)},
+          {{.name = "range",
+            .kind = Kind::quantity,
+            .unit = "m",
+            .range = within(smallest_size, largest_size),
+            .required = true,
+            .only_for = "adhesion",
+            .doc = "Gap at which the attraction vanishes. The traction of surfaces in contact is "
+                   "2 `work`/`range`."},
+           to(&BondSpec::range)}};
 }
 
 std::vector<Key<BondSpec>> bond_keys() {
@@ -133,18 +131,18 @@ std::vector<Key<BondSpec>> bond_keys() {
       {{.name = "between",
         .kind = Kind::name_pair,
         .required = true,
-        .doc = "Two materials, or a material and a tool; a material may meet itself."},
+        .doc = "Two materials, or a material and a tool; the two materials may be the same."},
        [](BondSpec& spec, const Decoded& value) {
          spec.first = value.names[0];
          spec.second = value.names[1];
        }},
       {{.name = "origin",
         .kind = Kind::choice,
-        .choices = {{"initial", "what touches at the start is bonded"},
-                    {"pressed", "pressure makes the bond (cold welding, sticking)"},
-                    {"adhesion", "none: surfaces attract each other whenever they are near"}},
+        .choices = {{"initial", "surfaces in contact at the start are bonded"},
+                    {"pressed", "bonds form under pressure (cold welding, sticking)"},
+                    {"adhesion", "no bonds: surfaces attract each other whenever they are close"}},
         .required = true,
-        .doc = "What makes the bond."},
+        .doc = "How the bond forms."},
        [](BondSpec& spec, const Decoded& value) {
          spec.origin = static_cast<BondSpec::Origin>(value.index);
        }}};
@@ -158,8 +156,8 @@ std::vector<Key<BondSpec>> bond_keys() {
 const TableDeclaration<BondSpec>& bond() {
   static const TableDeclaration<BondSpec> declaration{
       {"bond", true, "origin",
-       "Surfaces of one pair that hold together until they break: a cohesive law at the contact "
-       "points. What is broken is plain contact."},
+       "Bonds between two surfaces until they break: a cohesive law at the contact "
+       "points. Broken bonds leave ordinary contact."},
       bond_keys()};
   return declaration;
 }

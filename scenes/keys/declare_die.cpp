@@ -7,26 +7,26 @@ namespace pulvis::schema {
 const TableDeclaration<DieSpec>& die() {
   static const TableDeclaration<DieSpec> declaration{
       {"die", false, "",
-       "The die, given once: random packings get its width, packings its corner, where they do not "
-       "say them; and plane tools `left`, `right`, `bottom` and `top` stand around it, the last on "
-       "the packing's top where there is one, but for those that the scene has itself. Values that "
-       "differ from it are "
-       "refused. A saved scene has the packings and tools that come of it. `[die]` alone makes the "
-       "tools around the one packing.",
+       "The die, defined once. It gives random packings their width and packings "
+       "their corner unless they set them, and adds the plane tools `left`, `right`, "
+       "`bottom` and `top` unless the scene defines them; `top` rests on the packing "
+       "if there is one. Values that contradict it are refused. A saved scene holds "
+       "the resulting packings and tools. An empty `[die]` puts the tools around the "
+       "only packing.",
        compaction_only, true},
       {{{.name = "width",
          .kind = Kind::quantity,
          .unit = "m",
          .range = within(smallest_size, largest_size),
-         .doc = "Between the walls.",
-         .fallback_doc = "that of the one packing: columns times spacing, or `width`"},
+         .doc = "Distance between the walls.",
+         .fallback_doc = "that of the only packing: columns times spacing, or `width`"},
         to(&DieSpec::width)},
        {{.name = "corner",
          .kind = Kind::vector,
          .unit = "m",
          .range = within(-largest_size, largest_size),
          .doc = "Lower left corner.",
-         .fallback_doc = "that of the one packing, or the origin"},
+         .fallback_doc = "that of the only packing, or the origin"},
         [](DieSpec& spec, const Decoded& value) { spec.corner = value.vector; }}}};
   return declaration;
 }

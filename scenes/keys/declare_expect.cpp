@@ -18,7 +18,7 @@ std::vector<Key<ExpectSpec>> series_keys() {
                "the origin) of the whole powder; or a value of the whole run: "
                "`energy_balance_error`, "
                "`kinetic_ratio`.",
-        .fallback_doc = "none: the expectation is about the `outcome`"},
+        .fallback_doc = "none: the expectation concerns the `outcome`"},
        to(&ExpectSpec::series)},
       {{.name = "when",
         .kind = Kind::choice,
@@ -27,9 +27,9 @@ std::vector<Key<ExpectSpec>> series_keys() {
                     {"max", "the largest sample"},
                     {"min", "the smallest sample"},
                     {"mean", "the mean of the samples"},
-                    {"range", "the largest less the smallest: how far it drifts or swings"}},
+                    {"range", "largest minus smallest value: drift or oscillation"}},
         .needs = "series",
-        .doc = "What of the series is meant.",
+        .doc = "Which value of the series is checked.",
         .fallback_doc = "`\"end\"`; with `like`: `\"always\"`"},
        [](ExpectSpec& spec, const Decoded& value) {
          spec.when = static_cast<ExpectSpec::When>(value.index);
@@ -38,14 +38,14 @@ std::vector<Key<ExpectSpec>> series_keys() {
         .kind = Kind::number,
         .range = within(0, 1),
         .needs = "series",
-        .doc = "Share of the run's time before which samples do not count.",
+        .doc = "Fraction of the run time before which samples are ignored.",
         .fallback_doc = "0"},
        to(&ExpectSpec::from)},
       {{.name = "until",
         .kind = Kind::number,
         .range = within(0, 1),
         .needs = "series",
-        .doc = "Share of the run's time after which samples do not count.",
+        .doc = "Fraction of the run time after which samples are ignored.",
         .fallback_doc = "1"},
        to(&ExpectSpec::until)},
   };
@@ -56,26 +56,26 @@ std::vector<Key<ExpectSpec>> bound_keys() {
       {{.name = "above",
         .kind = Kind::bound,
         .needs = "series",
-        .doc = "Smallest value that will do.",
-        .fallback_doc = "no such bound"},
+        .doc = "Lower bound of the value.",
+        .fallback_doc = "no lower bound"},
        bound_to(&ExpectSpec::above)},
       {{.name = "below",
         .kind = Kind::bound,
         .needs = "series",
-        .doc = "Largest value that will do.",
-        .fallback_doc = "no such bound"},
+        .doc = "Upper bound of the value.",
+        .fallback_doc = "no upper bound"},
        bound_to(&ExpectSpec::below)},
       {{.name = "equals",
         .kind = Kind::bound,
         .needs = "series",
-        .doc = "The value that the law gives.",
-        .fallback_doc = "no such value"},
+        .doc = "Expected value.",
+        .fallback_doc = "none"},
        bound_to(&ExpectSpec::equals)},
       {{.name = "like",
         .kind = Kind::scene,
         .needs = "series",
-        .doc = "Another scene, as a path from this one's folder. It is run too, with as many "
-               "samples, and its series is the value that is expected.",
+        .doc = "Reference scene, as a path relative to the folder of this scene. It is run "
+               "with the same number of samples, and its series is the expected result.",
         .fallback_doc = "none"},
        to(&ExpectSpec::like)},
       {{.name = "scale",
@@ -83,15 +83,15 @@ std::vector<Key<ExpectSpec>> bound_keys() {
         .range = within(-1e30, 1e30),
         .fallback = value_of(1.0),
         .needs = "like",
-        .doc = "The series of the other scene times this."},
+        .doc = "Factor applied to the series of the reference scene."},
        to(&ExpectSpec::scale)},
       {{.name = "within",
         .kind = Kind::number,
         .range = within(0, 1e30),
         .needs = "series",
-        .doc = "How far off is near enough: a share of |equals| (in the SI unit where `equals` is "
-               "0), or of the largest value of the other scene's series. Required with `equals` "
-               "and `like`.",
+        .doc = "Tolerance: a fraction of |equals| (an absolute value in SI units if `equals` "
+               "is 0), or of the largest value of the reference series. Required with "
+               "`equals` and `like`.",
         .fallback_doc = "none"},
        to(&ExpectSpec::within)},
   };
@@ -102,15 +102,14 @@ std::vector<Key<ExpectSpec>> outcome_keys() {
       {{.name = "outcome",
         .kind = Kind::choice,
         .choices = {{"stops", "a health check or a limit stops the run"}},
-        .doc = "How the run ends.",
-        .fallback_doc = "it reaches its end"},
+        .doc = "Expected end of the run.",
+        .fallback_doc = "the run completes"},
        [](ExpectSpec& spec, const Decoded&) { spec.stops = true; }},
       {{.name = "message",
         .kind = Kind::text,
         .needs = "outcome",
-        .doc = "Regular expression (RE2's syntax: no look-around, no back-references) that must be "
-               "found "
-               "in what the stopped run says.",
+        .doc = "Regular expression (RE2 syntax: no look-around, no back-references) that must "
+               "match the error message of the stopped run.",
         .fallback_doc = "required with `outcome`"},
        to(&ExpectSpec::message)},
   };
@@ -122,8 +121,8 @@ const TableDeclaration<ExpectSpec>& expect() {
   static const TableDeclaration<ExpectSpec> declaration = [] {
     TableDeclaration<ExpectSpec> made{
         {"expect", true, "",
-         "Something that must hold of the run: `pulvis run` says whether it does, and exits with "
-         "code 3 if not. Either a series that keeps bounds, or an outcome.",
+         "A check on the run: `pulvis run` reports whether it is met, and exits with "
+         "code 3 if it is not. It either bounds a series or names an outcome.",
          every_family},
         series_keys()};
     for (const auto& more : {bound_keys(), outcome_keys()})

@@ -36,7 +36,7 @@ Key<FlowLaw> exponent_of_hardening() {
            .range = within(1e-3, 1),
            .required = true,
            .only_for = {"swift", "ludwik"},
-           .doc = "n of the power law."},
+           .doc = "Exponent n of the power law."},
           [](FlowLaw& flow, const Decoded& value) {
             hardening_to (&kernels::SwiftHardening::n)(flow, value);
             hardening_to (&kernels::LudwikHardening::n)(flow, value);
@@ -49,7 +49,8 @@ const TableDeclaration<FlowLaw>& hardening() {
   using namespace kernels;
   static const TableDeclaration<FlowLaw> declaration{
       {"material.hardening", false, "law",
-       "How the flow stress grows from the yield stress with the accumulated plastic strain e.",
+       "Evolution of the flow stress from the yield stress with the accumulated "
+       "plastic strain e.",
        every_family, true},
       {{{.name = "law",
          .kind = Kind::choice,
@@ -59,9 +60,9 @@ const TableDeclaration<FlowLaw>& hardening() {
                       "yield_stress (1 + e / reference_strain)^exponent, which is K (e_0 + "
                       "e)^n with K = yield_stress / e_0^n"},
                      {"ludwik", "yield_stress + strength e^exponent"},
-                     {"table", "straight lines between the points of a file"}},
+                     {"table", "linear interpolation between the points of a file"}},
          .required = true,
-         .doc = "The law of hardening."},
+         .doc = "Hardening law."},
         [](FlowLaw& flow, const Decoded& value) { choose(flow.hardening, value.index); }},
        {{.name = "modulus",
          .kind = Kind::quantity,
@@ -69,7 +70,7 @@ const TableDeclaration<FlowLaw>& hardening() {
          .range = within(0, 1e13),
          .required = true,
          .only_for = "linear",
-         .doc = "What hardening_modulus of the material says otherwise."},
+         .doc = "Hardening modulus; replaces `hardening_modulus` of the material."},
         hardening_to(&LinearHardening<double>::H)},
        {{.name = "saturation",
          .kind = Kind::quantity,
@@ -77,21 +78,21 @@ const TableDeclaration<FlowLaw>& hardening() {
          .range = within(0, 1e13),
          .required = true,
          .only_for = "voce",
-         .doc = "Q: how much the flow stress grows in all."},
+         .doc = "Q: total increase of the flow stress."},
         hardening_to(&VoceHardening::Q)},
        {{.name = "saturation_rate",
          .kind = Kind::number,
          .range = within(1e-3, 1e6),
          .required = true,
          .only_for = "voce",
-         .doc = "b: 63% of the growth come within a plastic strain of 1/b."},
+         .doc = "b: 63% of the increase is reached at a plastic strain of 1/b."},
         hardening_to(&VoceHardening::b)},
        {{.name = "reference_strain",
          .kind = Kind::number,
          .range = within(1e-9, 1e3),
          .required = true,
          .only_for = "swift",
-         .doc = "e_0: prestrain of the law."},
+         .doc = "e_0: reference strain (prestrain) of the law."},
         hardening_to(&SwiftHardening::eps_0)},
        {{.name = "strength",
          .kind = Kind::quantity,
@@ -99,18 +100,18 @@ const TableDeclaration<FlowLaw>& hardening() {
          .range = within(0, 1e13),
          .required = true,
          .only_for = "ludwik",
-         .doc = "K: growth of the flow stress at a plastic strain of 1 (B of Johnson and Cook, "
-                "whose A is the yield stress)."},
+         .doc = "K: increase of the flow stress at a plastic strain of 1 (B of the "
+                "Johnson-Cook law, whose A is the yield stress)."},
         hardening_to(&LudwikHardening::K)},
        exponent_of_hardening(),
        {{.name = "file",
          .kind = Kind::file,
          .required = true,
          .only_for = "table",
-         .doc =
-             "CSV with the columns `plastic_strain` and `stress [MPa]` (or another unit): strains "
-             "rise from 0, stresses do not fall. The first is the yield stress, which the "
-             "material then does not state; beyond the last the stress stays."},
+         .doc = "CSV file with the columns `plastic_strain` and `stress [MPa]` (or another "
+                "unit). Strains increase from 0, stresses must not decrease. The first stress "
+                "is the yield stress, which the material must then omit; beyond the last point "
+                "the stress is constant."},
         to(&FlowLaw::file)}}};
   return declaration;
 }
@@ -119,17 +120,16 @@ const TableDeclaration<FlowLaw>& rate() {
   using namespace kernels;
   static const TableDeclaration<FlowLaw> declaration{
       {"material.rate", false, "law",
-       "How the flow stress grows with the rate of plastic strain. Not for levers, whose solution "
-       "is "
+       "Strain-rate dependence of the flow stress. Not for levers, whose solution is "
        "static.",
        every_family, true},
       {{{.name = "law",
          .kind = Kind::choice,
          .choices =
              {{"cowper-symonds",
-               "the flow stress of hardening times 1 + (rate / reference_rate)^(1/exponent)"}},
+               "the flow stress from hardening times 1 + (rate / reference_rate)^(1/exponent)"}},
          .required = true,
-         .doc = "The law of the rate."},
+         .doc = "Rate law."},
         [](FlowLaw& flow, const Decoded& value) {
           choose(flow.rate, value.index + 1);  // without a word: none
         }},
@@ -139,7 +139,7 @@ const TableDeclaration<FlowLaw>& rate() {
          .range = within(1e-9, 1e15),
          .required = true,
          .only_for = "cowper-symonds",
-         .doc = "C: at this rate the flow stress is twice that of slow flow."},
+         .doc = "C: rate at which the flow stress is twice the quasi-static one."},
         rate_to(&CowperSymonds::C)},
        {{.name = "exponent",
          .kind = Kind::number,

@@ -17,23 +17,24 @@ std::vector<Choice> library_names() {
 const TableDeclaration<MaterialSpec>& material() {
   static const TableDeclaration<MaterialSpec> declaration{
       {"material", true, "family",
-       "A material: elastic, or elastic-plastic (J2) with a yield stress.", every_family},
+       "A material: elastic, or elastic-plastic (J2) if it has a yield stress.", every_family},
       {{{.name = "name",
          .kind = Kind::name,
          .required = true,
-         .doc = "What is made of it refers to it: particles, friction pairs, levers, tips."},
+         .doc = "Name by which particles, friction pairs, levers and tips refer to the "
+                "material."},
         to(&MaterialSpec::name)},
        {{.name = "library",
          .kind = Kind::choice,
          .choices = library_names(),
-         .doc = "Its values are those of a material of the library (docs/materials.md), but for "
-                "those given here.",
-         .fallback_doc = "all values are given here"},
+         .doc = "Name of a library material (docs/materials.md) that supplies all values not "
+                "given here.",
+         .fallback_doc = "none: all values are given here"},
         nothing<MaterialSpec>},
        {{.name = "elastic",
          .kind = Kind::flag,
          .needs = "library",
-         .doc = "The elastic constants of the library alone are taken.",
+         .doc = "Take only the elastic constants from the library.",
          .fallback_doc = "`false`"},
         nothing<MaterialSpec>},
        {{.name = "density",
@@ -42,27 +43,27 @@ const TableDeclaration<MaterialSpec>& material() {
          .range = within(1e-3, 1e9),
          .required = true,
          .only_for = compaction_only,
-         .doc = "Mass per volume."},
+         .doc = "Mass density."},
         to(&MaterialSpec::density)},
        {{.name = "youngs_modulus",
          .kind = Kind::quantity,
          .unit = "Pa",
          .range = within(1, 1e13),
          .required = true,
-         .doc = "Stiffness in simple tension."},
+         .doc = "Young's modulus."},
         to(&MaterialSpec::youngs_modulus)},
        {{.name = "poissons_ratio",
          .kind = Kind::number,
          .range = between(-1, 0.5),
          .required = true,
-         .doc = "Sideways contraction over extension."},
+         .doc = "Poisson's ratio."},
         to(&MaterialSpec::poissons_ratio)},
        {{.name = "yield_stress",
          .kind = Kind::quantity,
          .unit = "Pa",
          .range = within(1e-3, 1e13),
-         .doc = "Where plastic flow begins; below Young's modulus.",
-         .fallback_doc = "the material stays elastic"},
+         .doc = "Initial yield stress; must be below Young's modulus.",
+         .fallback_doc = "none: the material is elastic"},
         to(&MaterialSpec::yield_stress)},
        {{.name = "hardening_modulus",
          .kind = Kind::quantity,
@@ -70,7 +71,7 @@ const TableDeclaration<MaterialSpec>& material() {
          .range = within(0, 1e13),
          .fallback = value_of("0 Pa"),
          .needs = "yield_stress",
-         .doc = "Growth of the yield stress with plastic strain; 0 is perfectly plastic."},
+         .doc = "Slope of yield stress versus plastic strain; 0: perfectly plastic."},
         to(&MaterialSpec::hardening_modulus)}}};
   return declaration;
 }
@@ -78,8 +79,7 @@ const TableDeclaration<MaterialSpec>& material() {
 const TableDeclaration<MaterialSpec>& material_damping() {
   static const TableDeclaration<MaterialSpec> declaration{
       {"material.damping", false, "family",
-       "Bulk damping (Rayleigh): an oscillation of angular frequency w decays with the damping "
-       "ratio "
+       "Rayleigh damping: an oscillation of angular frequency w has the damping ratio "
        "mass_proportional/(2 w) + stiffness_proportional w/2.",
        compaction_only, true},
       {{{.name = "mass_proportional",
@@ -88,9 +88,8 @@ const TableDeclaration<MaterialSpec>& material_damping() {
          .range = within(0, 1e15),
          .fallback = value_of("0 1/s"),
          .only_for = compaction_only,
-         .doc =
-             "alpha: force against the velocity, per mass. Damps slow oscillations most, and the "
-             "motion of a body as a whole with them."},
+         .doc = "alpha: drag force per mass and velocity. It mainly damps slow oscillations, "
+                "and also rigid-body motion."},
         to(&MaterialSpec::mass_damping)},
        {{.name = "stiffness_proportional",
          .kind = Kind::quantity,
@@ -98,9 +97,10 @@ const TableDeclaration<MaterialSpec>& material_damping() {
          .range = within(0, 1e6),
          .fallback = value_of("0 s"),
          .only_for = compaction_only,
-         .doc = "beta: viscous stress over the rate of the elastic stress. Damps fast oscillations "
-                "most, no motion of a body as a whole; makes the time step shorter where it is not "
-                "well below it, and adds to the flow stress of what flows."},
+         .doc = "beta: viscous stress divided by the rate of elastic stress. It mainly damps "
+                "fast oscillations and leaves rigid-body motion undamped. It reduces the time "
+                "step unless beta is well below the time step, and adds to the flow stress of "
+                "yielding material."},
         to(&MaterialSpec::stiffness_damping)}}};
   return declaration;
 }

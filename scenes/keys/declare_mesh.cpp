@@ -23,14 +23,14 @@ auto mesh_to(Set set) {
 
 const TableDeclaration<ParticleSpec>& mesh() {
   static const TableDeclaration<ParticleSpec> declaration{
-      {"particle.mesh", false, "outline", "Finite elements of one particle."},
+      {"particle.mesh", false, "outline", "Finite element mesh of a particle."},
       {{{.name = "size",
          .kind = Kind::quantity,
          .unit = "m",
          .range = within(smallest_size, largest_size),
-         .doc = "Wanted length of the edges along the outline, instead of their number and that of "
-                "the rings; finer where the outline turns sharply.",
-         .fallback_doc = "by `accuracy`"},
+         .doc = "Target edge length along the outline, instead of the numbers of edges and "
+                "rings; finer where the outline has high curvature.",
+         .fallback_doc = "set by `accuracy`"},
         [](ParticleSpec& spec, const Decoded& value) { spec.mesh_size = value.number; }},
        {{.name = "boundary_edges",
          .kind = Kind::integer,
@@ -38,9 +38,11 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .multiple_of = 4,
          .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
                       "points", "fourier"},
-         .doc = "Edges along the outline; an even core has (boundary_edges/4)^2 quads. Corners of "
-                "a small radius get four edges each, which grow towards the middle of the flats.",
-         .fallback_doc = "by `accuracy`; beside other sizes 40, of what is no disc or ring 48"},
+         .doc = "Number of edges along the outline; a uniform core has (boundary_edges/4)^2 "
+                "quads. Corners with a small radius get four edges each, with edges growing "
+                "towards the middle of the flat sides.",
+         .fallback_doc = "set by `accuracy`; if another mesh size is given: 40, or 48 for outlines "
+                         "other than disc and ring"},
         mesh_to(
             [](auto& mesh, int value) requires requires { mesh.boundary_edges; } {
               mesh.boundary_edges = value;
@@ -50,21 +52,20 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .range = within(0, 1024),
          .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
                       "points", "fourier"},
-         .doc =
-             "Rings of quads between the core and the outline, of a ring through its wall; 0: only "
-             "the core, for discs of at most 20 boundary edges or with a coarse core.",
-         .fallback_doc = "by `accuracy`; beside other sizes 1, of a ring 4"},
+         .doc = "Number of rings of quads between core and outline, or through the wall of a "
+                "ring; 0: core only, for discs with at most 20 boundary edges or a coarse core.",
+         .fallback_doc = "set by `accuracy`; if another mesh size is given: 1, or 4 for a ring"},
         mesh_to(
             [](auto& mesh, int value) requires requires { mesh.rings; } { mesh.rings = value; })},
        {{.name = "core",
          .kind = Kind::choice,
          .choices = {{"even", "as fine as the outline"},
                      {"coarse",
-                      "one edge for three of the outline, joined by a ring of transition quads; "
-                      "boundary_edges is a multiple of 12"}},
+                      "one edge for every three on the outline, joined by a ring of transition "
+                      "quads; boundary_edges must be a multiple of 12"}},
          .only_for = "disc",
-         .doc = "The inside of the rings.",
-         .fallback_doc = "by `accuracy`; beside other sizes `\"even\"`"},
+         .doc = "Mesh of the core inside the rings.",
+         .fallback_doc = "set by `accuracy`; if another mesh size is given: `\"even\"`"},
         [](ParticleSpec& spec, const Decoded& value) {
           std::get<DiscMesh>(spec.mesh).core = static_cast<DiscMesh::Core>(value.index);
         }},
@@ -73,7 +74,7 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .range = within(1, 100),
          .fallback = value_of(1.0),
          .only_for = "disc",
-         .doc = "How much finer the edges at top and bottom are than those at the sides."},
+         .doc = "Factor by which edges at top and bottom are finer than at the sides."},
         [](ParticleSpec& spec, const Decoded& value) {
           std::get<DiscMesh>(spec.mesh).refinement = value.number;
         }},
@@ -84,8 +85,8 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .word = "random",
          .fallback = value_of("0 deg"),
          .only_for = {"disc", "ring"},
-         .doc =
-             "Turn of the mesh inside the outline; \"random\" turns each particle's by its own."},
+         .doc = "Rotation of the mesh inside the outline; \"random\" rotates the mesh of each "
+                "particle individually."},
         [](ParticleSpec& spec, const Decoded& value) {
           spec.random_mesh_phase = value.is_word;
           spec.mesh_phase = value.number;
@@ -94,8 +95,8 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .kind = Kind::integer,
          .range = within(1, 4096),
          .only_for = "rectangle",
-         .doc = "Quads along the width.",
-         .fallback_doc = "by `accuracy`; beside `rows` 8"},
+         .doc = "Number of quads along the width.",
+         .fallback_doc = "set by `accuracy`; 8 if `rows` is given"},
         [](ParticleSpec& spec, const Decoded& value) {
           std::get<RectangleMesh>(spec.mesh).columns = static_cast<int>(value.integer);
         }},
@@ -103,8 +104,8 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .kind = Kind::integer,
          .range = within(1, 4096),
          .only_for = "rectangle",
-         .doc = "Quads along the height.",
-         .fallback_doc = "by `accuracy`; beside `columns` 8"},
+         .doc = "Number of quads along the height.",
+         .fallback_doc = "set by `accuracy`; 8 if `columns` is given"},
         [](ParticleSpec& spec, const Decoded& value) {
           std::get<RectangleMesh>(spec.mesh).rows = static_cast<int>(value.integer);
         }}}};

@@ -14,87 +14,92 @@ std::vector<Key<PackingSpec>> lattice_keys() {
             .range = within(1, 1e6),
             .required = true,
             .only_for = lattices,
-            .doc = "Particles on top of each other."},
+            .doc = "Number of particles on top of each other."},
            integer_to(&PackingSpec::rows)},
           {{.name = "columns",
             .kind = Kind::integer,
             .range = within(1, 1e6),
             .required = true,
             .only_for = lattices,
-            .doc = "Particles side by side, in the lowest row."},
+            .doc = "Number of particles side by side in the lowest row."},
            integer_to(&PackingSpec::columns)},
           {{.name = "spacing",
             .kind = Kind::quantity,
             .unit = "m",
             .range = within(smallest_size, largest_size),
             .only_for = lattices,
-            .doc = "Distance from centre to centre; must be given for rectangles.",
-            .fallback_doc = "the diameter of the discs or rings: they touch"},
+            .doc = "Centre-to-centre distance; required for rectangles.",
+            .fallback_doc = "the diameter of the discs or rings, so that they touch"},
            to(&PackingSpec::spacing)},
           {{.name = "perturbation",
             .kind = Kind::number,
             .range = within(0, 0.5),
             .fallback = value_of(0.0),
             .only_for = lattices,
-            .doc = "How far a centre may be off its place, as a share of the spacing: at random by "
-                   "the scene's `seed`, evenly over a circle. The spacing must leave room for it."},
+            .doc = "Maximum random displacement of a centre from its lattice site, as a fraction "
+                   "of the spacing: drawn with the scene's `seed`, uniformly over a circle. The "
+                   "spacing must leave room for it."},
            to(&PackingSpec::perturbation)}};
 }
 
 Key<PackingSpec> kind_key() {
-  return {{.name = "kind",
-           .kind = Kind::choice,
-           .choices = {{"square", "rows and columns on a square lattice"},
-                       {"hexagonal",
-                        "rows sqrt(3)/2 of the spacing apart; every second one has one particle "
-                        "less and lies in the gaps of those below, so that the packing is "
-                        "symmetric between flat walls"},
-                       {"random",
-                        "a mixture, [[packing.class]], thrown into a die and pressed together "
-                        "without friction under shaking, as rigid particles, until it is as dense "
-                        "as wanted; the same `seed` gives the same packing on every machine"},
-                       {"csv", "where a file says, as `pulvis pack` writes it"}},
-           .required = true,
-           .doc = "How the particles are arranged."},
-          [](PackingSpec& packing, const Decoded& value) {
-            packing.kind = static_cast<PackingSpec::Kind>(value.index);
-          }};
+  return {
+      {.name = "kind",
+       .kind = Kind::choice,
+       .choices = {{"square", "rows and columns of a square lattice"},
+                   {"hexagonal",
+                    "rows sqrt(3)/2 of the spacing apart; every second row has one particle less "
+                    "and lies in the gaps of the row below, so the packing is symmetric between "
+                    "flat walls"},
+                   {"random",
+                    "a mixture, [[packing.class]], poured into a die as rigid particles and "
+                    "compressed without friction while shaken until it reaches the required "
+                    "density; the same `seed` gives the same packing on every machine"},
+                   {"csv", "from a file as written by `pulvis pack`"}},
+       .required = true,
+       .doc = "Arrangement of the particles."},
+      [](PackingSpec& packing, const Decoded& value) {
+        packing.kind = static_cast<PackingSpec::Kind>(value.index);
+      }};
 }
 
 std::vector<Key<PackingSpec>> die_keys() {
-  return {
-      {{.name = "corner",
-        .kind = Kind::vector,
-        .unit = "m",
-        .range = within(-largest_size, largest_size),
-        .fallback = pair_of("0 m", "0 m"),
-        .only_for = {"square", "hexagonal", "random"},
-        .doc = "Lower left corner of the first particle's lattice cell, or of the die."},
-       to(&PackingSpec::corner)},
-      {{.name = "width",
-        .kind = Kind::quantity,
-        .unit = "m",
-        .range = within(smallest_size, largest_size),
-        .only_for = "random",
-        .doc = "Between the die's walls.",
-        .fallback_doc = "that of `[die]`; required without one"},
-       to(&PackingSpec::width)},
-      height_key<PackingSpec>(
-          "From the die's floor to its top. Two of count, density and height are given."),
-      count_key<PackingSpec>(),
-      density_key<PackingSpec>(
-          "then shaken on and pressed again, as long as that pays; equal discs order themselves "
-          "meanwhile",
-          "Relative density of the die up to its top: area of the particles over that of the die. "
-          "Discs and the like come to rest at 0.76 to 0.84 by themselves; from there on to the "
-          "densest it takes longer, and beyond that it is refused.")};
+  return {{{.name = "corner",
+            .kind = Kind::vector,
+            .unit = "m",
+            .range = within(-largest_size, largest_size),
+            .fallback = pair_of("0 m", "0 m"),
+            .only_for = {"square", "hexagonal", "random"},
+            .doc = "Lower left corner of the lattice cell of the first particle, or of the die."},
+           to(&PackingSpec::corner)},
+          {{.name = "width",
+            .kind = Kind::quantity,
+            .unit = "m",
+            .range = within(smallest_size, largest_size),
+            .only_for = "random",
+            .doc = "Distance between the die walls.",
+            .fallback_doc = "that of `[die]`; required without one"},
+           to(&PackingSpec::width)},
+          height_key<PackingSpec>(
+              "Height from the floor to the top of the die. Two of count, density and height "
+              "must be given."),
+          count_key<PackingSpec>(),
+          density_key<PackingSpec>(
+              "shaking and compression then continue as long as they increase the density; "
+              "discs of equal size crystallise in the process",
+              "Relative density of the filled die: area of the particles divided by that of "
+              "the die up to its top. Discs and similar shapes settle at 0.76 to 0.84. "
+              "Higher densities, up to the maximum, take longer; densities above the maximum "
+              "are refused.")};
 }
 
 Key<PackingSpec> file_key() {
   return file_of_packing_key<PackingSpec>(
-      "Path from the scene's folder. Columns class, x, y, angle, and scale where outlines are not "
-      "as the class says; units in the header, `x [mm]`. Lines with # are comments; one "
-      "`# top: 0.1 m` says where a punch rests, otherwise it rests on the highest particle.");
+      "Path relative to the folder of the scene. The columns are class, x, y, angle, "
+      "and scale if outlines differ in size from their class. Units are in the "
+      "header: `x [mm]`. Lines starting with # are comments. A line `# top: 0.1 m` "
+      "sets the height at which a punch rests; by default it rests on the highest "
+      "particle.");
 }
 
 TableDeclaration<PackingSpec> declared_packing() {
@@ -103,9 +108,8 @@ TableDeclaration<PackingSpec> declared_packing() {
   table.info.repeated = true;
   table.info.selector = "kind";
   table.info.doc =
-      "Many particles at once. Those of a lattice are numbered row by row from the bottom, those "
-      "of "
-      "a random packing class by class.";
+      "A packing of many particles. Lattice particles are numbered row by row from "
+      "the bottom, particles of a random packing class by class.";
   table.keys.push_back(kind_key());
   for (auto& key : lattice_keys()) table.keys.push_back(std::move(key));
   for (auto& key : die_keys()) table.keys.push_back(std::move(key));
@@ -114,34 +118,33 @@ TableDeclaration<PackingSpec> declared_packing() {
 }
 
 std::vector<Key<MixtureClass>> share_keys() {
-  return {
-      {{.name = "particle",
-        .kind = Kind::reference,
-        .refers_to = "particle",
-        .required = true,
-        .doc = "Class of the particles."},
-       index_to(&MixtureClass::particle)},
-      {{.name = "number",
-        .kind = Kind::integer,
-        .range = within(1, 1e5),
-        .doc = "Of particles. Every class of a mixture has a number, or every one a fraction of "
-               "the same kind; without any of them a single class is all of it.",
-        .fallback_doc = "by the fractions"},
-       [](MixtureClass& mixed, const Decoded& value) {
-         mixed.number = static_cast<int>(value.integer);
-       }},
-      {{.name = "number_fraction",
-        .kind = Kind::number,
-        .range = above(0, 1),
-        .doc = "Share of all particles; the classes' sum is 1.",
-        .fallback_doc = "none"},
-       [](MixtureClass& mixed, const Decoded& value) { mixed.number_fraction = value.number; }},
-      {{.name = "area_fraction",
-        .kind = Kind::number,
-        .range = above(0, 1),
-        .doc = "Share of the area of all particles; the classes' sum is 1.",
-        .fallback_doc = "none"},
-       [](MixtureClass& mixed, const Decoded& value) { mixed.area_fraction = value.number; }}};
+  return {{{.name = "particle",
+            .kind = Kind::reference,
+            .refers_to = "particle",
+            .required = true,
+            .doc = "Particle class."},
+           index_to(&MixtureClass::particle)},
+          {{.name = "number",
+            .kind = Kind::integer,
+            .range = within(1, 1e5),
+            .doc = "Number of particles. In a mixture either all classes have a number, or all "
+                   "have a fraction of the same kind. A single class needs neither.",
+            .fallback_doc = "from the fractions"},
+           [](MixtureClass& mixed, const Decoded& value) {
+             mixed.number = static_cast<int>(value.integer);
+           }},
+          {{.name = "number_fraction",
+            .kind = Kind::number,
+            .range = above(0, 1),
+            .doc = "Number fraction; the fractions of all classes sum to 1.",
+            .fallback_doc = "none"},
+           [](MixtureClass& mixed, const Decoded& value) { mixed.number_fraction = value.number; }},
+          {{.name = "area_fraction",
+            .kind = Kind::number,
+            .range = above(0, 1),
+            .doc = "Area fraction; the fractions of all classes sum to 1.",
+            .fallback_doc = "none"},
+           [](MixtureClass& mixed, const Decoded& value) { mixed.area_fraction = value.number; }}};
 }
 
 Key<MixtureClass> size_key(const char* name, double SizeLaw::*member, Words laws, const char* doc) {
@@ -166,55 +169,54 @@ Key<MixtureClass> limit_key(const char* name, const char* formerly,
        .range = within(smallest_size, largest_size),
        .only_for = {"uniform", "normal", "lognormal"},
        .doc = doc,
-       .fallback_doc = "required of `\"uniform\"`; `\"lognormal\"` goes on, `\"normal\"` ends "
-                       "three deviations from the mean"},
+       .fallback_doc = "required for `\"uniform\"`; by default `\"lognormal\"` is not cut off and "
+                       "`\"normal\"` is cut off at three standard deviations from the mean"},
       [member](MixtureClass& mixed, const Decoded& value) { mixed.size.*member = value.number; }};
 }
 
 Key<MixtureClass> distribution_key() {
-  return {
-      {.name = "distribution",
-       .kind = Kind::choice,
-       .choices = {{"mono", "all as the class says"},
-                   {"uniform", "all sizes from `minimum` to `maximum` alike"},
-                   {"normal", "cut off at `minimum` and `maximum`"},
-                   {"lognormal", "cut off at `minimum` and `maximum`"},
-                   {"sieve", "what passes each sieve, by area, from a file"}},
-       .fallback = value_of("mono"),
-       .doc = "Law of the sizes: by number of particles, \"sieve\" by their area. The size of a "
-              "particle is the smallest width of its outline, which a sieve lets through: of a "
-              "disc its diameter, of a rectangle its shorter side. The outline of the class is "
-              "scaled to it."},
-      [](MixtureClass& mixed, const Decoded& value) {
-        mixed.size.kind = static_cast<SizeLaw::Kind>(value.index);
-      }};
+  return {{.name = "distribution",
+           .kind = Kind::choice,
+           .choices = {{"mono", "all particles have the size of the class"},
+                       {"uniform", "uniform from `minimum` to `maximum`"},
+                       {"normal", "truncated at `minimum` and `maximum`"},
+                       {"lognormal", "truncated at `minimum` and `maximum`"},
+                       {"sieve", "sieve curve by area, from a file"}},
+           .fallback = value_of("mono"),
+           .doc = "Size distribution by number of particles; \"sieve\": by area. The size of a "
+                  "particle is the smallest width of its outline, which determines the sieve it "
+                  "passes: the diameter of a disc, the shorter side of a rectangle. The outline "
+                  "of the class is scaled to it."},
+          [](MixtureClass& mixed, const Decoded& value) {
+            mixed.size.kind = static_cast<SizeLaw::Kind>(value.index);
+          }};
 }
 
 std::vector<Key<MixtureClass>> size_keys() {
   return {distribution_key(),
           size_key("mean", &SizeLaw::mean, {"normal", "lognormal"},
-                   "Mean size, by number, before the law is cut off."),
+                   "Mean size by number, before truncation."),
           size_key("deviation", &SizeLaw::deviation, {"normal", "lognormal"},
-                   "Standard deviation of the size, before the law is cut off."),
-          limit_key("minimum", "least", &SizeLaw::minimum, "No particle is smaller."),
-          limit_key("maximum", "largest", &SizeLaw::maximum, "No particle is larger."),
+                   "Standard deviation of the size, before truncation."),
+          limit_key("minimum", "least", &SizeLaw::minimum, "Minimum size."),
+          limit_key("maximum", "largest", &SizeLaw::maximum, "Maximum size."),
           {{.name = "file",
             .kind = Kind::file,
             .required = true,
             .only_for = "sieve",
-            .doc = "Path from the scene's folder. Columns size (unit in the header, `size [mm]`) "
-                   "and passing: the share of the area that is smaller, rising from 0 to 1, "
-                   "straight in between."},
+            .doc = "Path relative to the folder of the scene. The columns are size (unit in the "
+                   "header, `size [mm]`) and passing: the area fraction of smaller particles, "
+                   "rising from 0 to 1, linearly interpolated."},
            [](MixtureClass& mixed, const Decoded& value) { mixed.size.file = value.text; }},
           {{.name = "sizes",
             .kind = Kind::integer,
             .range = within(1, 256),
             .fallback = value_of(8),
             .only_for = {"uniform", "normal", "lognormal", "sieve"},
-            .doc = "How many sizes stand for the law, each for the same share of it (of the "
-                   "particles, of \"sieve\" of the area) and with its share's mean area. Particles "
-                   "of one size share their mesh and are computed eight at a time: choose this so "
-                   "that many particles have each."},
+            .doc = "Number of discrete sizes that represent the distribution. Each stands for an "
+                   "equal fraction of it (of the particles; for \"sieve\" of the area) and has "
+                   "the mean area of its fraction. Particles of one size share a mesh and are "
+                   "computed eight at a time, so each size should have many particles."},
            [](MixtureClass& mixed, const Decoded& value) {
              mixed.size.sizes = static_cast<int>(value.integer);
            }}};
@@ -225,7 +227,7 @@ TableDeclaration<MixtureClass> declared_class() {
   table.info.path = "packing.class";
   table.info.repeated = true;
   table.info.selector = "distribution";
-  table.info.doc = "Of a random packing: how many particles of a class, and how large.";
+  table.info.doc = "A class of particles in a random packing: number and size.";
   table.keys = share_keys();
   for (auto& key : size_keys()) table.keys.push_back(std::move(key));
   return table;

@@ -44,31 +44,33 @@ auto outline_to(Set set, Value Decoded::*member = &Decoded::number) {
 
 const TableDeclaration<ParticleSpec>& particle() {
   static const TableDeclaration<ParticleSpec> declaration{
-      {"particle", true, "outline", "A class of equal particles; bodies and packings place them."},
+      {"particle", true, "outline",
+       "A class of identical particles, placed by bodies and packings."},
       {{{.name = "outline",
          .kind = Kind::choice,
          .choices = {{"disc", "a circle"},
                      {"rectangle", "sharp corners"},
-                     {"rounded_rectangle", "corners are arcs"},
-                     {"ring", "a tube; its hole is empty, and nothing touches its inner surface"},
-                     {"ellipse", "of two axes"},
-                     {"superellipse", "between a rhombus and a rectangle, by its exponent"},
-                     {"polygon", "regular, or by its corners; sharp or rounded"},
-                     {"points", "a smooth curve through points of a file, a traced grain"},
-                     {"fourier", "irregular, by the spectrum of its radius"}},
+                     {"rounded_rectangle", "corners rounded by arcs"},
+                     {"ring", "a tube; its hole is empty, and its inner surface has no contact"},
+                     {"ellipse", "two axes"},
+                     {"superellipse",
+                      "between a rhombus and a rectangle, depending on the exponent"},
+                     {"polygon", "regular, or defined by its corners; sharp or rounded"},
+                     {"points", "a smooth curve through points from a file: a traced grain"},
+                     {"fourier", "irregular, defined by the spectrum of its radius"}},
          .required = true,
          .doc = "Shape of the particle."},
         choose_outline},
        {{.name = "name",
          .kind = Kind::name,
          .required = true,
-         .doc = "Bodies and packings refer to it."},
+         .doc = "Name by which bodies and packings refer to the particle."},
         to(&ParticleSpec::name)},
        {{.name = "material",
          .kind = Kind::reference,
          .refers_to = "material",
          .required = true,
-         .doc = "What it is made of."},
+         .doc = "Material of the particle."},
         index_to(&ParticleSpec::material)},
        {{.name = "diameter",
          .kind = Kind::quantity,
@@ -77,9 +79,9 @@ const TableDeclaration<ParticleSpec>& particle() {
          .required = true,
          .only_for = {"disc", "ring", "polygon", "points", "fourier"},
          .optional_for = {"polygon", "points"},
-         .doc = "Outer diameter; of a regular polygon that of the circle through its corners; with "
-                "points and fourier that of the circle of the same area, to which the outline is "
-                "scaled."},
+         .doc = "Outer diameter. For a regular polygon: diameter of the circumscribed circle. "
+                "For points and fourier: diameter of the circle of equal area, to which the "
+                "outline is scaled."},
         outline_to(
             [](auto& o, double value) requires requires { o.diameter; } { o.diameter = value; })},
        {{.name = "width",
@@ -107,7 +109,7 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(smallest_size, largest_size),
          .required = true,
          .only_for = {"rounded_rectangle"},
-         .doc = "Radius of the four corners, at most half of the shorter side."},
+         .doc = "Radius of the four corners, at most half the shorter side."},
         outline_to(
             [](auto& o, double value) requires requires { o.radius; } { o.radius = value; })},
        {{.name = "hole",
@@ -116,7 +118,7 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(smallest_size, largest_size),
          .required = true,
          .only_for = {"ring"},
-         .doc = "Diameter of the hole, below that of the ring."},
+         .doc = "Diameter of the hole; must be less than that of the ring."},
         outline_to(
             [](auto& o, double value) requires requires { o.hole; } { o.hole = value; })},
        {{.name = "exponent",
@@ -124,8 +126,8 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(1.5, 20),
          .required = true,
          .only_for = "superellipse",
-         .doc = "Of abs(2x/width)^exponent + abs(2y/height)^exponent = 1: 2 is an ellipse, more "
-                "goes towards a rectangle, less towards a rhombus."},
+         .doc = "Exponent in abs(2x/width)^exponent + abs(2y/height)^exponent = 1: 2 gives an "
+                "ellipse, larger values approach a rectangle, smaller ones a rhombus."},
         outline_to(
             [](auto& o, double value) requires requires { o.exponent; } { o.exponent = value; })},
        {{.name = "sides",
@@ -133,7 +135,7 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(3, 64),
          .only_for = "polygon",
          .needs = "diameter",
-         .doc = "Of a regular polygon, one of them below."},
+         .doc = "Number of sides of a regular polygon, with one side at the bottom."},
         outline_to<std::int64_t>(
             [](auto& o, std::int64_t value) requires requires { o.sides; } {
               o.sides = static_cast<int>(value);
@@ -144,8 +146,8 @@ const TableDeclaration<ParticleSpec>& particle() {
          .unit = "m",
          .range = within(-largest_size, largest_size),
          .only_for = "polygon",
-         .doc = "Of a polygon that is not regular, in order; the centre of its area becomes the "
-                "particle's. Some point inside must see all of it."},
+         .doc = "Corners of an irregular polygon, in order. The area centroid becomes the "
+                "particle's centre. The whole outline must be visible from some interior point."},
         outline_to<std::vector<Vec2>>(
             [](auto& o, const std::vector<Vec2>& value) requires requires { o.corners; } {
               o.corners = value;
@@ -157,32 +159,33 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(0, largest_size),
          .fallback = value_of("0 m"),
          .only_for = "polygon",
-         .doc = "Radius of all corners; 0: sharp, allowed where no corner points inwards."},
+         .doc = "Radius of all corners; 0: sharp, allowed only for polygons without re-entrant "
+                "corners."},
         outline_to(
             [](auto& o, double value) requires requires { o.rounding; } { o.rounding = value; })},
        {{.name = "file",
          .kind = Kind::file,
          .required = true,
          .only_for = "points",
-         .doc = "Relative to the scene's folder. CSV: one point x, y a line in order; the first "
-                "line may name the columns with their unit: x (um), y (um). SVG, DXF: the one "
-                "closed outline in it."},
+         .doc = "Path relative to the folder of the scene. CSV: one point x, y per line, in "
+                "order; the first line may name the columns with their unit: x (um), y (um). "
+                "SVG or DXF: the only closed outline in it."},
         outline_to<std::string>(
             [](auto& o, const std::string& value) requires requires { o.file; } { o.file = value; },
             &Decoded::text)},
        {{.name = "unit",
          .kind = Kind::text,
          .only_for = "points",
-         .doc = "Unit of a file that names none: \"um\".",
-         .fallback_doc = "the file names it"},
+         .doc = "Unit of a file that does not specify one: \"um\".",
+         .fallback_doc = "specified in the file"},
         outline_to<std::string>(
             [](auto& o, const std::string& value) requires requires { o.unit; } { o.unit = value; },
             &Decoded::text)},
        {{.name = "layer",
          .kind = Kind::text,
          .only_for = "points",
-         .doc = "What of a drawing is meant: a layer of a DXF file; a group or shape of an SVG "
-                "file, by its id or Inkscape's label.",
+         .doc = "Part of a drawing to use: a layer of a DXF file; a group or shape of an SVG "
+                "file, by its id or Inkscape label.",
          .fallback_doc = "the whole drawing"},
         outline_to<std::string>(
             [](auto& o, const std::string& value) requires requires { o.layer; } {
@@ -195,8 +198,9 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(0, largest_size),
          .fallback = value_of("0 m"),
          .only_for = "points",
-         .doc = "Root mean square distance at which the curve may pass the file's points, before "
-                "scaling: the noise of the tracing; 0: through them."},
+         .doc = "Allowed root mean square distance between the curve and the points of the "
+                "file, before scaling, to smooth tracing noise; 0: the curve passes through "
+                "the points."},
         outline_to(
             [](auto& o, double value) requires requires { o.smoothing; } { o.smoothing = value; })},
        {{.name = "area",
@@ -204,8 +208,8 @@ const TableDeclaration<ParticleSpec>& particle() {
          .unit = "m^2",
          .range = within(smallest_size * smallest_size, largest_size * largest_size),
          .only_for = "points",
-         .doc = "To which the outline is scaled.",
-         .fallback_doc = "the file's own size, without `width` and `diameter`"},
+         .doc = "Area to which the outline is scaled.",
+         .fallback_doc = "the size in the file, unless `width` or `diameter` is given"},
         outline_to(
             [](auto& o, double value) requires requires { o.area; } { o.area = value; })},
        {{.name = "aspect_ratio",
@@ -213,8 +217,9 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(1, 4),
          .fallback = value_of(1.0),
          .only_for = "fourier",
-         .doc = "The outline is stretched along the particle's own x axis and shortened across, so "
-                "that a circle becomes an ellipse of this length over width."},
+         .doc = "The outline is stretched along the particle's own x axis and compressed "
+                "across it, so that a circle becomes an ellipse of this aspect ratio (length "
+                "over width)."},
         outline_to(
             [](auto& o, double value) requires requires { o.aspect_ratio; } {
               o.aspect_ratio = value;
@@ -224,8 +229,9 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(0, 0.5),
          .fallback = value_of(0.0),
          .only_for = "fourier",
-         .doc = "How far from round: amplitude of the radius' mode 3 over the mean radius, from "
-                "which the modes up to 7 follow by `decay`. 0.1 is an angular grain."},
+         .doc = "Deviation from a circle: amplitude of mode 3 of the radius divided by the "
+                "mean radius. The modes up to 7 follow from it with `decay`. 0.1 is an angular "
+                "grain."},
         outline_to(
             [](auto& o, double value) requires requires { o.irregularity; } {
               o.irregularity = value;
@@ -235,8 +241,8 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(0, 0.2),
          .fallback = value_of(0.0),
          .only_for = "fourier",
-         .doc = "How bumpy: the same of mode 8, from which the modes up to `modes` follow. It asks "
-                "for a fine mesh."},
+         .doc = "Surface roughness: relative amplitude of mode 8. The modes up to `modes` "
+                "follow from it. Needs a fine mesh."},
         outline_to(
             [](auto& o, double value) requires requires { o.roughness; } { o.roughness = value; })},
        {{.name = "decay",
@@ -244,7 +250,7 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(0, 10),
          .fallback = value_of(2.0),
          .only_for = "fourier",
-         .doc = "Mode n has the amplitude irregularity (n/3)^-decay, from 8 on roughness "
+         .doc = "Mode n has the amplitude irregularity (n/3)^-decay, from mode 8 on roughness "
                 "(n/8)^-decay."},
         outline_to(
             [](auto& o, double value) requires requires { o.decay; } { o.decay = value; })},
@@ -254,7 +260,7 @@ const TableDeclaration<ParticleSpec>& particle() {
          .fallback = value_of(16),
          .only_for = "fourier",
          .needs = "roughness",
-         .doc = "The highest mode of the roughness."},
+         .doc = "Highest mode of the roughness."},
         outline_to<std::int64_t>(
             [](auto& o, std::int64_t value) requires requires { o.modes; } {
               o.modes = static_cast<int>(value);
@@ -265,9 +271,9 @@ const TableDeclaration<ParticleSpec>& particle() {
          .range = within(0, 1e15),
          .fallback = value_of(1),
          .only_for = "fourier",
-         .doc =
-             "Which outline of this spectrum: the modes' phases are drawn from this number "
-             "alone, not from the scene's `seed`, so that packings in files keep their outlines."},
+         .doc = "Selects an outline with this spectrum. The phases of the modes depend only on "
+                "this number, not on the scene's `seed`, so packings read from files keep "
+                "their outlines."},
         outline_to<std::int64_t>(
             [](auto& o, std::int64_t value) requires requires { o.variant; } {
               o.variant = static_cast<std::uint64_t>(value);
@@ -277,7 +283,7 @@ const TableDeclaration<ParticleSpec>& particle() {
          .kind = Kind::flag,
          .fallback = value_of(false),
          .only_for = {"polygon", "points"},
-         .doc = "x to -x, before any turn."},
+         .doc = "Mirror the outline, x to -x, before any rotation."},
         outline_to<bool>(
             [](auto& o, bool value) requires requires { o.mirrored; } { o.mirrored = value; },
             &Decoded::flag)}}};

@@ -9,62 +9,61 @@ std::vector<Key<ServoSpec>> aims() {
             .kind = Kind::reference,
             .refers_to = "tool",
             .required = true,
-            .doc = "The tool that holds the force: a plane or a polyline."},
+            .doc = "Force-controlled tool: a plane or a polyline."},
            index_to(&ServoSpec::tool)},
           {{.name = "force",
             .kind = Kind::quantity,
             .unit = "N",
             .range = within(0, 1e12),
             .required = true,
-            .doc = "With which it is to push, on the slice of the scene's thickness."},
+            .doc = "Target force, for the slice of the scene's thickness."},
            to(&ServoSpec::force)},
           {{.name = "direction",
             .kind = Kind::direction,
-            .doc = "The direction in which it pushes.",
-            .fallback_doc = "a plane's normal; required of polylines"},
+            .doc = "Direction of the force exerted by the tool.",
+            .fallback_doc = "the normal of a plane; required for polylines"},
            [](ServoSpec& spec, const Decoded& value) { spec.direction = value.vector; }}};
 }
 
 std::vector<Key<ServoSpec>> manners() {
-  return {
-      {{.name = "rise",
-        .kind = Kind::number,
-        .range = above(0, 1),
-        .doc = "Share of the stage in which the force asked for goes smoothly from what the "
-               "tool bears at its beginning to `force`.",
-        .fallback_doc = "0.2, or by `rate`"},
-       to(&ServoSpec::rise)},
-      {{.name = "rate",
-        .kind = Kind::quantity,
-        .unit = "N/s",
-        .range = above(0, 1e18),
-        .doc = "Instead of `rise`: how fast the force asked for changes, in the mean of its "
-               "smooth ramp.",
-        .fallback_doc = "by `rise`"},
-       to(&ServoSpec::rate)},
-      {{.name = "response",
-        .kind = Kind::number,
-        .range = within(1e-3, 100),
-        .fallback = value_of(0.1),
-        .doc = "Mass that the set force has to move besides the powder, over that of the whole "
-               "powder: less holds the force more tightly, more is calmer. What touches the tool "
-               "may ask for more."},
-       to(&ServoSpec::response)},
-      {{.name = "max_speed",
-        .formerly = "fastest",
-        .kind = Kind::quantity,
-        .unit = "m/s",
-        .range = within(1e-9, 1e4),
-        .fallback = value_of("10 m/s"),
-        .doc = "Speed that the servo does not pass, whatever force is missing."},
-       to(&ServoSpec::max_speed)},
-      {{.name = "tolerance",
-        .kind = Kind::number,
-        .range = above(0, 1e9),
-        .fallback = value_of(0.05),
-        .doc = "Share of the force by which it may be off at the end of the stage; otherwise "
-               "the run stops and says what was reached."},
-       to(&ServoSpec::tolerance)}};
+  return {{{.name = "rise",
+            .kind = Kind::number,
+            .range = above(0, 1),
+            .doc = "Fraction of the stage over which the target force changes smoothly from the "
+                   "initial force on the tool to `force`.",
+            .fallback_doc = "0.2, or from `rate`"},
+           to(&ServoSpec::rise)},
+          {{.name = "rate",
+            .kind = Kind::quantity,
+            .unit = "N/s",
+            .range = above(0, 1e18),
+            .doc = "Alternative to `rise`: mean rate of change of the target force during its "
+                   "smooth ramp.",
+            .fallback_doc = "from `rise`"},
+           to(&ServoSpec::rate)},
+          {{.name = "response",
+            .kind = Kind::number,
+            .range = within(1e-3, 100),
+            .fallback = value_of(0.1),
+            .doc = "Mass moved by the servo force in addition to the powder, divided by the mass "
+                   "of the whole powder: smaller values hold the force more tightly, larger "
+                   "values run more smoothly. Contact with the tool may require more."},
+           to(&ServoSpec::response)},
+          {{.name = "max_speed",
+            .formerly = "fastest",
+            .kind = Kind::quantity,
+            .unit = "m/s",
+            .range = within(1e-9, 1e4),
+            .fallback = value_of("10 m/s"),
+            .doc = "Maximum speed of the servo, whatever the force error."},
+           to(&ServoSpec::max_speed)},
+          {{.name = "tolerance",
+            .kind = Kind::number,
+            .range = above(0, 1e9),
+            .fallback = value_of(0.05),
+            .doc = "Allowed force error at the end of the stage, as a fraction of the force. If "
+                   "it is exceeded, the run stops and reports the force reached."},
+           to(&ServoSpec::tolerance)}};
 }
 
 }  // namespace
@@ -73,9 +72,9 @@ const TableDeclaration<ServoSpec>& servo() {
   static const TableDeclaration<ServoSpec> declaration = [] {
     TableDeclaration<ServoSpec> made{
         {"stage.servo", true, "",
-         "A tool that holds a force during the stage above it, whatever displacement that takes. "
-         "In the "
-         "stage after it, it stands where it was left, unless that has a servo for it too."},
+         "A tool under force control during the preceding stage, at whatever "
+         "displacement the force requires. In the next stage it keeps its last position "
+         "unless that stage has a servo for it too."},
         aims()};
     for (const auto& key : manners()) made.keys.push_back(key);
     return made;
@@ -86,16 +85,15 @@ const TableDeclaration<ServoSpec>& servo() {
 const TableDeclaration<UntilSpec>& until() {
   static const TableDeclaration<UntilSpec> declaration{
       {"stage.until", false, "",
-       "Ends the stage above it before its time is over; its tools, or strains, then come to rest "
-       "as "
-       "smoothly as they started. A stage whose time is over before that stops the run. One of "
-       "`force`, "
-       "`displacement` and `relative_density`.",
+       "Ends the preceding stage before its duration is over; its tools or strains "
+       "then come to rest as smoothly as they started. If the condition is not met "
+       "within the duration of the stage, the run stops. Exactly one of `force`, "
+       "`displacement` and `relative_density` is given.",
        compaction_only, true},
       {{{.name = "tool",
          .kind = Kind::reference,
          .refers_to = "tool",
-         .doc = "Whose force or displacement it is.",
+         .doc = "Tool whose force or displacement is monitored.",
          .fallback_doc = "required with `force` and `displacement`"},
         [](UntilSpec& spec, const Decoded& value) { spec.tool = value.index; }},
        {{.name = "force",
@@ -103,8 +101,8 @@ const TableDeclaration<UntilSpec>& until() {
          .unit = "N",
          .range = above(0, 1e12),
          .needs = "tool",
-         .doc = "Of the powder on the tool: against the normal of a plane, the whole of a "
-                "polyline's.",
+         .doc = "Force of the powder on the tool: against the normal of a plane, the magnitude "
+                "for a polyline.",
          .fallback_doc = "none"},
         to(&UntilSpec::force)},
        {{.name = "displacement",
@@ -112,15 +110,14 @@ const TableDeclaration<UntilSpec>& until() {
          .unit = "m",
          .range = above(0, largest_size),
          .needs = "tool",
-         .doc = "How far the tool is from where it stood when the stage began.",
+         .doc = "Distance of the tool from its position at the start of the stage.",
          .fallback_doc = "none"},
         to(&UntilSpec::displacement)},
        {{.name = "relative_density",
          .kind = Kind::number,
          .range = above(0, 2),
-         .doc =
-             "Of the powder in a die of four planes; or in a periodic cell, when its strains have "
-             "come to rest.",
+         .doc = "Relative density of the powder in a die of four planes, or in a periodic cell "
+                "after its strains have come to rest.",
          .fallback_doc = "none"},
         to(&UntilSpec::relative_density)}}};
   return declaration;

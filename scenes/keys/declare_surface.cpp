@@ -24,11 +24,11 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
         .kind = Kind::choice,
         .choices = {{"plane", "flat, level or inclined"},
                     {"bump", "a ridge with flat flanks and a flat top"},
-                    {"step", "a plateau behind one flank"},
-                    {"sinusoid", "a wave"},
-                    {"map", "heights from a file"}},
+                    {"step", "a plateau behind a single flank"},
+                    {"sinusoid", "a sine wave"},
+                    {"map", "a height map from a file"}},
         .required = true,
-        .doc = "Of the surface."},
+        .doc = "Shape of the surface."},
        [](TargetSpec& s, const Decoded& value) {
          s.shape = static_cast<TargetSpec::Shape>(value.index);
        }},
@@ -37,7 +37,7 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
         .choices = {{"lateral", "along y, across the lever"}, {"along", "along x"}},
         .fallback = value_of("lateral"),
         .only_for = {"plane", "bump", "step", "sinusoid"},
-        .doc = "In which the surface rises."},
+        .doc = "Direction in which the surface rises."},
        [](TargetSpec& s, const Decoded& value) {
          s.direction = static_cast<TargetSpec::Direction>(value.index);
        }},
@@ -47,17 +47,17 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
         .range = within(-1.2, 1.2),
         .fallback = value_of("0 deg"),
         .only_for = "plane",
-        .doc = "Angle by which it rises."},
+        .doc = "Inclination angle."},
        to(&TargetSpec::incline)},
       surface_length_key("height", {"bump", "step", "sinusoid"},
-                         "Of the bump or step; of a wave from valley to crest.",
+                         "Height of the bump or step; of a wave, from valley to crest.",
                          &TargetSpec::height),
       {{.name = "slope",
         .kind = Kind::number,
         .range = within(0.01, 100),
         .required = true,
         .only_for = {"bump", "step"},
-        .doc = "Of the flanks: rise over run."},
+        .doc = "Slope of the flanks: rise over run."},
        to(&TargetSpec::slope)},
       {{.name = "plateau",
         .kind = Kind::quantity,
@@ -73,25 +73,26 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
         .range = within(-largest_size, largest_size),
         .fallback = value_of("0 m"),
         .only_for = {"bump", "step", "sinusoid"},
-        .doc = "Where the first flank begins (a wave rises through its mean height), from the "
-               "place under the tip at the start."},
+        .doc = "Start of the first flank (for a wave: where it rises through its mean "
+               "height), measured from the point under the tip at the start."},
        to(&TargetSpec::position)},
-      surface_length_key("wavelength", "sinusoid", "Of the wave.", &TargetSpec::wavelength),
+      surface_length_key("wavelength", "sinusoid", "Wavelength.", &TargetSpec::wavelength),
       {{.name = "file",
         .kind = Kind::file,
         .required = true,
         .only_for = "map",
-        .doc = "Heights in m, as a path from the scene's folder: a text file, comma-separated, a "
-               "line for every y, rising, a number for every x, rising; or an HDF5 file (.h5, "
-               ".hdf5). Its middle lies under the tip at the start."},
+        .doc = "Heights in m, as a path relative to the folder of the scene: a "
+               "comma-separated text file with one line per y and one number per x, both "
+               "increasing; or an HDF5 file (.h5, .hdf5). The centre of the map is under the "
+               "tip at the start."},
        to(&TargetSpec::file)},
       {{.name = "dataset",
         .kind = Kind::text,
         .fallback = value_of("heights"),
         .only_for = "map",
-        .doc = "Of an HDF5 file: where the heights are in it, [y, x]."},
+        .doc = "Dataset of the heights in an HDF5 file, [y, x]."},
        to(&TargetSpec::dataset)},
-      surface_length_key("spacing", "map", "Of the points along x and y.", &TargetSpec::spacing),
+      surface_length_key("spacing", "map", "Grid spacing along x and y.", &TargetSpec::spacing),
   };
 }
 
@@ -101,26 +102,26 @@ std::vector<Key<TargetSpec>> law_keys() {
         .kind = Kind::number,
         .range = within(0, 10),
         .fallback = value_of(0.0),
-        .doc = "Coulomb coefficient between the tip and the surface."},
+        .doc = "Coulomb friction coefficient between tip and surface."},
        to(&TargetSpec::friction)},
       {{.name = "pull_off",
         .kind = Kind::quantity,
         .unit = "N",
         .range = within(0, 1),
         .fallback = value_of("0 N"),
-        .doc =
-            "Adhesion (DMT): attraction in contact, which adds to the force that friction sees."},
+        .doc = "Adhesion force (DMT): attraction in contact, which adds to the normal force "
+               "in the friction law."},
        to(&TargetSpec::pull_off)},
       {{.name = "adhesion",
         .kind = Kind::choice,
-        .choices = {{"dmt", "a force `pull_off`, whatever touches"},
+        .choices = {{"dmt", "an adhesion force `pull_off`, for any shape in contact"},
                     {"jkr",
-                     "Johnson, Kendall & Roberts: an elastic ball on a plane, "
+                     "Johnson, Kendall & Roberts: an elastic ball on a plane, with "
                      "`work_of_adhesion`"}},
         .fallback = value_of("dmt"),
-        .doc = "Law of attraction. With JKR the ball touches by its own law of approach, neck and "
-               "contact radius, not by its mesh; it pulls off with 3/2 pi w R, which adds to the "
-               "force that friction sees."},
+        .doc = "Adhesion law. With JKR, approach, neck and contact radius of the ball follow "
+               "the law, not the mesh. The ball pulls off at 3/2 pi w R, which adds to the "
+               "normal force in the friction law."},
        [](TargetSpec& s, const Decoded& value) {
          s.adhesion = static_cast<TargetSpec::Adhesion>(value.index);
        }},
@@ -128,14 +129,15 @@ std::vector<Key<TargetSpec>> law_keys() {
         .kind = Kind::quantity,
         .unit = "J/m^2",
         .range = within(1e-6, 1e3),
-        .doc = "w of JKR: what it costs to part an area of the ball and the surface.",
-        .fallback_doc = "must be given with `adhesion = \"jkr\"`"},
+        .doc = "w of JKR: energy per area needed to separate ball and surface.",
+        .fallback_doc = "required with `adhesion = \"jkr\"`"},
        to(&TargetSpec::work)},
       {{.name = "adhesion_range",
         .kind = Kind::quantity,
         .unit = "m",
         .range = within(1e-12, 1e-3),
-        .doc = "Gap r over which attraction fades as 1/(1 + gap/r)^2; only with DMT.",
+        .doc = "Range r of the attraction, which decays with the gap as 1/(1 + gap/r)^2; DMT "
+               "only.",
         .fallback_doc = "1 nm"},
        to(&TargetSpec::range)},
   };
@@ -147,7 +149,8 @@ const TableDeclaration<TargetSpec>& surface() {
   static const TableDeclaration<TargetSpec> declaration = [] {
     TableDeclaration<TargetSpec> made{
         {"surface", false, "shape",
-         "The sample under the tip: rigid, moved by the scanner. At the start it just touches.",
+         "The sample under the tip: rigid, moved by the scanner. At the start it just "
+         "touches the tip.",
          afm_only, true},
         surface_shape_keys()};
     for (const auto& key : law_keys()) made.keys.push_back(key);
@@ -159,18 +162,18 @@ const TableDeclaration<TargetSpec>& surface() {
 const TableDeclaration<ActionSpec>& action() {
   static const TableDeclaration<ActionSpec> declaration{
       {"action", true, "kind",
-       "A part of what the scanner does; actions follow each other in the order of the file. "
-       "Without any the lever is calibrated.",
+       "A step of the scanner programme; actions run in file order. Without actions "
+       "the run calibrates the lever.",
        afm_only},
       {{{.name = "kind",
          .kind = Kind::choice,
          .choices = {{"press", "the surface moves up"},
-                     {"scan", "the probe is drawn over the surface"},
+                     {"scan", "the probe moves across the surface"},
                      {"retract", "the surface moves down"},
                      {"hold", "nothing moves"},
-                     {"raster", "line by line, trace and retrace, over an area"}},
+                     {"raster", "scan an area line by line, trace and retrace"}},
          .required = true,
-         .doc = "What is done."},
+         .doc = "Kind of action."},
         [](ActionSpec& a, const Decoded& value) {
           a.kind = static_cast<ActionSpec::Kind>(value.index);
         }},
@@ -180,8 +183,8 @@ const TableDeclaration<ActionSpec>& action() {
          .range = within(-largest_size, largest_size),
          .fallback = value_of("0 m"),
          .only_for = {"press", "scan", "retract", "raster"},
-         .doc = "How far the scanner goes; press: or give `force`. Of a raster: length of a line, "
-                "which begins where the probe is."},
+         .doc = "Travel of the scanner; for a press, `force` may be given instead. For a "
+                "raster: length of a line, which begins at the current position of the probe."},
         to(&ActionSpec::distance)},
        {{.name = "force",
          .kind = Kind::quantity,
@@ -189,48 +192,48 @@ const TableDeclaration<ActionSpec>& action() {
          .range = within(-1, 1),
          .only_for = "press",
          .doc = "Vertical force of the surface on the tip at the end of the press.",
-         .fallback_doc = "the surface moves by `distance`"},
+         .fallback_doc = "none: the surface moves by `distance`"},
         to(&ActionSpec::force)},
        {{.name = "direction",
          .kind = Kind::choice,
          .choices = {{"lateral", "along y, across the lever"}, {"along", "along x"}},
          .fallback = value_of("lateral"),
          .only_for = {"scan", "raster"},
-         .doc = "Of the probe's path over the surface; of a raster: of its lines."},
+         .doc = "Scan direction over the surface; for a raster, the direction of its lines."},
         [](ActionSpec& a, const Decoded& value) {
           a.direction = static_cast<TargetSpec::Direction>(value.index);
         }},
        {{.name = "retrace",
          .formerly = "back",
          .kind = Kind::choice,
-         .choices = {{"yes", "trace and retrace"}, {"no", "trace alone"}},
+         .choices = {{"yes", "trace and retrace"}, {"no", "trace only"}},
          .fallback = value_of("yes"),
          .only_for = "scan",
          .doc = "Whether the scan returns."},
         [](ActionSpec& a, const Decoded& value) { a.retrace = value.index == 0; }},
        {{.name = "set_point",
          .kind = Kind::choice,
-         .choices = {{"height", "the scanner keeps its height"},
-                     {"force", "its height follows so that the vertical force stays"}},
+         .choices = {{"height", "constant scanner height"},
+                     {"force", "constant vertical force: the height is adjusted"}},
          .fallback = value_of("height"),
          .only_for = {"scan", "hold", "raster"},
-         .doc = "What stays the same."},
+         .doc = "Controlled quantity."},
         [](ActionSpec& a, const Decoded& value) { a.servo = value.index == 1; }},
        {{.name = "increments",
          .kind = Kind::integer,
          .range = within(1, 100000),
          .fallback = value_of(20),
-         .doc = "Steps of the scan (of each direction of one that returns); pixels of a raster's "
-                "line."},
+         .doc = "Number of increments of the scan (per direction if it returns); for a raster, "
+                "pixels per line."},
         integer_to(&ActionSpec::increments)},
-       surface_length_key("width", "raster", "Of the area, square to its lines.",
+       surface_length_key("width", "raster", "Width of the area, perpendicular to the lines.",
                           &ActionSpec::width),
        {{.name = "lines",
          .kind = Kind::integer,
          .range = within(1, 10000),
          .fallback = value_of(16),
          .only_for = "raster",
-         .doc = "Of the area: one at its near edge, the others evenly up to its far one."},
+         .doc = "Number of lines, evenly spaced from the near to the far edge of the area."},
         integer_to(&ActionSpec::lines)}}};
   return declaration;
 }

@@ -10,9 +10,9 @@ Key<ToolSpec> points_key() {
            .unit = "m",
            .range = within(-largest_size, largest_size),
            .only_for = "polyline",
-           .doc = "Corners of the surface, in order, the powder to the left: a floor is walked "
-                  "towards +x. Beyond the first and the last it goes on straight.",
-           .fallback_doc = "required, unless there is a `file`"},
+           .doc = "Corners of the surface in order, with the powder on the left: a floor runs "
+                  "towards +x. The surface continues straight beyond the first and last point.",
+           .fallback_doc = "required unless `file` is given"},
           to(&ToolSpec::points)};
 }
 
@@ -28,33 +28,32 @@ Key<ToolSpec> drawing_key(const char* name, std::string ToolSpec::*member, const
 }
 
 Key<ToolSpec> rounding_key() {
-  return {
-      {.name = "rounding",
-       .kind = Kind::quantity,
-       .unit = "m",
-       .range = within(0, largest_size),
-       .fallback = value_of("0 mm"),
-       .only_for = {"polyline", "profile"},
-       .doc = "Radius of the corners that point into the powder; valleys stay sharp, flat parts "
-              "stay where the points say. Take at least half a boundary edge of the powder's mesh: "
-              "a sharper corner can press in between the points where an edge is sampled "
-              "(docs/accuracy.md)."},
-      to(&ToolSpec::rounding)};
+  return {{.name = "rounding",
+           .kind = Kind::quantity,
+           .unit = "m",
+           .range = within(0, largest_size),
+           .fallback = value_of("0 mm"),
+           .only_for = {"polyline", "profile"},
+           .doc = "Radius of the corners that point into the powder; valleys stay sharp, and "
+                  "flat parts stay where the points put them. It should be at least half a "
+                  "boundary edge of the powder mesh: sharper corners can penetrate between the "
+                  "contact points of an edge (docs/accuracy.md)."},
+          to(&ToolSpec::rounding)};
 }
 
 Key<ToolSpec> holds_key() {
   return {{.name = "holds",
            .kind = Kind::choice,
-           .choices = {{"x", "nodes move with the constraint in x, freely in y"},
-                       {"y", "nodes move with the constraint in y, freely in x"},
-                       {"both", "nodes move with the constraint"},
+           .choices = {{"x", "nodes follow the constraint in x and are free in y"},
+                       {"y", "nodes follow the constraint in y and are free in x"},
+                       {"both", "nodes follow the constraint"},
                        {"radial",
-                        "nodes move away from `point` by the first component of the "
-                        "displacement, freely across; the constraint's force_x is the sum of the "
-                        "radial forces"}},
+                        "nodes move radially away from `point` by the first component of the "
+                        "displacement and are free in the tangential direction; force_x of the "
+                        "constraint is the sum of the radial forces"}},
            .required = true,
            .only_for = "constraint",
-           .doc = "The direction in which nodes are held."},
+           .doc = "Constrained direction."},
           [](ToolSpec& spec, const Decoded& value) {
             spec.holds = static_cast<ToolSpec::Holds>(value.index);
           }};
@@ -67,7 +66,7 @@ Key<ToolSpec> corner_key(const char* name, Vec2 ToolSpec::*member, const char* d
            .range = within(-largest_size, largest_size),
            .only_for = "constraint",
            .doc = doc,
-           .fallback_doc = "required, unless there is a `radius`"},
+           .fallback_doc = "required unless `radius` is given"},
           to(member)};
 }
 
@@ -77,9 +76,9 @@ Key<ToolSpec> radius_key() {
            .unit = "m",
            .range = within(smallest_size, largest_size),
            .only_for = "constraint",
-           .doc = "Instead of the box: nodes no farther from `point` than this, before the run. "
-                  "The nodes of a hole lie a little outside of its circle, as their polygon has "
-                  "its area.",
+           .doc = "Instead of the box: constrains nodes within this distance of `point` in the "
+                  "initial state. The nodes of a hole lie slightly outside its circle, because "
+                  "the polygon has the same area.",
            .fallback_doc = "the box"},
           to(&ToolSpec::radius)};
 }
@@ -90,7 +89,7 @@ Key<ToolSpec> body_key() {
            .range = within(0, 1e6),
            .fallback = value_of(0),
            .only_for = "constraint",
-           .doc = "Number of the particle whose nodes are held, in the order of the file, from 0."},
+           .doc = "Number of the particle whose nodes are constrained, in file order, from 0."},
           integer_to(&ToolSpec::body)};
 }
 
@@ -99,20 +98,19 @@ std::vector<Key<ToolSpec>> place_keys() {
       {{.name = "name",
         .kind = Kind::name,
         .required = true,
-        .doc = "Moves, friction pairs and the results refer to it."},
+        .doc = "Name used in moves, friction pairs and results."},
        to(&ToolSpec::name)},
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices =
-            {{"plane", "fills the half-plane behind its surface"},
-             {"polyline", "fills what lies to the right of a chain of points"},
-             {"constraint",
-              "prescribes the displacement of the nodes of one particle in a box or a circle; "
-              "nothing touches it",
-              "grip"},
-             {"profile", "a target surface: fills what lies below a relief along x"}},
+        .choices = {{"plane", "fills the half-plane behind its surface"},
+                    {"polyline", "fills the region to the right of a chain of points"},
+                    {"constraint",
+                     "prescribes the displacement of the nodes of one particle in a box or a "
+                     "circle; has no contact",
+                     "grip"},
+                    {"profile", "a target surface: fills the region below a relief along x"}},
         .required = true,
-        .doc = "What it is."},
+        .doc = "Type of tool."},
        [](ToolSpec& spec, const Decoded& value) {
          spec.shape = static_cast<ToolSpec::Shape>(value.index);
        }},
@@ -121,14 +119,14 @@ std::vector<Key<ToolSpec>> place_keys() {
         .unit = "m",
         .range = within(-largest_size, largest_size),
         .choices = {{"packing top",
-                     "the height at which a punch rests on the packing; of several the highest"}},
-        .doc = "A point of a plane's surface, a crest of a profile, or the centre of a constraint "
-               "with "
-               "holds = \"radial\" or a `radius`. Of a drawn polyline: where the drawing is moved "
-               "to, so that the place furthest along `normal` is level with it, and the middle "
-               "between the line's ends beside it.",
-        .fallback_doc = "required of those, of a drawn polyline its place in the drawing; refused "
-                        "elsewhere"},
+                     "the height at which a punch rests on the packing; with several packings, the "
+                     "highest"}},
+        .doc = "A point on the surface of a plane, a crest of a profile, or the centre of a "
+               "constraint with holds = \"radial\" or a `radius`. A polyline from a drawing "
+               "is moved so that its furthest part along `normal` is level with this point, "
+               "and the midpoint between its ends is beside it.",
+        .fallback_doc = "required for these; for a polyline from a drawing: its position in the "
+                        "drawing; not allowed elsewhere"},
        [](ToolSpec& spec, const Decoded& value) {
          spec.point = value.vector;
          spec.on_packing = value.is_word;
@@ -137,7 +135,7 @@ std::vector<Key<ToolSpec>> place_keys() {
         .kind = Kind::direction,
         .only_for = {"plane", "polyline"},
         .doc = "Direction from the tool into the powder, of any length.",
-        .fallback_doc = "required of planes, and of polylines with a `file`"},
+        .fallback_doc = "required for planes and for polylines with a `file`"},
        to(&ToolSpec::normal)}};
 }
 
@@ -145,16 +143,16 @@ std::vector<Key<ToolSpec>> keys() {
   std::vector<Key<ToolSpec>> all = place_keys();
   for (Key<ToolSpec> key :
        {points_key(),
-        drawing_key("unit", &ToolSpec::unit, "Unit of a drawing that names none: \"um\".",
-                    "the drawing names it"),
+        drawing_key("unit", &ToolSpec::unit, "Unit of a drawing that does not specify one: \"um\".",
+                    "specified in the drawing"),
         drawing_key("layer", &ToolSpec::layer,
-                    "What of a drawing is meant: a layer of a DXF file; a group or shape of an SVG "
-                    "file, by its id or Inkscape's label.",
+                    "Part of a drawing to use: a layer of a DXF file; a group or shape of an SVG "
+                    "file, by its id or Inkscape label.",
                     "the whole drawing"),
         rounding_key(), body_key(),
         corner_key("low", &ToolSpec::low,
-                   "Lower left corner of the box; nodes on its border count, where they lie before "
-                   "the run."),
+                   "Lower left corner of the box. Nodes on the boundary are included; positions "
+                   "are those of the initial state."),
         corner_key("high", &ToolSpec::high, "Upper right corner of the box."), radius_key(),
         holds_key()})
     all.push_back(std::move(key));
@@ -169,9 +167,8 @@ TableDeclaration<ToolSpec> declared() {
   table.info.repeated = true;
   table.info.selector = "shape";
   table.info.doc =
-      "A rigid punch, wall or surface, or a constraint: supports, planes of symmetry and "
-      "prescribed "
-      "displacements are constraints. Without a move a tool stands still.";
+      "A rigid punch, wall or surface, or a constraint: support, symmetry plane or "
+      "prescribed displacement. A tool without a move stays fixed.";
   table.keys = keys();
   return table;
 }

@@ -14,7 +14,7 @@ Key<Spec> class_of_lattice_key(Words lattices) {
            .refers_to = "particle",
            .required = true,
            .only_for = std::move(lattices),
-           .doc = "Their class."},
+           .doc = "Particle class."},
           index_to(&Spec::particle)};
 }
 
@@ -26,20 +26,19 @@ Key<Spec> height_key(const char* doc) {
            .range = within(smallest_size, largest_size),
            .only_for = "random",
            .doc = doc,
-           .fallback_doc = "what follows from count and density"},
+           .fallback_doc = "from count and density"},
           to(&Spec::height)};
 }
 
 template <class Spec>
 Key<Spec> count_key() {
-  return {
-      {.name = "count",
-       .kind = Kind::integer,
-       .range = within(1, 1e5),
-       .only_for = "random",
-       .doc = "Particles of all classes, where those give fractions.",
-       .fallback_doc = "the sum of the classes' numbers, or what follows from density and height"},
-      integer_to(&Spec::count)};
+  return {{.name = "count",
+           .kind = Kind::integer,
+           .range = within(1, 1e5),
+           .only_for = "random",
+           .doc = "Total number of particles of all classes, if those specify fractions.",
+           .fallback_doc = "the sum of the numbers of the classes, or from density and height"},
+          integer_to(&Spec::count)};
 }
 
 template <class Spec>
@@ -47,10 +46,10 @@ Key<Spec> density_key(const char* densest, const char* doc) {
   return {{.name = "density",
            .kind = Kind::number,
            .range = within(0.05, 0.999),
-           .choices = {{"touching", "until nothing moves any more"}, {"densest", densest}},
+           .choices = {{"touching", "until all motion has ceased"}, {"densest", densest}},
            .only_for = "random",
            .doc = doc,
-           .fallback_doc = "what follows from count and height"},
+           .fallback_doc = "from count and height"},
           [](Spec& packing, const Decoded& value) {
             using Dense = typename Spec::Dense;
             if (value.is_word)

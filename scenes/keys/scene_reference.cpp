@@ -11,16 +11,16 @@ constexpr const char* introduction = R"md(# The scene file
 
 <!-- Generated from the declarations in scenes/keys: change those, not this file. -->
 
-A scene is a TOML file that declares one experiment. It is checked before anything runs: unknown
-keys, wrong units, values that are impossible or have no effect, and references to names that do not
-exist are refused as `file:line:col: key: what is wrong, allowed: what is allowed`.
+A scene is a TOML file that defines one experiment. It is checked before anything runs: unknown
+keys, wrong units, values that are impossible or have no effect, and references to undefined names
+are refused with the message `file:line:col: key: what is wrong, allowed: what is allowed`.
 
 **Quantities** are strings of a number and a unit: `"10 mm"`, `"200 GPa"`, `"0.3 N/um^2"`,
-`"45 deg"`. Any unit of the right dimension will do; a bare number is refused where a unit is needed.
-Ranges below are in SI units. **Numbers** without a dimension are written bare: `0.3`.
+`"45 deg"`. Any unit of the right dimension is accepted; a number without a unit is refused where a
+unit is required. Ranges below are in SI units. Dimensionless **numbers** are written without quotes: `0.3`.
 
-**Variables and expressions**: `[let]` names numbers and quantities, and wherever a number or a quantity
-stands in the scene, an expression in quotes may stand instead.
+**Variables and expressions**: `[let]` defines named numbers and quantities. Wherever the scene expects a
+number or a quantity, an expression in quotes may be used.
 
 ```toml
 [let]
@@ -36,28 +36,28 @@ rows = "n"
 corner = ["gap", "2*gap + 0.1 mm"]
 ```
 
-- Operators are `+ - * / ^` and brackets; functions `sqrt`, `sin`, `cos`, `tan`, `asin`, `acos`, `atan`, `exp`,
-  `log` (natural), `abs`, `min`, `max`, `floor`, `ceil` and `round`, and `pi`.
-- A unit stands right behind its number: `0.1 mm`, `3 N/um^2`; blanks stand around `+` and `-`. Everywhere else a
-  name is a variable, so `2*D` is twice `D`, and `D/(1 mm)` its number of millimetres.
-- Dimensions are checked: a length plus a force is refused, as is a pressure where a length is wanted. Angles are no
-  plain numbers: `R*(phi/1 rad)` is an arc.
-- Where a whole number is wanted, the value must be one: `"floor(W/D)"`.
-- Names, paths and words are never expressions.
+- Operators are `+ - * / ^` and parentheses. Functions are `sqrt`, `sin`, `cos`, `tan`, `asin`, `acos`, `atan`,
+  `exp`, `log` (natural), `abs`, `min`, `max`, `floor`, `ceil` and `round`. `pi` is predefined.
+- A unit directly follows its number: `0.1 mm`, `3 N/um^2`. Put spaces around `+` and `-`. Everywhere else
+  a name is a variable, so `2*D` is twice `D`, and `D/(1 mm)` is its value in millimetres.
+- Dimensions are checked: adding a length and a force is refused, as is a pressure where a length is expected. Angles
+  are not dimensionless: `R*(phi/1 rad)` is an arc length.
+- Where a whole number is expected, the expression must give one: `"floor(W/D)"`.
+- Names, paths and choices are never expressions.
 - `--set "let.D=12 mm"` changes a variable, and so do studies: `let.D = ["12 mm", "24 mm"]` in `[grid]`. A file that
-  extends another changes variables in its own `[let]`. The scene that a run keeps has the values.
+  extends another changes variables in its own `[let]`. The scene saved with a run contains the values.
 
-**Files that extend another**: `extends = "other.toml"` takes everything from that file, and this one
-says only what differs. `pulvis check --print` shows the whole.
+**Extending another file**: `extends = "other.toml"` takes everything from that file; this file contains
+only the differences. `pulvis check --print` shows the merged scene.
 
-- A table is merged key by key. A value, an array too, replaces the other file's.
-- Of a repeated table, an element with a `name` changes the element of that name, or comes after the
-  others; `[[stage.move]]` and `[[stage.servo]]` are matched by their `tool`. The others have nothing to
-  be matched by: `[[body]]`, `[[packing]]`, `[[friction]]`, `[[action]]` and `[[expect]]`, where there are
-  any, replace all of the other file's.
-- `remove = ["tool.left", "particle.disc.mesh"]` takes out what is not wanted, before anything is merged.
-- The other file may extend one itself, and need not be a whole scene. Files are named from the folder of
-  the file that names them. What is wrong is told at the file and line that said it.
+- Tables are merged key by key. A value, including an array, replaces that of the other file.
+- In a repeated table, an element with a `name` changes the element of that name or is appended;
+  `[[stage.move]]` and `[[stage.servo]]` are matched by their `tool`. `[[body]]`, `[[packing]]`,
+  `[[friction]]`, `[[action]]` and `[[expect]]` have no name: if present, they replace all those of the
+  other file.
+- `remove = ["tool.left", "particle.disc.mesh"]` deletes items of the other file before merging.
+- The other file may itself extend a file, and need not be a complete scene. Paths are relative to the folder
+  of the file that contains them. Errors are reported at the file and line where they occur.
 
 ```
 extends = "../compaction/regular-100.toml"
@@ -72,8 +72,8 @@ friction = 0.3
 ```
 
 **Overrides** on the command line change one key: `--set key.path=value`. An element of a repeated
-table is chosen by position or by name (a move: by its tool); a name with a dot is quoted. A value
-that is not TOML is taken as a string.
+table is selected by position or by name (a move by its tool); a name that contains a dot is quoted. A
+value that is not valid TOML is read as a string.
 
 ```
 --set time.safety=0.5

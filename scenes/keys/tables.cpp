@@ -7,8 +7,8 @@ namespace {
 // Its names are the user's own (scenes/let).
 TableView variables() {
   return {{"let", false, "",
-           "Variables: names of your own for numbers and quantities, `D = \"24 mm\"`, `n = 10`, or "
-           "expressions of other variables, `gap = \"D/200\"` (above).",
+           "Variables: user-defined names for numbers and quantities, `D = \"24 mm\"`, `n "
+           "= 10`, or expressions in other variables, `gap = \"D/200\"` (see above).",
            every_family, true},
           {}};
 }

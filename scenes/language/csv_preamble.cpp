@@ -93,7 +93,8 @@ class Search {
   HeaderSearch without_names() const {
     if (fields_of(lines_[0], separator_of(lines_[0])).size() == fields_) return {};
     if (first_ == 1) return {};  // the row is refused, with both counts
-    return {first_ - 1, fmt::format("no names of the {} columns stand above the numbers", fields_)};
+    return {first_ - 1,
+            fmt::format("there are no names for the {} columns above the numbers", fields_)};
   }
 
   const std::vector<std::string_view>& lines_;

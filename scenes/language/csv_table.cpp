@@ -107,11 +107,12 @@ class Reader {
     else
       at = found_header();
     if (at >= lines_.size())
-      refuse_at(table_.file, 1, 1, "table",
-                table_.header_line > 0
-                    ? fmt::format("has no line {}, allowed: the line of the column names",
-                                  table_.header_line)
-                    : "is empty, allowed: a line of column names and lines of numbers");
+      refuse_at(
+          table_.file, 1, 1, "table",
+          table_.header_line > 0
+              ? fmt::format("has no line {}, allowed: the number of the line with the column names",
+                            table_.header_line)
+              : "is empty, allowed: a line of column names and lines of numbers");
     table_.header_line = lines_[at].number;
     separator_ = separator_of(lines_[at].text);
     std::vector<Cell> cells = cells_of(lines_[at].text, separator_);
@@ -135,8 +136,8 @@ class Reader {
     if (!found.problem.empty())
       refuse_at(
           table_.file, lines_[numbers[found.at]].number, 1, "table",
-          fmt::format("{}, below lines of text that begin the file; allowed: one line of names, "
-                      "{}'#' before each line of text",
+          fmt::format("{}, below lines of text at the start of the file; allowed: one line of "
+                      "names, {}'#' before each line of text",
                       found.problem,
                       has_key_ ? "the key header_line = its number in the file, or " : "or "));
     return numbers[found.at];
@@ -166,7 +167,8 @@ class Reader {
     const std::size_t wanted = table_.columns.size();
     const char other = separator_of(line);
     if (other != separator_ && cells_of(line, other).size() > 1)
-      return fmt::format("; here '{}' separates them: one sign for the whole file", sign(other));
+      return fmt::format("; here the separator is '{}': use the same one in the whole file",
+                         sign(other));
     if (separator_ == ',' && fields > wanted && fields <= 2 * wanted)
       return "; if the numbers have decimal commas (1,5), separate the columns by ';' or tabs";
     return "";
@@ -178,8 +180,8 @@ class Reader {
     if (cells.size() == wanted + 1 && cells.back().text.empty()) cells.pop_back();
     if (cells.size() != wanted)
       refuse_at(table_.file, line.number, 1, "row",
-                fmt::format("has {} fields, allowed: {}, as the column names in line {} ('{}' "
-                            "separates them){}",
+                fmt::format("has {} fields, allowed: {}, as many as the column names in line {} "
+                            "(separator '{}'){}",
                             cells.size(), wanted, table_.header_line, sign(separator_),
                             explained(line.text, cells.size())));
     table_.lines.push_back(line.number);
@@ -218,8 +220,8 @@ double number_in(const Table& table, std::size_t row, std::size_t column) {
   const auto read = std::from_chars(begin, end, value);
   if (mixed || read.ec != std::errc() || read.ptr != end || !std::isfinite(value))
     refuse(table, row, column,
-           fmt::format("'{}' is no finite number, allowed: digits with a decimal '{}', no other "
-                       "signs between them",
+           fmt::format("'{}' is not a finite number, allowed: digits with a decimal '{}' and no "
+                       "other separators",
                        cell.text.substr(0, longest_shown), table.decimal));
   return value;
 }
@@ -253,7 +255,7 @@ Table read(const std::filesystem::path& file, const Options& options) {
 
 Table read_text(std::string_view text, const std::filesystem::path& file, const Options& options) {
   if (is_utf16(text))
-    refuse_at(file, 1, 1, "table", "the file is UTF-16, allowed: text in UTF-8; save it as such");
+    refuse_at(file, 1, 1, "table", "the file is UTF-16, allowed: text in UTF-8; save it as UTF-8");
   const std::string whole = as_utf8(std::string(text));
   return Reader(whole, file, options).read();
 }
@@ -270,7 +272,7 @@ std::size_t column_at(const Table& table, const std::string& name) {
     names.push_back("'" + table.columns[i].name + "'");
   }
   refuse(table, name,
-         fmt::format("there is no such column, allowed: the name of one that is here: {}",
+         fmt::format("there is no such column, allowed: one of the columns of the file: {}",
                      listed(names)));
 }
 
@@ -281,7 +283,7 @@ void only(const Table& table, const std::vector<std::string>& names) {
       refuse(table, column.name, "the column is unknown, allowed: " + listed(names));
     if (std::count_if(table.columns.begin(), table.columns.end(),
                       [&](const Column& other) { return same(other.name); }) > 1)
-      refuse(table, column.name, "the column is there twice, allowed: each once");
+      refuse(table, column.name, "the column occurs twice, allowed: each once");
   }
 }
 

@@ -70,7 +70,7 @@ double quantity(const KeyInfo& key, const Value& value) {
                                                        : std::nullopt;
   if (bare && std::isfinite(*bare))
     refuse(key, value,
-           fmt::format("missing unit: {} has none, {} is wanted: write one, such as {}",
+           fmt::format("missing unit: {} has none, {} is expected: write one, such as {}",
                        document::value_text(value), key.unit, quantity_example(key, *bare)));
   if (text == nullptr) refuse_type(key, value);
   try {
@@ -107,7 +107,7 @@ std::string name(const KeyInfo& key, const Value& value) {
   const std::string& text = word(key, value);
   const bool only_dots = text.find_first_not_of('.') == std::string::npos;
   if (text.size() > 64 || only_dots || !std::all_of(text.begin(), text.end(), is_name_character))
-    refuse(key, value, fmt::format("{} is no name", document::value_text(value)));
+    refuse(key, value, fmt::format("{} is not a name", document::value_text(value)));
   return text;
 }
 
@@ -126,7 +126,7 @@ std::int64_t integer(const KeyInfo& key, const Value& value) {
   if (given == nullptr) refuse_type(key, value);
   check_range(key, value, static_cast<double>(*given));
   if (*given % key.multiple_of != 0)
-    refuse(key, value, fmt::format("{} is no multiple of {}", *given, key.multiple_of));
+    refuse(key, value, fmt::format("{} is not a multiple of {}", *given, key.multiple_of));
   return *given;
 }
 

@@ -54,7 +54,7 @@ class Guard {
   void plain() {
     const char c = rest_.front();
     if (static_cast<unsigned char>(c) >= 0x80)
-      fail("a character outside of ASCII needs quotes, allowed: letters, digits, '_' and '-'");
+      fail("a non-ASCII character needs quotes, allowed: letters, digits, '_' and '-'");
     if (c == '[' || c == '{') ++depth_;
     if ((c == ']' || c == '}') && depth_ > 0) --depth_;
     if (c == '.') ++dots_;
@@ -69,7 +69,7 @@ class Guard {
     const std::size_t length = sequence_length(rest_);
     if (length == 0)
       fail(fmt::format(
-          "bytes that are no UTF-8 ({}), allowed: text in UTF-8; save the file as UTF-8",
+          "bytes that are not UTF-8 ({}), allowed: text in UTF-8; save the file as UTF-8",
           latin1_text(rest_.front())));
     const bool new_line = rest_.front() == '\n';
     rest_.remove_prefix(length);

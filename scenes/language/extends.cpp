@@ -168,7 +168,7 @@ class Chain {
     const auto is_base = [&](const fs::path& file) { return fs::equivalent(file, base, unknown); };
     if (std::ranges::any_of(files_, is_base))
       refuse(given.origin, "extends",
-             fmt::format("{} extends itself by way of this file, allowed: a file that does not",
+             fmt::format("{} extends itself through this file, allowed: a file that does not",
                          base.string()));
     if (files_.size() >= max_files)
       refuse(given.origin, "extends",
@@ -179,8 +179,8 @@ class Chain {
       return text;
     } catch (const UnfitInput& unfit) {
       refuse(given.origin, "extends",
-             fmt::format("'{}': {}, allowed: the path of a scene or a part of one (TOML), from the "
-                         "folder of this file",
+             fmt::format("'{}': {}, allowed: the path of a scene or of part of one (TOML), "
+                         "relative to the folder of this file",
                          base.string(), unfit.what()));
     }
   }
@@ -191,7 +191,7 @@ class Chain {
     if (theirs == nullptr || own == nullptr || *theirs == *own) return;
     const document::Origin said = document::find(base, "family")->value.origin;
     refuse(document::find(root, "family")->value.origin, "family",
-           fmt::format("is \"{}\", but {}:{} says \"{}\", allowed: the family of what is extended",
+           fmt::format("is \"{}\", but {}:{} says \"{}\", allowed: the family of the extended file",
                        *own, problems_.file_of(said.mark).string(), said.mark.line, *theirs));
   }
 

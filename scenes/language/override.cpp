@@ -21,7 +21,7 @@ struct Step {
   std::optional<std::size_t> position;  // "[3]"
 };
 
-constexpr const char* form = "allowed: key.path=value, as in time.safety=0.5";
+constexpr const char* form = "allowed: key.path=value, e.g. time.safety=0.5";
 
 // Where `separator` first stands outside of quotes.
 std::size_t find_unquoted(std::string_view text, char separator) {
@@ -54,7 +54,7 @@ std::size_t position_in(const std::string& brackets) {
   const char* const end = brackets.data() + brackets.size() - 1;
   const auto read = std::from_chars(brackets.data() + 1, end, position);
   if (brackets.back() != ']' || read.ec != std::errc() || read.ptr != end)
-    throw Refused(fmt::format("'{}' is no position, allowed: [0], [1], ...", brackets));
+    throw Refused(fmt::format("'{}' is not a position, allowed: [0], [1], ...", brackets));
   return position;
 }
 
@@ -96,9 +96,10 @@ Value& element_called(document::Array& array, const std::string& name) {
     if (own != nullptr && *own == name) return element;
     if (own != nullptr) names.push_back(*own);
   }
-  throw Refused(fmt::format("no element is called '{}'{}, allowed: a position such as [0], or {}",
-                            name, suggestion(name, names),
-                            names.empty() ? "no name: these have none" : listed(names)));
+  throw Refused(
+      fmt::format("no element is called '{}'{}, allowed: a position such as [0], or {}", name,
+                  suggestion(name, names),
+                  names.empty() ? "not a name: these elements have none" : listed(names)));
 }
 
 Value& entered(Value& here, const Step& step, const document::Origin& origin) {

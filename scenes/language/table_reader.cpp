@@ -47,8 +47,8 @@ void TableReader::collect_name(const std::string& table, const document::Value& 
         fmt::format("'{}' is the name of another {}, allowed: each name once", *name, table));
   else if (table == "tool" && taken("material"))
     problems_.add(origin, path,
-                  fmt::format("'{}' is the name of a material, allowed: a name that friction pairs "
-                              "can tell from materials",
+                  fmt::format("'{}' is the name of a material, allowed: a name that differs from "
+                              "those of all materials, for the friction pairs",
                               *name));
   own.push_back(*name);
 }

@@ -59,7 +59,8 @@ double take_number(std::string_view& text) {
   if (status == std::errc::invalid_argument)
     throw UnitError(fmt::format("\"{}\" does not start with a number", whole));
   if (status == std::errc::result_out_of_range)
-    throw UnitError(fmt::format("the number of \"{}\" is outside what a double can hold", whole));
+    throw UnitError(
+        fmt::format("the number of \"{}\" is outside the range of double precision", whole));
   if (!std::isfinite(value)) throw UnitError(fmt::format("\"{}\" is not a finite number", whole));
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return value;
@@ -128,11 +129,12 @@ double converted(double value, ut_unit* given, const std::string& wanted, std::s
   const Unit target(ut_parse(unit_system(), wanted.c_str(), UT_UTF8));
   const std::string dimension_given = dimension(given);
   if (dimension_given != dimension(target.get()))
-    throw UnitError(fmt::format("\"{}\" has the dimension of {}, {} is wanted", whole,
+    throw UnitError(fmt::format("\"{}\" has the dimension of {}, {} is expected", whole,
                                 dimension_given.empty() ? "a plain number" : dimension_given,
                                 wanted));
   const Converter converter(ut_get_converter(given, target.get()));
-  if (converter == nullptr) throw UnitError(fmt::format("\"{}\" is no {}", whole, wanted));
+  if (converter == nullptr)
+    throw UnitError(fmt::format("\"{}\" cannot be converted to {}", whole, wanted));
   return scaled(value, cv_convert_double(converter.get(), 1.0));
 }
 
@@ -172,13 +174,14 @@ double parse_quantity(std::string_view text, const std::string& wanted) {
   std::string_view name;
   const double number = number_before(whole, name);
   if (name.empty())
-    throw UnitError(fmt::format("missing unit: \"{}\" has none, {} is wanted", whole, wanted));
+    throw UnitError(fmt::format("missing unit: \"{}\" has none, {} is expected", whole, wanted));
 
   const std::scoped_lock lock(units_lock());
   const Unit unit = parse_unit(name, whole);
   const double value = converted(number, unit.get(), wanted, whole);
   if (!std::isfinite(value))
-    throw UnitError(fmt::format("\"{}\" is outside what a double can hold in {}", whole, wanted));
+    throw UnitError(
+        fmt::format("\"{}\" is outside the range of double precision in {}", whole, wanted));
   return value;
 }
 
@@ -195,7 +198,8 @@ BaseQuantity parse_any_quantity(std::string_view text) {
     throw UnitError(fmt::format("\"{}\" has a unit with an offset or a logarithm", whole));
   const double value = converted(number, unit.get(), base.empty() ? "1" : base, whole);
   if (!std::isfinite(value))
-    throw UnitError(fmt::format("\"{}\" is outside what a double can hold in SI units", whole));
+    throw UnitError(
+        fmt::format("\"{}\" is outside the range of double precision in SI units", whole));
   return {value, base};
 }
 

@@ -19,7 +19,7 @@ void add_factor(Dimension& dimension, std::string_view factor) {
   const std::size_t end = std::min(factor.find_first_of("-0123456789"), factor.size());
   const auto* const base = std::ranges::find(base_units, factor.substr(0, end));
   if (base == base_units.end())
-    throw ExpressionError(fmt::format("the unit {} is no unit of the SI", factor));
+    throw ExpressionError(fmt::format("the unit {} is not an SI unit", factor));
   double power = 1;
   std::from_chars(factor.data() + end, factor.data() + factor.size(), power);
   dimension.powers.at(static_cast<std::size_t>(base - base_units.begin())) += power;

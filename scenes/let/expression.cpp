@@ -19,12 +19,13 @@ const Dimension angle{{0, 0, 0, 0, 0, 0, 0, 1}};
 
 double plain_of(const Quantity& quantity, std::string_view function) {
   if (quantity.dimension.plain()) return quantity.value;
-  throw ExpressionError(fmt::format("{}({}): a plain number is wanted", function, quantity.text()));
+  throw ExpressionError(
+      fmt::format("{}({}): a plain number is expected", function, quantity.text()));
 }
 
 double angle_of(const Quantity& quantity, std::string_view function) {
   if (quantity.dimension.plain() || quantity.dimension == angle) return quantity.value;
-  throw ExpressionError(fmt::format("{}({}): an angle is wanted", function, quantity.text()));
+  throw ExpressionError(fmt::format("{}({}): an angle is expected", function, quantity.text()));
 }
 
 using OfNumber = double (*)(double);
@@ -92,7 +93,7 @@ double power_of(double base, double power) {
 
 Quantity raised(const Quantity& base, const Quantity& power) {
   if (!power.dimension.plain())
-    throw ExpressionError(fmt::format("the power {} is no plain number", power.text()));
+    throw ExpressionError(fmt::format("the exponent {} is not a plain number", power.text()));
   if (base.value < 0 && power.value != std::round(power.value))
     throw ExpressionError(
         fmt::format("{} cannot be raised to the power {}", base.text(), power.text()));
@@ -116,14 +117,14 @@ class Parser {
   Quantity whole() {
     const Quantity result = sum();
     if (!ended())
-      throw ExpressionError(fmt::format("'{}' stands where an operator is wanted", here().text));
+      throw ExpressionError(fmt::format("'{}' where an operator is expected", here().text));
     return result;
   }
 
  private:
   bool ended() const { return at_ == tokens_.size(); }
   const Token& here() const {
-    if (ended()) throw ExpressionError("it ends where a value is wanted");
+    if (ended()) throw ExpressionError("it ends where a value is expected");
     return tokens_[at_];
   }
   bool is_sign(std::string_view sign) const {
@@ -180,7 +181,7 @@ class Parser {
     if (token.kind == Token::Kind::number) return number(token);
     if (token.kind == Token::Kind::name) return named(token.text);
     if (token.text != "(")
-      throw ExpressionError(fmt::format("'{}' stands where a value is wanted", token.text));
+      throw ExpressionError(fmt::format("'{}' where a value is expected", token.text));
     const Quantity result = sum();
     close();
     return result;
@@ -192,7 +193,7 @@ class Parser {
     } catch (const ExpressionError& error) {
       if (!variables_.has(token.unit)) throw;
       throw ExpressionError(
-          fmt::format("{}; behind a number stands a unit: write {}*{}", error.what(),
+          fmt::format("{}; a name after a number is read as a unit: write {}*{}", error.what(),
                       token.text.substr(0, token.text.find_first_of(" \t")), token.unit));
     }
   }
@@ -215,7 +216,7 @@ class Parser {
   }
 
   std::string unknown(std::string_view name) const {
-    if (is_function(name)) return fmt::format("behind {} a bracket is wanted", name);
+    if (is_function(name)) return fmt::format("an opening bracket is expected after {}", name);
     const std::string hint = suggestion(std::string(name), variables_.names);
     const std::string what = fmt::format(
         "no variable is called '{}'{}, allowed: {}", name, hint,

@@ -69,7 +69,7 @@ class Scope {
     const bool one_word = words.size() == 1 && words.front() == name;
     if (!one_word || let::is_function(name))
       problems_.add(entry.origin, "let." + name,
-                    fmt::format("is no name of a variable, allowed: letters, digits and '_', a "
+                    fmt::format("is not a valid variable name, allowed: letters, digits and '_', a "
                                 "letter first, and none of pi, {}",
                                 let::listed_functions()));
     else
@@ -85,9 +85,9 @@ class Scope {
     }
     const auto open = std::ranges::find(open_, name);
     if (open != open_.end())
-      throw let::ExpressionError(
-          fmt::format("is defined by itself: {} -> {}, allowed: expressions of other variables",
-                      fmt::join(open, open_.end(), " -> "), name));
+      throw let::ExpressionError(fmt::format(
+          "is defined in terms of itself: {} -> {}, allowed: expressions of other variables",
+          fmt::join(open, open_.end(), " -> "), name));
     return values_[name] = worked_out(name);
   }
 
@@ -204,8 +204,8 @@ class Replacement {
     try {
       parse_quantity(text, key.unit);
     } catch (const UnitError& error) {
-      throw let::ExpressionError(
-          fmt::format("{}; behind a number stands a unit: write \"{}\"", error.what(), product));
+      throw let::ExpressionError(fmt::format(
+          "{}; a name after a number is read as a unit: write \"{}\"", error.what(), product));
     }
   }
 
@@ -239,7 +239,7 @@ class Replacement {
     const double nearest = std::round(value);
     if (std::abs(value) > largest ||
         std::abs(value - nearest) > rounding * std::max(1.0, std::abs(value)))
-      throw let::ExpressionError(fmt::format("is {}, allowed: {}; floor, ceil and round make one",
+      throw let::ExpressionError(fmt::format("is {}, allowed: {}; floor, ceil and round give one",
                                              value, schema::allowed(key)));
     return static_cast<std::int64_t>(nearest);
   }

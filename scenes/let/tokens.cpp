@@ -43,7 +43,8 @@ class Cutter {
       return {Token::Kind::name, since(start)};
     }
     if (std::string_view("+-*/^(),").find(here()) == std::string_view::npos)
-      throw ExpressionError(fmt::format("'{}' belongs to no expression", text_.substr(at_, 1)));
+      throw ExpressionError(
+          fmt::format("'{}' is not allowed in an expression", text_.substr(at_, 1)));
     ++at_;
     return {Token::Kind::sign, since(start)};
   }

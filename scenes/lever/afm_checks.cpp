@@ -83,8 +83,7 @@ class AfmChecks {
     const double widest = v.apex * portable::sin(v.half_angle);
     if (v.inner <= 0)
       refuse("lever.arm_width",
-             fmt::format("{:g} m: the arms of this V grow together at the clamp, "
-                         "allowed: < {:g} m",
+             fmt::format("{:g} m: the arms of this V merge at the clamp, allowed: < {:g} m",
                          lever_.arm_width, widest));
     const double minimum = (v.apex - lever_.length) * portable::sin(v.half_angle);
     if (v.inner >= lever_.length)
@@ -106,9 +105,9 @@ class AfmChecks {
                fmt::format("has no effect: {}, allowed: not given", why));
     };
     const bool along = lever_.along > 0, across = lever_.across > 0;
-    if (along && across) no_say("aspect", "elements_along and elements_across say it");
-    if (across) no_say("side_aspect", "elements_across says it");
-    if (along || across) no_say("foot_layers", "an even mesh has none");
+    if (along && across) no_say("aspect", "elements_along and elements_across set the mesh");
+    if (across) no_say("side_aspect", "elements_across sets the mesh");
+    if (along || across) no_say("foot_layers", "a uniform mesh has none");
     if (tip_.shape == Shape::none) {
       no_say("foot_edge", "there is no tip");
       no_say("foot_layers", "there is no tip");
@@ -118,10 +117,9 @@ class AfmChecks {
     if (!(along && across) && given("aspect") &&
         (lever_.aspect < range.least * (1 - round_off) ||
          lever_.aspect > range.most * (1 + round_off)))
-      refuse("lever.aspect",
-             fmt::format("{:g} has no more effect: 20 to 150 such edges lie along the lever, "
-                         "allowed: {:.3g} to {:.3g}",
-                         lever_.aspect, range.least, range.most));
+      refuse("lever.aspect", fmt::format("{:g} is out of range: the lever has 20 to 150 elements "
+                                         "of this size along its length, allowed: {:.3g} to {:.3g}",
+                                         lever_.aspect, range.least, range.most));
   }
 
   double half_width_at(double x) const {
@@ -231,8 +229,8 @@ class AfmChecks {
             {SolidPart::tip, tip_.material, "tip.material"},
             {SolidPart::glue, tip_.glue.value_or(tip_.material), "tip.glue"}})
         if (solid.has(part) && yields(material))
-          refuse(key, fmt::format("it yields, but {} has tetrahedra, which are elastic, allowed: "
-                                  "hexahedra, or a material without a yield_stress",
+          refuse(key, fmt::format("it has a yield stress, but the tetrahedra of {} are elastic "
+                                  "only, allowed: hexahedra, or a material without a yield_stress",
                                   path));
     };
     if (lever_.solid) check(lever_.solid->solid, "lever.file");
@@ -278,7 +276,7 @@ class AfmChecks {
     const TargetSpec& target = *scene_.afm->target;
     const auto only_with = [&](const char* key, const char* law, bool given) {
       if (given)
-        refuse(key, fmt::format("is of another law, allowed: with adhesion = \"{}\"", law));
+        refuse(key, fmt::format("belongs to another law, allowed: with adhesion = \"{}\"", law));
     };
     if (target.adhesion == TargetSpec::Adhesion::dmt)
       return only_with("surface.work_of_adhesion", "jkr", target.work != 0);
@@ -295,7 +293,7 @@ class AfmChecks {
              "plane");
     if (tip_.contact_edge)
       refuse("tip.contact_edge",
-             "with jkr the ball touches by its law, not by its mesh, allowed: "
+             "with jkr the contact of the ball follows from its law, not from its mesh, allowed: "
              "not given");
   }
 
@@ -314,7 +312,7 @@ class AfmChecks {
       if (action.force && *action.force <= 0)
         refuse(path + ".force", fmt::format("{:g} N, allowed: > 0 N", *action.force));
       if (action.servo && !pressed)
-        refuse(path + ".set_point", "there is no force to keep yet, allowed: after a press");
+        refuse(path + ".set_point", "there is no force to hold yet, allowed: after a press");
       pressed = pressed || press;
     }
     map();
@@ -330,9 +328,10 @@ class AfmChecks {
       inside_map(TargetSpec::Direction::lateral, heights.size());
       inside_map(TargetSpec::Direction::along, heights.front().size());
     } catch (const std::runtime_error& error) {
-      refuse("surface.file", fmt::format("'{}': {}, allowed: lines of numbers in m, separated by "
-                                         "commas, all as long, or an HDF5 file with the dataset",
-                                         target.file, error.what()));
+      refuse("surface.file",
+             fmt::format("'{}': {}, allowed: lines of numbers in m, separated by commas, all of "
+                         "the same length, or an HDF5 file with the dataset",
+                         target.file, error.what()));
     }
   }
 
@@ -371,7 +370,7 @@ class AfmChecks {
       const double distance = fast ? action.distance : action.width;
       if (std::abs(at + distance) > bound)
         refuse(fmt::format("action[{}].{}", i, fast ? "distance" : "width"),
-               fmt::format("the scan leaves the map: it comes to {:g} m, allowed: {:g} to {:g} m",
+               fmt::format("the scan leaves the map: it reaches {:g} m, allowed: {:g} to {:g} m",
                            at + distance, -bound, bound));
       if (raster ? !fast : !action.retrace) at += distance;
     }

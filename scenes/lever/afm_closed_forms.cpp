@@ -165,7 +165,7 @@ std::vector<ClosedForm> of_v(const Scene& scene) {
   const auto named = [&](const char* name) { return std::string(name) + composite; };
   const double noy = bending * closed_form::noy_normal(e, w, t, load_at);
   const std::string not_tilted = lever.tilt != 0   ? "the lever is tilted"
-                                 : tip.offset != 0 ? "the tip stands beside the axis"
+                                 : tip.offset != 0 ? "the tip is off the axis"
                                                    : "";
   std::vector<ClosedForm> forms{
       {"k_n", "neumeister_ducker", named("Neumeister & Ducker 1994, corrected"),
@@ -176,7 +176,7 @@ std::vector<ClosedForm> of_v(const Scene& scene) {
        not_tilted}};
   if (height_below(*scene.afm) == 0) return forms;
   const double h = height_below(*scene.afm) + coated.twist_axis;
-  const std::string not_beside = tip.offset != 0 ? "the tip stands beside the axis" : "";
+  const std::string not_beside = tip.offset != 0 ? "the tip is off the axis" : "";
   if (v.d > 0)
     forms.push_back({"k_l", "neumeister_ducker", named("Neumeister & Ducker 1994, torsion alone"),
                      torsion * closed_form::neumeister_ducker_torsion(v, h), not_beside});

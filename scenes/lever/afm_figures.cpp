@@ -29,26 +29,31 @@ const std::vector<Figure>& calibration_figures() {
   static const std::vector<Figure> all{
       {{"k_n", "N/m", "vertical force on the tip's end over its displacement"},
        [](C c) { return c.normal_stiffness; }},
-      {{"k_l", "N/m", "the same, lateral"}, [](C c) { return c.lateral_stiffness; }},
+      {{"k_l", "N/m", "lateral force on the tip's end over its displacement"},
+       [](C c) { return c.lateral_stiffness; }},
       {{"k_l/k_n", "-", "lateral over normal stiffness"},
        [](C c) { return c.lateral_stiffness / c.normal_stiffness; }},
-      {{"arm", "m", "h: from the middle plane to the tip's end"}, [](C c) { return c.arm; }},
-      {{"k_x", "N/m", "the same, along the lever"}, [](C c) { return c.longitudinal_stiffness; }},
+      {{"arm", "m", "h: distance from the middle plane to the tip's end"},
+       [](C c) { return c.arm; }},
+      {{"k_x", "N/m", "longitudinal force on the tip's end over its displacement"},
+       [](C c) { return c.longitudinal_stiffness; }},
       {{"torsional_stiffness", "N m/rad", "moment of a lateral force over the twist of the foot"},
        [](C c) { return c.torsional_stiffness; }},
-      {{"share_bending", "-", "of lateral bending in the tip's lateral displacement"},
+      {{"share_bending", "-", "share of lateral bending in the tip's lateral displacement"},
        [](C c) { return c.bending_share; }},
-      {{"share_twist", "-", "of the foot's twist"}, [](C c) { return c.twist_share; }},
-      {{"share_tip", "-", "of the tip's own deformation"}, [](C c) { return c.tip_share; }},
-      {{"slope_normal", "rad/m", "at the laser spot, by vertical displacement of the tip"},
+      {{"share_twist", "-", "share of the foot's twist in the tip's lateral displacement"},
+       [](C c) { return c.twist_share; }},
+      {{"share_tip", "-", "share of the tip's own deformation in its lateral displacement"},
+       [](C c) { return c.tip_share; }},
+      {{"slope_normal", "rad/m", "at the laser spot, per vertical displacement of the tip"},
        [](C c) { return c.normal.spot.normal / c.normal.end.z(); }},
-      {{"slope_lateral", "rad/m", "at the laser spot, by lateral displacement of the tip"},
+      {{"slope_lateral", "rad/m", "at the laser spot, per lateral displacement of the tip"},
        [](C c) { return c.lateral.spot.lateral / c.lateral.end.y(); }},
-      {{"invols_normal", "m/V", "vertical displacement of the tip by detector signal"},
+      {{"invols_normal", "m/V", "vertical displacement of the tip per detector signal"},
        [](C c) { return c.normal_invols; }},
-      {{"invols_lateral", "m/V", "lateral displacement of the tip by detector signal"},
+      {{"invols_lateral", "m/V", "lateral displacement of the tip per detector signal"},
        [](C c) { return c.lateral_invols; }},
-      {{"imbalance", "-", "clamp reaction and load, over the load"},
+      {{"imbalance", "-", "sum of clamp reaction and load, over the load"},
        [](C c) { return c.imbalance; }}};
   return all;
 }
@@ -57,23 +62,24 @@ const std::vector<LoopFigure>& loop_figures() {
   using L = const FrictionLoop&;
   static const std::vector<LoopFigure> all{
       {{"loop/load", "N", "mean vertical force"}, [](L l) { return l.load; }},
-      {{"loop/slides", "-", "of the touching points, how many slide where W is taken"},
+      {{"loop/slides", "-", "share of the contact points that slide where W is evaluated"},
        [](L l) { return l.slides; }},
-      {{"loop/turned", "-", "share of friction there that points along the scan"},
+      {{"loop/turned", "-", "share of the friction there that acts along the scan"},
        [](L l) { return l.turned; }},
-      {{"loop/drift", "-", "of the force there, over W"}, [](L l) { return l.drift; }},
-      {{"loop/trace", "N", "mean lateral force that draws the probe on the trace"},
+      {{"loop/drift", "-", "drift of the force there, over W"}, [](L l) { return l.drift; }},
+      {{"loop/trace", "N", "mean lateral force on the probe along the trace"},
        [](L l) { return l.trace; }},
-      {{"loop/retrace", "N", "the same on the retrace"}, [](L l) { return l.retrace; }},
+      {{"loop/retrace", "N", "mean lateral force on the probe along the retrace"},
+       [](L l) { return l.retrace; }},
       {{"loop/half_width", "N", "W"}, [](L l) { return l.half_width; }},
       {{"loop/offset", "N", "Delta"}, [](L l) { return l.offset; }},
       {{"loop/volts_half_width", "V", "W of the lateral detector"},
        [](L l) { return l.volts_half_width; }},
       {{"loop/volts_offset", "V", "Delta of the lateral detector"},
        [](L l) { return l.volts_offset; }},
-      {{"loop/friction", "-", "recovered from the detector's W and Delta on an incline"},
+      {{"loop/friction", "-", "determined from the detector's W and Delta on an incline"},
        [](L l) { return l.friction.value_or(std::nan("")); }},
-      {{"loop/sensitivity", "N/V", "recovered with it"},
+      {{"loop/sensitivity", "N/V", "determined together with it"},
        [](L l) { return l.sensitivity.value_or(std::nan("")); }}};
   return all;
 }
@@ -81,12 +87,13 @@ const std::vector<LoopFigure>& loop_figures() {
 const std::vector<CurveFigure>& curve_figures() {
   using C = const ForceCurveFigures&;
   static const std::vector<CurveFigure> all{
-      {{"curve/pull_off", "N", "greatest pull while the probe is drawn off"},
+      {{"curve/pull_off", "N", "largest pull while the probe is retracted"},
        [](C c) { return c.pull_off; }},
       {{"curve/work", "J",
-        "area under the line of no force meanwhile, over the travel of the scanner"},
+        "area below the zero-force line during retraction, over the travel of the scanner"},
        [](C c) { return c.work; }},
-      {{"curve/work_of_adhesion", "J/m^2", "of the pull-off and the tip's radius, by DMT or JKR"},
+      {{"curve/work_of_adhesion", "J/m^2",
+        "from the pull-off force and the tip's radius, by DMT or JKR"},
        [](C c) { return c.work_of_adhesion.value_or(std::nan("")); }}};
   return all;
 }
@@ -97,10 +104,10 @@ void add_closed_form_figures(std::vector<SeriesInfo>& all, LeverSpec::Shape shap
     for (const auto& [quantity, has] : {std::pair{"k_n", form.normal}, {"k_l", form.lateral}}) {
       if (!has) continue;
       all.push_back({"closed/" + form.id + "/" + quantity, "N/m", "by the closed form"});
-      all.push_back({std::string(quantity) + "/" + form.id, "-", "over that of the closed form"});
+      all.push_back({std::string(quantity) + "/" + form.id, "-", "relative to the closed form"});
     }
     if (form.normal && form.lateral)
-      all.push_back({"k_l/k_n/" + form.id, "-", "over the closed forms' ratio"});
+      all.push_back({"k_l/k_n/" + form.id, "-", "relative to the ratio of the closed forms"});
   }
 }
 

@@ -14,7 +14,8 @@ struct Channel {
   double sign;
 };
 constexpr Channel channels[] = {
-    {"topography", "scanner/z", "m", "how far the scanner was lowered to follow the surface", -1},
+    {"topography", "scanner/z", "m",
+     "distance by which the scanner was lowered to follow the surface", -1},
     {"deflection", "detector/normal", "V", "normal signal of the detector", 1},
     {"friction", "detector/lateral", "V", "lateral signal of the detector", 1}};
 

@@ -83,12 +83,12 @@ ContactPatch contact_patch(const AfmModel& model) {
 
 std::vector<SeriesInfo> afm_series() {
   return {
-      {"scanner/x", "m", "how far the sample was moved along x"},
-      {"scanner/y", "m", "how far the sample was moved along y"},
-      {"scanner/z", "m", "how far the sample was raised from first touch"},
-      {"probe/force_x", "N", "of the sample on the probe"},
-      {"probe/force_y", "N", "of the sample on the probe: lateral"},
-      {"probe/force_z", "N", "of the sample on the probe: vertical"},
+      {"scanner/x", "m", "displacement of the sample along x"},
+      {"scanner/y", "m", "displacement of the sample along y"},
+      {"scanner/z", "m", "rise of the sample from first contact"},
+      {"probe/force_x", "N", "force of the sample on the probe"},
+      {"probe/force_y", "N", "force of the sample on the probe: lateral"},
+      {"probe/force_z", "N", "force of the sample on the probe: vertical"},
       {"probe/displacement_x", "m", "of the tip's end"},
       {"probe/displacement_y", "m", "of the tip's end"},
       {"probe/displacement_z", "m", "of the tip's end"},
@@ -101,16 +101,17 @@ std::vector<SeriesInfo> afm_series() {
       {"slope/lateral", "rad", "of the lever's back at the laser spot, > 0: its +y side is up"},
       {"detector/normal", "V", "normal gain times slope"},
       {"detector/lateral", "V", "lateral gain times slope"},
-      {"contact/points", "-", "points of the probe that touch"},
+      {"contact/points", "-", "points of the probe in contact"},
       {"contact/radius", "m",
-       "of a ball: root of 5/2 of the mean square distance of the pressing forces from their "
-       "middle, which is Hertz's radius of contact; of an adhesive one that of its law"},
+       "of a ball: square root of 5/2 times the mean square distance of the contact forces from "
+       "their centre, equal to the contact radius of Hertz; of an adhesive ball the radius of its "
+       "law"},
       {"contact/pressure", "Pa",
-       "of a ball: the largest on its nodes; of an adhesive one that in the middle"},
-      {"contact/slides", "-", "share of the points that touch which slide"},
+       "of a ball: the largest nodal value; of an adhesive ball the value at the centre"},
+      {"contact/slides", "-", "share of the contact points that slide"},
       {"energy/elastic", "J", "stored in lever and probe"},
-      {"energy/released", "J", "by the probe's jumps on and off the surface, until now"},
-      {"newton/iterations", "-", "of the increment, with those of its cuts"}};
+      {"energy/released", "J", "released so far by jumps of the probe onto and off the surface"},
+      {"newton/iterations", "-", "of the increment, including its subdivisions"}};
 }
 
 void add_probe(const Scene& scene, AfmModel& model) {
@@ -235,9 +236,9 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   target.travel = before;
   if (depth == max_halvings || iterations_ > max_iterations)
     throw RunFailure(fmt::format(
-        "{}: no equilibrium at {:.4f} of the programme, with the sample at x {:.4g}, y {:.4g}, "
-        "z {:.4g} m, after {} halvings of the increment; residual {:.2g} of the forces that must "
-        "balance: the probe has locked, jumped or left the surface",
+        "{}: no equilibrium at {:.4f} of the programme, with the sample at x {:.4g}, y {:.4g}, z "
+        "{:.4g} m, after {} halvings of the increment; residual {:.2g} of the forces in balance: "
+        "the probe has locked, jumped or left the surface",
         doing_, time_, before[0], before[1], before[2], depth, report.residuals.back()));
   const std::array<double, 3> half{travel[0] / 2, travel[1] / 2, travel[2] / 2};
   advance(half, servo, depth + 1);
@@ -283,8 +284,8 @@ void AfmProgramme::refuse_lock(const std::array<double, 3>& travel) const {
     throw RunFailure(fmt::format(
         "{}: the probe has locked at {:.4f} of the programme, with the sample at x {:.4g}, y "
         "{:.4g} "
-        "m: uphill on a slope of {:.4g} a friction of {:.4g} holds against any force, allowed: "
-        "< {:.4g}",
+        "m: uphill on a slope of {:.4g}, friction of {:.4g} withstands any force, allowed: < "
+        "{:.4g}",
         doing_, time_, target.travel[0], target.travel[1], -n.dot(forward) / n.z(), target.friction,
         -n.z() / n.dot(forward)));
   }

@@ -39,12 +39,13 @@ Calibration AfmSimulation::calibrate_here() {
     c = answer();
   }
   if (c.extended && !c.good(in_long_double))
-    throw RunFailure(fmt::format(
-        "calibration: the lever's stiffness is beyond the digits of long double: its answer to a "
-        "force is uncertain by {:.2g} of it{}, allowed: {:g}; the lever is {:.3g} times longer "
-        "than thick, and the stiffest material {:.3g} times stiffer than its own",
-        c.error, c.stable ? "" : ", its stiffness not even positive", in_long_double,
-        scene_.afm->lever.length / scene_.afm->lever.thickness, stiffest_material()));
+    throw RunFailure(
+        fmt::format("calibration: the lever's stiffness matrix is too ill-conditioned for long "
+                    "double: the relative error of its response to a force is {:.2g}{}, allowed: "
+                    "{:g}; the lever is {:.3g} times longer than thick, and the stiffest material "
+                    "is {:.3g} times stiffer than that of the lever",
+                    c.error, c.stable ? "" : ", and the stiffness is not positive", in_long_double,
+                    scene_.afm->lever.length / scene_.afm->lever.thickness, stiffest_material()));
   model_.normal_stiffness = c.normal_stiffness;
   stiffest_ = std::max({c.normal_stiffness, c.lateral_stiffness, c.longitudinal_stiffness});
   return c;

@@ -145,8 +145,8 @@ void require_afm_memory(const Scene& scene) {
   const std::uint64_t there = available_memory();
   if (need > there)
     throw OutputError(scene.file, "run it",
-                      fmt::format("it needs about {} of memory, {} are available", bytes_text(need),
-                                  bytes_text(there)));
+                      fmt::format("it needs about {} of memory, but only {} are available",
+                                  bytes_text(need), bytes_text(there)));
 }
 
 }  // namespace pulvis

@@ -147,7 +147,7 @@ std::vector<std::vector<double>> map_from_text(const std::filesystem::path& file
     rows.push_back(numbers_of(line, number));
     refuse_too_many(rows.size(), rows.front().size());
     if (rows.back().size() != rows.front().size())
-      throw std::runtime_error(fmt::format("line {}: {} numbers, the first line has {}", number,
+      throw std::runtime_error(fmt::format("line {}: {} numbers, but the first line has {}", number,
                                            rows.back().size(), rows.front().size()));
   }
   return rows;
@@ -166,7 +166,7 @@ std::vector<std::vector<double>> map_from_hdf5(const std::filesystem::path& path
     rows.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(j * shape[1]),
                       values.begin() + static_cast<std::ptrdiff_t>((j + 1) * shape[1]));
   for (const double height : values)
-    if (!std::isfinite(height)) throw std::runtime_error("a height that is no number");
+    if (!std::isfinite(height)) throw std::runtime_error("a height that is not a number");
   return rows;
 }
 

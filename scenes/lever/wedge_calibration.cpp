@@ -89,7 +89,8 @@ Facet facet_of(const std::vector<Loop>& loops) {
   const auto offset_error = [](const Loop& loop) { return loop.offset_error; };
   if (facet.loads == 1) {
     if (loops.front().load == 0)
-      throw std::runtime_error("a facet was seen without load only, allowed: loads that are not 0");
+      throw std::runtime_error(
+          "a facet was measured at zero load only, allowed: loads other than 0");
     facet.half_width = mean_by_load(loops, width, width_error);
     facet.offset = mean_by_load(loops, offset, offset_error);
     return facet;
@@ -135,8 +136,8 @@ FacetEstimates calibrate_facet(const Facet& facet, double adhesion, double slope
   const auto pair = of(at);
   if (!pair)
     throw std::runtime_error(fmt::format(
-        "on the slope of {:g} deg no friction coefficient fits: 2 (Delta/W)/sin 2 theta is {:.4g}, "
-        "allowed: >= 2",
+        "on the slope of {:g} deg there is no matching friction coefficient: 2 (Delta/W)/sin 2 "
+        "theta is {:.4g}, allowed: >= 2",
         facet.slope * 180 / std::numbers::pi, 2 * at[1] / at[0] / portable::sin(2 * facet.slope)));
   FacetEstimates e{{{pair->friction, {}}, 0}, {{pair->sensitivity, {}}, 0}};
   if (!facet.half_width.error || !facet.offset.error) return e;
@@ -259,7 +260,7 @@ Calibration calibrate(const std::vector<Loop>& loops, const Known& known) {
     sensitivity.push_back(e.sensitivity);
   }
   if (friction.empty())
-    throw std::runtime_error("there is no facet with a slope, allowed: loops on one at least");
+    throw std::runtime_error("there is no facet with a slope, allowed: loops on at least one");
   all.friction = mean_of(friction, all.crosstalk).mean;
   const MeanOfFacets mean = mean_of(sensitivity, all.crosstalk);
   all.sensitivity = mean.mean;

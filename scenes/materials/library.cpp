@@ -65,10 +65,10 @@ class LibraryFiller {
       if (name != nullptr && material.name == *name) return &material;
       names.push_back(material.name);
     }
-    problems_.add(
-        value.origin, path + ".library",
-        fmt::format("{} is no material of the library{}, allowed: {}", document::value_text(value),
-                    name != nullptr ? suggestion(*name, names) : "", listed(names)));
+    problems_.add(value.origin, path + ".library",
+                  fmt::format("{} is not a material of the library{}, allowed: {}",
+                              document::value_text(value),
+                              name != nullptr ? suggestion(*name, names) : "", listed(names)));
     return nullptr;
   }
 
@@ -83,7 +83,7 @@ class LibraryFiller {
     for (const char* key : plastic)
       if (const Entry* given = document::find(table, key); flag != nullptr && *flag && given)
         problems_.add(given->origin, path + "." + key,
-                      "contradicts elastic = true, allowed: one of them");
+                      "contradicts elastic = true, allowed: only one of the two");
     return flag != nullptr && *flag;
   }
 
@@ -128,9 +128,9 @@ std::string material_reference() {
 
 <!-- Generated from scenes/materials/library.toml: change that, not this file. -->
 
-A scene takes a material by its name in this library. Values that it gives itself replace those of the library, and
-`elastic = true` leaves out the plastic ones. A saved scene has the values, so that it stays what it is when the
-library changes.
+A scene refers to a material by its name in this library. Values given in the scene override those of the library;
+`elastic = true` omits the plastic properties. A saved scene contains the values, so it is not affected by later changes
+to the library.
 
 ```toml
 [[material]]
@@ -139,9 +139,9 @@ library = "316L"
 yield_stress = "280 MPa"       # instead of the library's
 ```
 
-Sources are named below. What is called typical is from no source that was looked up: it is of the right size, no more.
-A batch of powder may differ from all of these by its make, its moisture and what was done to it; measure what your
-results depend on.
+Sources are listed below. Values called typical have no specific source; they give only the order of magnitude. The
+properties of a powder batch depend on manufacture, moisture and processing; measure the properties that affect your
+results.
 
 | `library` | material | density | Young's modulus | Poisson's ratio | yield stress | hardening modulus |
 |---|---|---|---|---|---|---|

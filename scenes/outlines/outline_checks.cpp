@@ -36,8 +36,8 @@ Faults slender(double width, double height) {
 Faults unseen(const OutlineCurve& curve, const std::string& key, const std::string& help) {
   if (star_centre(curve.polygon(1e-3 * std::sqrt(std::abs(curve.area()))))) return {};
   return {{key,
-           "there is no point inside from which all of the outline is seen, so that it cannot "
-           "be meshed, allowed: outlines with such a point" +
+           "there is no point inside from which the whole outline is visible, so it cannot be "
+           "meshed, allowed: star-shaped outlines, which have such a point" +
                help}};
 }
 
@@ -47,7 +47,7 @@ Faults crossing(const std::vector<Vec2>& points, const std::string& key, const s
   const auto side = [&](std::size_t i) {
     return fmt::format("{} {} and {}", what, i + 1, (i + 1) % points.size() + 1);
   };
-  return {{key, fmt::format("the outline crosses itself: the side between {} meets that between "
+  return {{key, fmt::format("the outline crosses itself: the side between {} meets the one between "
                             "{}, allowed: sides that meet only at their ends",
                             side(sides->first), side(sides->second))}};
 }
@@ -92,9 +92,8 @@ Faults bad_rounding(const PolygonOutline& polygon) {
   const std::size_t n = corners.size();
   const double maximum = max_rounding(corners);
   if (polygon.rounding > maximum * (1 + 1e-12))
-    return {
-        {"rounding", fmt::format("{:g} m is more than the sides have room for, allowed: <= {:g} m",
-                                 polygon.rounding, maximum)}};
+    return {{"rounding", fmt::format("{:g} m is too large for the sides, allowed: <= {:g} m",
+                                     polygon.rounding, maximum)}};
   for (std::size_t i = 0; polygon.rounding == 0 && i < n; ++i)
     if (turn_at(corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n]) < 0)
       return {{"rounding", fmt::format("the corner at {} points inwards and is sharp, allowed: > 0 "
@@ -119,10 +118,10 @@ double max_amplitude(const std::vector<FourierModes::Mode>& modes, const Taken& 
 }
 
 Faults hollow(const std::string& key, double given, double maximum) {
-  return {{key, fmt::format("{:g} brings the outline nearer to its middle than {:g} of the mean "
-                            "radius, where it soon crosses itself, allowed: <= {:.3g} with these "
-                            "phases",
-                            given, min_radius, std::floor(maximum * 1e3) / 1e3)}};
+  return {
+      {key, fmt::format("{:g} brings the outline closer to its centre than {:g} of the mean "
+                        "radius, where it may cross itself, allowed: <= {:.3g} with these phases",
+                        given, min_radius, std::floor(maximum * 1e3) / 1e3)}};
 }
 
 }  // namespace
@@ -153,10 +152,10 @@ Faults faults_of(const PointsOutline& outline) {
       outline.width.has_value() + outline.diameter.has_value() + outline.area.has_value();
   if (scales > 1)
     return {{outline.width ? "width" : "diameter",
-             "the outline can be scaled once, allowed: one of width, diameter and area"}};
+             "the outline can be scaled only once, allowed: one of width, diameter and area"}};
   Faults faults = crossing(outline.points, "file", "points");
   if (faults.empty())
-    faults = unseen(curve_of(outline), "file", ", more smoothing where the points are noisy");
+    faults = unseen(curve_of(outline), "file", ", or more smoothing if the points are noisy");
   return faults;
 }
 

@@ -98,10 +98,9 @@ class PointsReader {
     const double minimum = std::max(closest * (high - low).norm(), 1e-18);  // m
     for (std::size_t i = 0; i < points_.size(); ++i)
       if ((points_[(i + 1) % points_.size()] - points_[i]).norm() <= minimum)
-        throw BadFile{lines_[i],
-                      fmt::format("the next point is nearer than {:g} m, allowed: at least {:g} "
-                                  "of the outline's diagonal",
-                                  minimum, closest)};
+        throw BadFile{lines_[i], fmt::format("the next point is closer than {:g} m, allowed: at "
+                                             "least {:g} of the outline's diagonal",
+                                             minimum, closest)};
   }
 
   void take(const std::vector<std::string>& cells) {
@@ -112,7 +111,7 @@ class PointsReader {
     if (first) set_unit(x || y ? std::vector<std::string>{} : cells);
     if (first && !x && !y) return;
     for (const auto& [cell, value] : {std::pair{cells[0], x}, {cells[1], y}})
-      if (!value) throw BadFile{line_, fmt::format("'{}' is no number, allowed: x, y", cell)};
+      if (!value) throw BadFile{line_, fmt::format("'{}' is not a number, allowed: x, y", cell)};
     const Vec2 point = factor_ * Vec2(*x, *y);
     if (!points_.empty() && points_.back() == point)
       throw BadFile{line_, "the same point as before, allowed: each once"};
@@ -132,10 +131,10 @@ class PointsReader {
       throw BadFile{line_, fmt::format("x is in '{}' and y in '{}', allowed: one unit", named,
                                        unit_in(header[1]))};
     if (named.empty() && unit_.empty())
-      throw BadFile{line_, "no unit, allowed: a first line like 'x (um), y (um)', or the key unit"};
-    if (!named.empty() && !unit_.empty())
       throw BadFile{line_,
-                    fmt::format("the unit is '{}' already, allowed: no key unit beside it", named)};
+                    "no unit, allowed: a first line such as 'x (um), y (um)', or the key unit"};
+    if (!named.empty() && !unit_.empty())
+      throw BadFile{line_, fmt::format("the unit is already '{}', allowed: no key unit", named)};
     try {
       factor_ = parse_quantity("1 " + (named.empty() ? unit_ : named), "m");
     } catch (const UnitError& error) {
@@ -192,7 +191,7 @@ std::vector<OutlineFault> read_points(const std::filesystem::path& folder, Point
   }
   const double maximum = max_smoothing * size_of(outline.points);
   if (outline.smoothing > maximum)
-    return {{"smoothing", fmt::format("{:g} m would melt the outline, allowed: <= {:g} m",
+    return {{"smoothing", fmt::format("{:g} m would smooth the outline away, allowed: <= {:g} m",
                                       outline.smoothing, maximum)}};
   if (outline.smoothing > 0) outline.points = smoothed_points(outline.points, outline.smoothing);
   return {};

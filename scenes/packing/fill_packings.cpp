@@ -115,9 +115,8 @@ class RandomPacking {
     const double rounded = std::floor(reached * 1e4) / 1e4;
     problems_.add(
         origin(key), path_ + key,
-        fmt::format("a relative density of {:.4f} is not reached: pressing and shaking "
-                    "these particles in this die ended at {:.4f}, allowed: at most {:.4f} "
-                    "with this seed",
+        fmt::format("a relative density of {:.4f} cannot be reached: pressing and shaking these "
+                    "particles in this die ended at {:.4f}, allowed: at most {:.4f} with this seed",
                     wanted, rounded, rounded));
   }
 

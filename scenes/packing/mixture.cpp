@@ -62,7 +62,7 @@ class Mixer {
   bool shares_are_told() {
     const std::size_t all = packing_.classes.size();
     if (all == 0)
-      refuse("", "a random packing of nothing, allowed: at least one [[packing.class]]");
+      refuse("", "a random packing without particles, allowed: at least one [[packing.class]]");
     const std::size_t numbers = classes_with(&MixtureClass::number);
     const std::size_t by_number = classes_with(&MixtureClass::number_fraction);
     const std::size_t by_share = classes_with(&MixtureClass::area_fraction);
@@ -70,15 +70,16 @@ class Mixer {
     const bool alike = (numbers == all) + (by_number == all) + (by_share == all) == 1 &&
                        numbers + by_number + by_share == all;
     if (all > 0 && !alone && !alike)
-      refuse("", fmt::format(
-                     "its classes do not say alike how much they are, allowed: every class with a "
-                     "number, or every class with a number_fraction, or with {} {}",
-                     packing_.dimensions == 3 ? "a" : "an", share_key()));
+      refuse("",
+             fmt::format("its classes state their amounts in different ways, allowed: every class "
+                         "with a number, or every class with a number_fraction, or with {} {}",
+                         packing_.dimensions == 3 ? "a" : "an", share_key()));
     if (by_number == all) add_up(&MixtureClass::number_fraction, "number_fraction");
     if (by_share == all) add_up(&MixtureClass::area_fraction, share_key());
     if (numbers > 0 && packing_.count)
-      refuse(".count",
-             "has no effect together with the numbers of the classes, allowed: one of the two");
+      refuse(
+          ".count",
+          "has no effect together with the numbers of the classes, allowed: only one of the two");
     return !wrong_;
   }
 
@@ -95,11 +96,11 @@ class Mixer {
     const bool dense = packing_.density || packing_.dense;
     const int given = (counted ? 1 : 0) + (dense ? 1 : 0) + (packing_.height ? 1 : 0);
     const char* rule = "allowed: two of count (or the classes' numbers), density and height";
-    if (given < 2) refuse("", fmt::format("the size of the packing is left open, {}", rule));
+    if (given < 2) refuse("", fmt::format("the size of the packing is not determined, {}", rule));
     if (given > 2) refuse(".height", fmt::format("follows from count and density, {}", rule));
     if (given == 2 && !counted && !packing_.density)
       refuse(".density",
-             "a word leaves the count open, allowed: a number, or a count instead of "
+             "this choice does not determine the count, allowed: a number, or a count instead of "
              "the height");
     return !wrong_;
   }
@@ -112,19 +113,20 @@ class Mixer {
         if (!there) refuse(class_key(c, key), "required key is missing, allowed: a quantity in m");
     if (law.minimum && law.maximum && *law.minimum >= *law.maximum)
       refuse(class_key(c, "maximum"),
-             fmt::format("{:g} m leaves no sizes, allowed: > {:g} m", *law.maximum, *law.minimum));
+             fmt::format("{:g} m leaves no range of sizes, allowed: > {:g} m", *law.maximum,
+                         *law.minimum));
     const bool normal = law.kind == SizeLaw::Kind::normal;
     if (normal && !law.minimum && 3 * law.deviation >= law.mean)
       refuse(class_key(c, "deviation"),
-             fmt::format("{:g} m makes sizes of nothing, allowed: < {:g} m, a third of the mean, "
-                         "or a minimum size",
+             fmt::format("{:g} m allows sizes down to zero, allowed: < {:g} m, a third of the "
+                         "mean, or a minimum size",
                          law.deviation, law.mean / 3));
     if (!normal && law.kind != SizeLaw::Kind::lognormal) return;
     const double far = 6 * law.deviation;
     if ((law.minimum && *law.minimum > law.mean + far) ||
         (law.maximum && *law.maximum < law.mean - far))
       refuse(class_key(c, law.minimum && *law.minimum > law.mean ? "minimum" : "maximum"),
-             "leaves nothing of the law, allowed: within six deviations of the mean");
+             "cuts off the whole distribution, allowed: within six deviations of the mean");
   }
 
   Law law_of(const MixtureClass& mixed) const {

@@ -87,11 +87,13 @@ void check_point(const csv::Table& table, std::size_t i, const SieveCurve& curve
     refuse("passing",
            fmt::format("{:g} pass the smallest sieve, allowed: 0 in the first row", p.passing));
   if (i > 0 && p.size <= curve[i - 1].size)
-    refuse("size", fmt::format("size {:g} m is not above the last row's, allowed: > {:g} m", p.size,
-                               curve[i - 1].size));
+    refuse("size",
+           fmt::format("size {:g} m is not above that of the previous row, allowed: > {:g} m",
+                       p.size, curve[i - 1].size));
   if (i > 0 && p.passing < curve[i - 1].passing)
-    refuse("passing", fmt::format("passing {:g} is below the last row's, allowed: >= {:g}",
-                                  p.passing, curve[i - 1].passing));
+    refuse("passing",
+           fmt::format("passing {:g} is below that of the previous row, allowed: >= {:g}",
+                       p.passing, curve[i - 1].passing));
   if (i + 1 == curve.size() && p.passing != 1)
     refuse("passing",
            fmt::format("{:g} pass the largest sieve, allowed: 1 in the last row", p.passing));

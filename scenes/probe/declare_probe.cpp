@@ -6,32 +6,31 @@ namespace pulvis::schema {
 
 const TableDeclaration<ProbeSpec>& probe_top_level() {
   static const TableDeclaration<ProbeSpec> declaration{
-      {"", false, "", "Keys before the first table."},
+      {"", false, "", "Keys at the top level of the file."},
       {{{.name = "title",
          .kind = Kind::text,
-         .doc = "What tables and pictures are headed with.",
+         .doc = "Title of tables and figures.",
          .fallback_doc = "the name of the file"},
         to(&ProbeSpec::title)},
        {{.name = "densities",
          .kind = Kind::numbers,
          .range = above(0, 1.5),
          .required = true,
-         .doc = "Relative densities at which the powder is probed, rising. The last stage of a "
-                "path's scene is gone through again and again, until each of them."},
+         .doc = "Relative densities at which the powder is probed, in increasing order. The "
+                "last stage of the path's scene is repeated until each of them is reached."},
         [](ProbeSpec& spec, const Decoded& value) { spec.densities = value.numbers; }},
        {{.name = "seeds",
          .kind = Kind::integers,
          .range = within(0, 1e15),
-         .doc = "Every path is gone with each of these as the scene's `seed`: parameters are then "
-                "given with their scatter.",
-         .fallback_doc = "the scene's own, once"},
+         .doc = "Values of the scene's `seed`. Every path is run with each of them, and "
+                "parameters are reported with their scatter.",
+         .fallback_doc = "one run with the scene's own seed"},
         [](ProbeSpec& spec, const Decoded& value) { spec.seeds = value.integers; }},
        {{.name = "overrides",
          .kind = Kind::texts,
-         .doc = "Changes of every path's scene as `--set` makes them, applied after all others but "
-                "those of the "
-                "command line. The settings that are saved beside results keep here what `--set` "
-                "gave.",
+         .doc = "Changes to the scene of every path, written as for `--set`. They are applied "
+                "after all others except those on the command line. In the settings saved with "
+                "the results, this key records the `--set` options.",
          .fallback_doc = "none"},
         [](ProbeSpec& spec, const Decoded& value) { spec.overrides = value.texts; }}}};
   return declaration;
@@ -40,17 +39,18 @@ const TableDeclaration<ProbeSpec>& probe_top_level() {
 const TableDeclaration<ProbePath>& probe_path() {
   static const TableDeclaration<ProbePath> declaration{
       {"path", true, "",
-       "A load path of the powder: what it was pressed by shapes its yield surface."},
+       "A load path of the powder; the loading history shapes the yield surface."},
       {{{.name = "name",
          .kind = Kind::name,
          .required = true,
-         .doc = "What it is called in tables, pictures and folders."},
+         .doc = "Name used in tables, figures and folders."},
         to(&ProbePath::name)},
        {{.name = "scene",
          .kind = Kind::scene,
          .required = true,
-         .doc = "A scene with a periodic cell, as a path from this file's folder. Its last stage "
-                "must deform the cell (`[stage.cell]`) far enough for the next density."},
+         .doc = "Scene with a periodic cell, as a path relative to the folder of this file. "
+                "Its last stage must deform the cell (`[stage.cell]`) far enough to reach the "
+                "next density."},
         to(&ProbePath::scene)}}};
   return declaration;
 }
@@ -58,13 +58,14 @@ const TableDeclaration<ProbePath>& probe_path() {
 const TableDeclaration<ProbeSpec>& probe_probe() {
   static const TableDeclaration<ProbeSpec> declaration{
       {"probe", false, "",
-       "How each state is probed: unloaded first, then loaded in one direction."},
+       "Probing of each state: the powder is unloaded first, then loaded in one "
+       "direction."},
       {{{.name = "control",
          .kind = Kind::choice,
-         .choices = {{"strain", "strains xx and yy grow in a fixed ratio"},
+         .choices = {{"strain", "strains xx and yy increase in a fixed ratio"},
                      {"stress", "stresses xx and yy change in a fixed ratio"}},
          .fallback = value_of("strain"),
-         .doc = "What has the direction."},
+         .doc = "Quantity that defines the direction."},
         [](ProbeSpec& spec, const Decoded& value) {
           spec.control = static_cast<ProbeSpec::Control>(value.index);
         }},
@@ -72,54 +73,56 @@ const TableDeclaration<ProbeSpec>& probe_probe() {
          .kind = Kind::integer,
          .range = within(4, 360),
          .fallback = value_of(12),
-         .doc = "Evenly over the full turn in the plane of xx and yy. One more probe shears."},
+         .doc = "Number of directions, evenly spaced over the full circle in the plane of xx "
+                "and yy. One additional probe applies shear."},
         integer_to(&ProbeSpec::directions)},
        {{.name = "size",
          .kind = Kind::number,
          .range = above(0, 1),
          .fallback = value_of(0.02),
-         .doc = "Length of the strain; under stress control that of the stress over the pressure "
-                "of the state."},
+         .doc = "Magnitude of the strain; under stress control, of the stress change divided "
+                "by the pressure of the state."},
         to(&ProbeSpec::size)},
        {{.name = "duration",
          .kind = Kind::quantity,
          .unit = "s",
          .range = within(1e-15, 1e6),
          .required = true,
-         .doc = "Simulated time of a probe; as long again for the unloading before it."},
+         .doc = "Simulated time of a probe; the preceding unloading takes the same time."},
         to(&ProbeSpec::duration)},
        {{.name = "release",
          .kind = Kind::number,
          .range = above(0, 1),
          .fallback = value_of(0.5),
-         .doc = "Share of the state's stresses xx and yy to which it is unloaded: all directions "
-                "start inside the yield surface."},
+         .doc = "Fraction of stresses xx and yy of the state to which it is unloaded, so that "
+                "all directions start inside the yield surface."},
         to(&ProbeSpec::release)}}};
   return declaration;
 }
 
 const TableDeclaration<ProbeSpec>& probe_yield() {
   static const TableDeclaration<ProbeSpec> declaration{
-      {"yield", false, "", "What counts as yielding. Both criteria are evaluated and told."},
+      {"yield", false, "", "Yield criteria. Both are evaluated and reported."},
       {{{.name = "elastic_strain",
          .kind = Kind::number,
          .range = above(0, 0.1),
          .fallback = value_of(2e-4),
-         .doc = "Length of the strain up to which probes count as elastic: moduli are fitted to "
+         .doc = "Strain magnitude up to which probes count as elastic: moduli are fitted to "
                 "these parts of all directions."},
         to(&ProbeSpec::elastic_strain)},
        {{.name = "offset_strain",
          .kind = Kind::number,
          .range = above(0, 0.5),
          .fallback = value_of(0.002),
-         .doc = "Length of the plastic strain (xx, yy): strain less elastic strain."},
+         .doc = "Magnitude of the plastic strain (xx, yy), i.e. strain minus elastic strain, "
+                "at yield."},
         to(&ProbeSpec::offset_strain)},
        {{.name = "dissipation",
          .kind = Kind::number,
          .range = above(0, 0.5),
          .fallback = value_of(0.002),
-         .doc = "Energy dissipated per volume, by plastic flow, friction, damping and fracture, "
-                "over the pressure of the state."},
+         .doc = "Energy dissipated per volume at yield, by plastic flow, friction, damping and "
+                "fracture, divided by the pressure of the state."},
         to(&ProbeSpec::dissipation)}}};
   return declaration;
 }

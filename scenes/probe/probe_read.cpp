@@ -15,10 +15,10 @@ const char* const introduction = R"(# The probe file
 
 <!-- Generated from the declarations in scenes/probe/declare_probe.cpp: change those, not this file. -->
 
-A probe is a TOML file that names scenes of a powder in a periodic cell and asks where the powder yields. `pulvis probe
-PROBE.toml` loads the powder along every path, keeps its state at every density, unloads each state a little and loads it in
-many directions from there, several runs at once; then it tells the yield points, the elastic moduli and the parameters of
-cap models, and draws them. The same command goes on where it was broken off.
+A probe determines the yield surface of a powder. The probe file is a TOML file that names scenes of a powder in a
+periodic cell. `pulvis probe PROBE.toml` loads the powder along every path and saves its state at every density. From each
+state it unloads slightly and then loads in many directions, several runs at once. It reports and plots the yield points,
+the elastic moduli and the parameters of cap models. If interrupted, the same command resumes.
 
 ```toml
 densities = [0.85, 0.90, 0.95]
@@ -32,9 +32,9 @@ scene = "copper-isostatic.toml"
 duration = "0.2 ms"
 ```
 
-Strains and stresses are those of scenes: tension > 0. A direction is the angle of (xx, yy): 225 degrees presses both alike.
-Anything that is wrong, in the probe or in a scene it names, is refused before the first run as
-`file:line:col: key: what is wrong, allowed: what is allowed`.
+Strains and stresses have the sign convention of scenes: tension > 0. A direction is an angle in the plane of (xx, yy):
+225 degrees is equal compression in both. Errors in the probe file or in a scene it names are reported before the first run
+as `file:line:col: key: what is wrong, allowed: what is allowed`.
 )";
 
 class ProbeReader {
@@ -86,7 +86,7 @@ class ProbeReader {
     const std::vector<double>& densities = probe_.spec.densities;
     if (std::ranges::adjacent_find(densities, std::greater_equal()) != densities.end())
       problems_.add(origins.at("densities"), "densities",
-                    "they do not rise, allowed: each larger than the one before");
+                    "they do not increase, allowed: each larger than the one before");
     if (probe_.spec.paths.empty())
       problems_.add({{1, 1}, -1}, "path", "none is given, allowed: at least one [[path]]");
     for (std::size_t i = 0; i < probe_.spec.paths.size(); ++i)

@@ -165,7 +165,8 @@ void require_ranks_can_run(const Scene& scene) {
   problem.file = scene.file.string();
   problem.line = problem.column = 1;
   problem.key = "afm";
-  problem.message = "ranks share out particles, and a lever is one, allowed: --ranks 1";
+  problem.message =
+      "ranks divide the particles among them, and a lever is a single body, allowed: --ranks 1";
   throw SceneError({problem});
 }
 

@@ -26,9 +26,9 @@ schema::Key<Spec> header_key() {
            .kind = Kind::integer,
            .range = within(0, 10000),
            .fallback = value_of(0),
-           .doc = "Line of the file that holds the names of the columns; 0: the first line that is "
-                  "neither empty nor a comment (#), or below lines of text the one right above the "
-                  "numbers, where that is certain."},
+           .doc = "Line of the file with the column names; 0: the first line that is neither "
+                  "empty nor a comment (#), or, if there are lines of text above, the line "
+                  "directly above the numbers if it is unambiguous."},
           integer_to(&Spec::header_line)};
 }
 

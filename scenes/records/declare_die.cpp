@@ -13,19 +13,19 @@ std::vector<Key<CompressionSpec>> machine_keys() {
   return {
       {{.name = "empty",
         .kind = Kind::file,
-        .doc = "Record of the press (CSV) with its punches against each other: a polynomial "
-               "through its loading is what the press itself gives.",
+        .doc = "Record of the press (CSV) with the punches in direct contact: a polynomial "
+               "fitted to its loading gives the compliance of the press.",
         .fallback_doc = "none"},
        to(&CompressionSpec::empty)},
       {{.name = "empty_degree",
         .kind = Kind::integer,
         .range = within(1, 6),
         .fallback = value_of(3),
-        .doc = "Degree of that polynomial of the force."},
+        .doc = "Degree of this polynomial in the force."},
        integer_to(&CompressionSpec::empty_degree)},
       {{.name = "compliance",
         .kind = Kind::numbers,
-        .doc = "What the press itself gives, c1 F + c2 F^2 + ..., in m/N, m/N^2 and so on, where "
+        .doc = "Compliance of the press, c1 F + c2 F^2 + ..., in m/N, m/N^2 and so on, if "
                "there is no `empty` record.",
         .fallback_doc = "a rigid press"},
        [](CompressionSpec& spec, const Decoded& value) { spec.compliance = value.numbers; }},
@@ -33,14 +33,14 @@ std::vector<Key<CompressionSpec>> machine_keys() {
         .kind = Kind::number,
         .range = between(0, 0.5),
         .fallback = value_of(0.001),
-        .doc = "The loading begins where the force passes this share of its largest value."},
+        .doc = "Loading begins where the force exceeds this fraction of its maximum."},
        to(&CompressionSpec::contact)},
       {{.name = "largest_fall",
         .kind = Kind::number,
         .range = between(0, 1),
         .fallback = value_of(0.03),
-        .doc = "A record whose force falls by more than this share of its largest value before it "
-               "is reached is refused: no single loading."},
+        .doc = "A record whose force drops by more than this fraction of its maximum before "
+               "the maximum is reached is refused: it is not a single loading."},
        to(&CompressionSpec::largest_fall)},
   };
 }
@@ -73,7 +73,7 @@ std::vector<Key<Spec>> filling_keys() {
       {{.name = "name",
         .kind = Kind::name,
         .required = true,
-        .doc = "Names its file and its curve."},
+        .doc = "Name used for its file and curve."},
        to(&Spec::name)},
       {{.name = "mass",
         .kind = Kind::quantity,
@@ -86,16 +86,16 @@ std::vector<Key<Spec>> filling_keys() {
         .kind = Kind::quantity,
         .unit = "m",
         .range = above(0, 10),
-        .doc = "Height of the powder where the displacement of the punch is zero.",
+        .doc = "Height of the powder at zero displacement of the punch.",
         .fallback_doc = "from `final_height`, or from `compression.empty`"},
        to(&Spec::fill_height)},
       {{.name = "final_height",
         .kind = Kind::quantity,
         .unit = "m",
         .range = above(0, 10),
-        .doc = "Height of the compact in the die at the end of the record, unloaded. With neither "
-               "height the record of the empty press must count its displacement from the same "
-               "zero.",
+        .doc = "Height of the unloaded compact in the die at the end of the record. If "
+               "neither height is given, the record of the empty press must have the same "
+               "zero of displacement.",
         .fallback_doc = "from `fill_height`, or from `compression.empty`"},
        to(&Spec::final_height)},
   };
@@ -106,10 +106,11 @@ std::vector<Key<Spec>> filling_keys() {
 const TableDeclaration<DieSpec>& declared_die() {
   static const TableDeclaration<DieSpec> declaration{
       {"die", false, "shape",
-       "The die that a press fills, for `[[curve]]` and `[[transmission]]`."},
+       "The die in which the powder is pressed, for `[[curve]]` and "
+       "`[[transmission]]`."},
       {{{.name = "shape",
          .kind = Kind::choice,
-         .choices = {{"round", "a cylinder"}, {"slot", "two walls, as a plane strain model has"}},
+         .choices = {{"round", "a cylinder"}, {"slot", "two walls, as in a plane strain model"}},
          .fallback = value_of("round"),
          .doc = "Cross-section."},
         index_to(&DieSpec::shape)},
@@ -135,17 +136,17 @@ const TableDeclaration<DieSpec>& declared_die() {
          .range = above(0, 10),
          .required = true,
          .only_for = "slot",
-         .doc = "The other side of the punch."},
+         .doc = "Other side length of the punch."},
         to(&DieSpec::thickness)},
        {{.name = "solid_density",
          .kind = Kind::quantity,
          .unit = "kg/m^3",
          .range = above(0, 1e5),
-         .doc = "Density of the powder's solid; required for `[[curve]]` and `[[transmission]]`.",
+         .doc = "Solid density of the powder; required for `[[curve]]` and `[[transmission]]`.",
          .fallback_doc = "none"},
         to(&DieSpec::solid_density)},
        error_key("mass_error", &DieSpec::mass_error,
-                 "Standard uncertainty of the masses over the solid density, as a share."),
+                 "Relative standard uncertainty of the ratio of mass to solid density."),
        {{.name = "height_error",
          .kind = Kind::quantity,
          .unit = "m",
@@ -160,15 +161,16 @@ const TableDeclaration<CompressionSpec>& declared_compression() {
   static const TableDeclaration<CompressionSpec> declaration = [] {
     TableDeclaration<CompressionSpec> made{
         {"compression", false, "",
-         "Compression curves: the press's own give, and what the laws are fitted to."},
+         "Compression curves: compliance of the press and fitted range of the laws."},
         machine_keys()};
     made.keys.push_back(pressure_key("fit_from", &CompressionSpec::fit_from,
-                                     "Axial pressure where the fitted part of the loading begins.",
-                                     "1% of the largest"));
+                                     "Axial pressure at the start of the fitted range.",
+                                     "1% of the maximum"));
     made.keys.push_back(pressure_key("fit_until", &CompressionSpec::fit_until,
-                                     "Axial pressure where it ends.", "the largest"));
+                                     "Axial pressure at the end of the fitted range.",
+                                     "the maximum"));
     made.keys.push_back(error_key("compliance_error", &CompressionSpec::compliance_error,
-                                  "Standard uncertainty of what the press gives, as a share."));
+                                  "Relative standard uncertainty of the compliance of the press."));
     return made;
   }();
   return declaration;
@@ -180,19 +182,19 @@ const TableDeclaration<CurveSpec>& declared_curve() {
         {"curve", true, "",
          "One compression: a record of the press, instead of sliding-plate tests."},
         filling_keys<CurveSpec>()};
-    made.keys.push_back({{.name = "press",
-                          .kind = Kind::file,
-                          .required = true,
-                          .doc = "Record of the press (CSV), as a path from the folder of this "
-                                 "file; its columns are those of `[press]`."},
-                         to(&CurveSpec::press)});
     made.keys.push_back(
-        {{.name = "initial_density",
-          .kind = Kind::number,
-          .range = between(0, 1),
-          .doc = "Relative density that Kawakita's and Cooper and Eaton's laws begin at.",
-          .fallback_doc = "that where the loading begins"},
-         to(&CurveSpec::initial_density)});
+        {{.name = "press",
+          .kind = Kind::file,
+          .required = true,
+          .doc = "Record of the press (CSV), as a path relative to the folder of this file; its "
+                 "columns are those of `[press]`."},
+         to(&CurveSpec::press)});
+    made.keys.push_back({{.name = "initial_density",
+                          .kind = Kind::number,
+                          .range = between(0, 1),
+                          .doc = "Initial relative density in the Kawakita and Cooper-Eaton laws.",
+                          .fallback_doc = "that at the start of loading"},
+                         to(&CurveSpec::initial_density)});
     return made;
   }();
   return declaration;
@@ -202,44 +204,45 @@ const TableDeclaration<GaugesSpec>& declared_gauges() {
   static const TableDeclaration<GaugesSpec> declaration = [] {
     TableDeclaration<GaugesSpec> made{
         {"gauges", false, "",
-         "Records of an instrumented die: forces on both punches, and the wall's stress."},
-        {column_key("time", "time", &GaugesSpec::time, "Name of the column with the time."),
+         "Records of an instrumented die: forces on both punches and wall stress."},
+        {column_key("time", "time", &GaugesSpec::time, "Name of the time column."),
          column_key("displacement", "displacement", &GaugesSpec::displacement,
                     "Name of the column with the displacement of the top punch."),
          column_key("top", "top", &GaugesSpec::top,
-                    "Name of the column with the force on the top punch, which is the one that "
-                    "moves."),
+                    "Name of the column with the force on the top punch, which moves."),
          column_key("bottom", "bottom", &GaugesSpec::bottom,
                     "Name of the column with the force on the bottom punch."),
          column_key("radial", "radial", &GaugesSpec::radial,
-                    "Name of the column with the stress on the wall (Pa)."),
+                    "Name of the column with the wall stress (Pa)."),
          header_key<GaugesSpec>(),
          {{.name = "radial_height",
            .kind = Kind::quantity,
            .unit = "m",
            .range = within(0, 10),
-           .doc = "Height of the wall's gauge above the bottom punch.",
-           .fallback_doc = "it measures the mean over the compact's height"},
+           .doc = "Height of the wall gauge above the bottom punch.",
+           .fallback_doc = "none: the gauge measures the mean over the height of the compact"},
           to(&GaugesSpec::radial_height)},
          {{.name = "from",
            .kind = Kind::number,
            .range = above(0, 1),
            .fallback = value_of(0.05),
-           .doc =
-               "Share of the largest axial pressure from which on K and the friction are taken."},
+           .doc = "Fraction of the maximum axial pressure above which K and the friction are "
+                  "evaluated."},
           to(&GaugesSpec::from)},
          {{.name = "density_step",
            .kind = Kind::number,
            .range = within(1e-4, 1),
            .fallback = value_of(0.02),
-           .doc = "Step of the relative density at which they are told."},
+           .doc = "Interval of relative density at which they are reported."},
           to(&GaugesSpec::density_step)}}};
     made.keys.push_back(error_key("top_error", &GaugesSpec::top_error,
-                                  "Standard uncertainty of the top force, as a share."));
-    made.keys.push_back(error_key("bottom_error", &GaugesSpec::bottom_error,
-                                  "The same of the bottom force; both count as independent."));
+                                  "Relative standard uncertainty of the top force."));
     made.keys.push_back(
-        error_key("radial_error", &GaugesSpec::radial_error, "The same of the wall's stress."));
+        error_key("bottom_error", &GaugesSpec::bottom_error,
+                  "Relative standard uncertainty of the bottom force; the two are treated as "
+                  "independent."));
+    made.keys.push_back(error_key("radial_error", &GaugesSpec::radial_error,
+                                  "Relative standard uncertainty of the wall stress."));
     return made;
   }();
   return declaration;
@@ -251,12 +254,13 @@ const TableDeclaration<TransmissionSpec>& declared_transmission() {
         {"transmission", true, "",
          "One compression in an instrumented die, instead of sliding-plate tests."},
         filling_keys<TransmissionSpec>()};
-    made.keys.push_back({{.name = "record",
-                          .kind = Kind::file,
-                          .required = true,
-                          .doc = "Record (CSV), as a path from the folder of this file; its "
-                                 "columns are those of `[gauges]`."},
-                         to(&TransmissionSpec::record)});
+    made.keys.push_back(
+        {{.name = "record",
+          .kind = Kind::file,
+          .required = true,
+          .doc = "Record (CSV), as a path relative to the folder of this file; its columns are "
+                 "those of `[gauges]`."},
+         to(&TransmissionSpec::record)});
     return made;
   }();
   return declaration;

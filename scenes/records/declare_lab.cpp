@@ -26,15 +26,15 @@ std::vector<Key<CompactSpec>> geometry_keys() {
         .kind = Kind::quantity,
         .unit = "m",
         .range = above(0, 1),
-        .doc = "Length L of the compact when sliding starts; the punch displacement shortens it "
-               "from there on. Give it or `fill_height`.",
+        .doc = "Length L of the compact at the start of sliding; from there on, the punch "
+               "displacement is subtracted. Alternative to `fill_height`.",
         .fallback_doc = "from `fill_height`"},
        to(&CompactSpec::length)},
       {{.name = "fill_height",
         .kind = Kind::quantity,
         .unit = "m",
         .range = above(0, 1),
-        .doc = "Height of the powder where the punch displacement is zero: L is this less the "
+        .doc = "Height of the powder at zero punch displacement: L is this height minus the "
                "displacement.",
         .fallback_doc = "from `length`"},
        to(&CompactSpec::fill_height)},
@@ -46,28 +46,27 @@ std::vector<Key<CompactSpec>> powder_keys() {
       {{.name = "poissons_ratio",
         .kind = Kind::number,
         .range = within(0, 0.499),
-        .doc = "Poisson's ratio of the compact in (3.1). Give it or `powder`.",
-        .fallback_doc = "of the `powder`"},
+        .doc = "Poisson's ratio of the compact in (3.1). Alternative to `powder`.",
+        .fallback_doc = "from `powder`"},
        to(&CompactSpec::poissons_ratio)},
       {{.name = "powder",
         .kind = Kind::choice,
         .choices = powders(),
-        .doc = "Takes Poisson's ratio from Table 3.2 of the thesis.",
+        .doc = "Powder whose Poisson's ratio is taken from Table 3.2 of the thesis.",
         .fallback_doc = "none"},
        [](CompactSpec& spec, const Decoded& value) { spec.powder = value.index; }},
       {{.name = "stress_ratio",
         .kind = Kind::number,
         .range = above(0, 2),
-        .doc =
-            "K, the radial over the axial stress of the compact, in (3.1). The report then shows "
-            "the coefficient of an elastic compact beside.",
-        .fallback_doc = "of an elastic compact, nu/(1 - nu)"},
+        .doc = "K in (3.1), the ratio of radial to axial stress in the compact. The report "
+               "then also shows the coefficient for an elastic compact.",
+        .fallback_doc = "that of an elastic compact, nu/(1 - nu)"},
        to(&CompactSpec::stress_ratio)},
       {{.name = "wall_friction",
         .kind = Kind::number,
         .range = within(0, 5),
-        .doc = "Coefficient on the die wall, in (3.1) only.",
-        .fallback_doc = "the coefficient on the target, solved for in (3.1) and (3.2) together"},
+        .doc = "Friction coefficient of the die wall in (3.1).",
+        .fallback_doc = "that of the target: (3.1) and (3.2) are solved together"},
        to(&CompactSpec::wall_friction)},
   };
 }
@@ -79,28 +78,30 @@ std::vector<Key<AnalysisSpec>> window_keys() {
         .unit = "m",
         .range = above(0, 10),
         .fallback = value_of("15 mm"),
-        .doc = "A run that slides less is refused. The default is the compact's diameter: only "
-               "beyond it does all of the compact meet fresh surface."},
+        .doc = "A run with a shorter sliding distance is refused. The default is the diameter "
+               "of the compact: only beyond it is the whole compact in contact with a fresh "
+               "surface."},
        to(&AnalysisSpec::shortest_sliding)},
       {{.name = "static_within",
         .kind = Kind::quantity,
         .unit = "m",
         .range = above(0, 10),
         .fallback = value_of("3 mm"),
-        .doc = "The static coefficient is the largest one within this distance from the start."},
+        .doc = "The static coefficient is the largest value within this distance from the "
+               "start."},
        to(&AnalysisSpec::static_within)},
       {{.name = "dynamic_from",
         .kind = Kind::quantity,
         .unit = "m",
         .range = within(0, 10),
         .fallback = value_of("10 mm"),
-        .doc = "Distance where the dynamic mean and the search for stick-slip begin."},
+        .doc = "Distance at which the dynamic mean and the stick-slip analysis begin."},
        to(&AnalysisSpec::dynamic_from)},
       {{.name = "dynamic_until",
         .kind = Kind::quantity,
         .unit = "m",
         .range = above(0, 10),
-        .doc = "Distance where they end.",
+        .doc = "Distance at which they end.",
         .fallback_doc = "the end of sliding"},
        to(&AnalysisSpec::dynamic_until)},
   };
@@ -110,10 +111,10 @@ std::vector<Key<AnalysisSpec>> window_keys() {
 
 const TableDeclaration<Settings>& declared_top() {
   static const TableDeclaration<Settings> declaration{
-      {"", false, "", "One series of tests: the same powder, surface, load and speed."},
+      {"", false, "", "A series of tests with the same powder, surface, load and speed."},
       {{{.name = "title",
          .kind = Kind::text,
-         .doc = "Stands above the report.",
+         .doc = "Title of the report.",
          .fallback_doc = "none"},
         to(&Settings::title)}}};
   return declaration;
@@ -122,12 +123,12 @@ const TableDeclaration<Settings>& declared_top() {
 const TableDeclaration<PressSpec>& declared_press() {
   static const TableDeclaration<PressSpec> declaration{
       {"press", false, "", "Records of the press: time, normal force, punch displacement."},
-      {column_key("time", "time", &PressSpec::time, "Name of the column with the press's time."),
+      {column_key("time", "time", &PressSpec::time, "Name of the time column of the press."),
        column_key("force", "force", &PressSpec::force,
-                  "Name of the column with the force on the punch; its sign does not matter."),
+                  "Name of the column with the force on the punch, of either sign."),
        column_key("displacement", "displacement", &PressSpec::displacement,
-                  "Name of the column with the punch displacement; its sign is found from the "
-                  "loading."),
+                  "Name of the column with the punch displacement; its sign is determined from "
+                  "the loading."),
        header_key<PressSpec>(),
        {{.name = "capacity",
          .kind = Kind::quantity,
@@ -140,35 +141,35 @@ const TableDeclaration<PressSpec>& declared_press() {
          .kind = Kind::number,
          .range = between(0, 1),
          .fallback = value_of(0.1),
-         .doc = "The force counts as held while it stays within this share of its median over the "
-                "upper half."},
+         .doc = "The force counts as held while it stays within this fraction of its median "
+                "over the upper half."},
         to(&PressSpec::hold_tolerance)}}};
   return declaration;
 }
 
 const TableDeclaration<LoggerSpec>& declared_logger() {
   static const TableDeclaration<LoggerSpec> declaration{
-      {"logger", false, "",
-       "Records of the data logger: time, strain of the load cell, LVDT volts."},
-      {column_key("time", "time", &LoggerSpec::time, "Name of the column with the logger's time."),
+      {"logger", false, "", "Records of the data logger: time, load cell strain, LVDT voltage."},
+      {column_key("time", "time", &LoggerSpec::time, "Name of the time column of the logger."),
        column_key("strain", "strain", &LoggerSpec::strain,
-                  "Name of the column with the load cell's strain, in um/m (or ue, ppm, m/m, %)."),
+                  "Name of the column with the load cell strain, in um/m (or ue, ppm, m/m, %)."),
        column_key("lvdt", "lvdt", &LoggerSpec::lvdt,
-                  "Name of the column with the LVDT's volts; their sign is found from the motion."),
+                  "Name of the column with the LVDT voltage; its sign is determined from the "
+                  "motion."),
        header_key<LoggerSpec>(),
        {{.name = "strain_limit",
          .kind = Kind::number,
          .range = above(0, 1),
-         .doc =
-             "A record whose strain reaches this size is refused as saturated; 0.003 is 3000 um/m.",
-         .fallback_doc = "none: only samples that repeat at the record's extreme are refused"},
+         .doc = "A record whose strain reaches this magnitude is refused as saturated; 0.003 "
+                "is 3000 um/m.",
+         .fallback_doc = "none: only records whose samples repeat at an extreme value are refused"},
         to(&LoggerSpec::strain_limit)},
        {{.name = "lvdt_limit",
          .kind = Kind::quantity,
          .unit = "V",
          .range = above(0, 1e3),
-         .doc = "A record whose LVDT voltage reaches this size is refused as saturated.",
-         .fallback_doc = "none: only samples that repeat at the record's extreme are refused"},
+         .doc = "A record whose LVDT voltage reaches this magnitude is refused as saturated.",
+         .fallback_doc = "none: only records whose samples repeat at an extreme value are refused"},
         to(&LoggerSpec::lvdt_limit)}}};
   return declaration;
 }
@@ -182,7 +183,7 @@ const TableDeclaration<LoadCellSpec>& declared_load_cell() {
          .unit = "N",
          .range = within(-1e12, 1e12),
          .fallback = value_of("0.7257 N/(um/m)"),
-         .doc = "Force for each strain; negative where the bridge is wired the other way."},
+         .doc = "Force per strain; negative if the bridge is wired with opposite polarity."},
         to(&LoadCellSpec::gain)},
        {{.name = "offset",
          .kind = Kind::quantity,
@@ -193,10 +194,10 @@ const TableDeclaration<LoadCellSpec>& declared_load_cell() {
         to(&LoadCellSpec::offset)},
        {{.name = "zero",
          .kind = Kind::choice,
-         .choices = {{"calibration", "the offset as calibrated"},
-                     {"standstill", "the mean before sliding starts is taken as no force"}},
+         .choices = {{"calibration", "the calibrated offset"},
+                     {"standstill", "the mean before sliding starts"}},
          .fallback = value_of("calibration"),
-         .doc = "Where the shear force is zero."},
+         .doc = "Definition of zero shear force."},
         index_to(&LoadCellSpec::zero)}}};
   return declaration;
 }
@@ -209,7 +210,7 @@ const TableDeclaration<LvdtSpec>& declared_lvdt() {
          .unit = "V/m",
          .range = above(0, 1e9),
          .fallback = value_of("3.58 mV/mm"),
-         .doc = "Volts for each length."},
+         .doc = "Voltage per displacement."},
         to(&LvdtSpec::sensitivity)}}};
   return declaration;
 }
@@ -218,7 +219,7 @@ const TableDeclaration<CompactSpec>& declared_compact() {
   static const TableDeclaration<CompactSpec> declaration = [] {
     TableDeclaration<CompactSpec> made{
         {"compact", false, "",
-         "The compact, as (3.1) needs it: force at its bottom = force on the punch x "
+         "The compact, as required by (3.1): force at its bottom = force on the punch x "
          "exp(-4 mu K L / D)."},
         geometry_keys()};
     for (const auto& key : powder_keys()) made.keys.push_back(key);
@@ -229,37 +230,38 @@ const TableDeclaration<CompactSpec>& declared_compact() {
 
 const TableDeclaration<ClockSpec>& declared_clock() {
   static const TableDeclaration<ClockSpec> declaration{
-      {"clock", false, "", "How the clocks of press and logger are brought together."},
+      {"clock", false, "", "Synchronisation of the clocks of press and logger."},
       {{{.name = "drift",
          .kind = Kind::choice,
-         .choices =
-             {{"events",
-               "from start and end of sliding, where both records show both and it is larger than "
-               "three of its uncertainties"},
-              {"none", "the clocks run at the same rate; the start alone decides"}},
+         .choices = {{"events",
+                      "from start and end of sliding, if both records show both and the difference "
+                      "exceeds three times its uncertainty"},
+                     {"none",
+                      "the clocks run at the same rate; only the start of sliding is used"}},
          .fallback = value_of("events"),
-         .doc = "How the rate of one clock against the other is found."},
+         .doc = "How the relative rate of the two clocks is determined."},
         index_to(&ClockSpec::drift)},
        {{.name = "largest_drift",
          .kind = Kind::number,
          .range = within(0, 0.5),
          .fallback = value_of(0.001),
-         .doc = "Clocks that differ by more than this rate, and more than four standard "
-                "uncertainties, are refused as those of different tests."},
+         .doc = "Clocks whose rates differ by more than this, and by more than four standard "
+                "uncertainties, are refused as belonging to different tests."},
         to(&ClockSpec::largest_drift)},
        {{.name = "window",
          .kind = Kind::quantity,
          .unit = "s",
          .range = above(0, 1e4),
          .fallback = value_of("3 s"),
-         .doc = "Time to either side of an event in which two lines are fitted to the record."},
+         .doc = "Time on either side of an event within which two lines are fitted to the "
+                "record."},
         to(&ClockSpec::window)},
        {{.name = "longest_gap",
          .kind = Kind::number,
          .range = within(1.5, 1e6),
          .fallback = value_of(5.0),
-         .doc = "A longer time between two samples, in units of the record's median, is refused as "
-                "a gap."},
+         .doc = "Maximum time between two samples, in multiples of the median interval of the "
+                "record; longer gaps are refused."},
         to(&ClockSpec::longest_gap)}}};
   return declaration;
 }
@@ -267,13 +269,13 @@ const TableDeclaration<ClockSpec>& declared_clock() {
 const TableDeclaration<AnalysisSpec>& declared_analysis() {
   static const TableDeclaration<AnalysisSpec> declaration = [] {
     TableDeclaration<AnalysisSpec> made{
-        {"analysis", false, "", "What is taken from the curve of each run, and over the runs."},
+        {"analysis", false, "", "Evaluation of the curve of each run and of the set of runs."},
         window_keys()};
     made.keys.push_back({{.name = "confidence",
                           .kind = Kind::number,
                           .range = between(0, 1),
                           .fallback = value_of(0.95),
-                          .doc = "Level of the confidence interval of a mean over the runs."},
+                          .doc = "Confidence level of the interval of a mean over the runs."},
                          to(&AnalysisSpec::confidence)});
     made.keys.push_back({{.name = "distance_step",
                           .kind = Kind::quantity,
@@ -293,19 +295,19 @@ const TableDeclaration<SimulationSpec>& declared_simulation() {
       {{{.name = "target",
          .kind = Kind::name,
          .fallback = value_of("target"),
-         .doc = "The tool that slides under the compact: its forces give the coefficient, its "
+         .doc = "Tool that slides under the compact: its forces give the coefficient, its "
                 "travel along x the distance."},
         to(&SimulationSpec::target)},
        {{.name = "density",
          .kind = Kind::text,
          .fallback = value_of("relative_density"),
-         .doc = "Series with the relative density, for compression curves."},
+         .doc = "Series of the relative density, for compression curves."},
         to(&SimulationSpec::density)},
        {{.name = "pressure",
          .kind = Kind::text,
          .fallback = value_of("stress/axial_top"),
-         .doc = "Series with the axial stress, for compression curves; its sign does not matter. "
-                "Of a periodic cell \"cell/stress_yy\"."},
+         .doc = "Series of the axial stress, of either sign, for compression curves. For a "
+                "periodic cell: \"cell/stress_yy\"."},
         to(&SimulationSpec::pressure)}}};
   return declaration;
 }

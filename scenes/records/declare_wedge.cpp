@@ -9,21 +9,20 @@ using namespace schema;
 const TableDeclaration<WedgeSpec>& declared_wedge() {
   static const TableDeclaration<WedgeSpec> declaration{
       {"wedge", false, "",
-       "Friction loops of an AFM on slopes that are known, instead of sliding-plate tests: "
-       "friction "
+       "AFM friction loops on known slopes, instead of sliding-plate tests: friction "
        "coefficient and sensitivity of the lateral detector."},
       {{{.name = "loops",
          .kind = Kind::file,
-         .doc = "The loops (CSV), as a path from the folder of this file. A file of loops on the "
-                "command line stands for it.",
-         .fallback_doc = "sliding-plate tests are reduced"},
+         .doc = "The loops (CSV), as a path relative to the folder of this file. A file of "
+                "loops on the command line replaces it.",
+         .fallback_doc = "none: sliding-plate tests are reduced"},
         to(&WedgeSpec::loops)},
        {{.name = "adhesion",
          .kind = Kind::quantity,
          .unit = "N",
          .range = within(-1, 1),
          .fallback = value_of("0 N"),
-         .doc = "Pull-off force along the normal, for slopes that were seen at one load only."},
+         .doc = "Pull-off force normal to the surface, for slopes measured at a single load."},
         to(&WedgeSpec::adhesion)},
        {{.name = "slope_error",
          .kind = Kind::quantity,
@@ -36,15 +35,14 @@ const TableDeclaration<WedgeSpec>& declared_wedge() {
          .kind = Kind::number,
          .range = within(0, 1),
          .fallback = value_of(0.0),
-         .doc =
-             "Standard uncertainty of the normal calibration, as a share of the load: it goes to "
-             "the sensitivity alone."},
+         .doc = "Relative standard uncertainty of the load from the normal calibration; it "
+                "affects only the sensitivity."},
         to(&WedgeSpec::load_error)},
        {{.name = "skip",
          .kind = Kind::number,
          .range = within(0, 0.45),
          .fallback = value_of(0.15),
-         .doc = "Share of a raw trace that is left out at each end, where the tip sticks."},
+         .doc = "Fraction of a raw trace that is discarded at each end, where the tip sticks."},
         to(&WedgeSpec::skip)}}};
   return declaration;
 }

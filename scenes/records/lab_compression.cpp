@@ -140,10 +140,11 @@ SimulatedCompression read_compression(const std::filesystem::path& run_folder,
   const csv::Table history = history_of_run(run_folder);
   const auto series = [&](const std::string& name, const char* key, const char* unit) {
     if (!csv::has_column(history, name))
-      csv::refuse(history, std::string("simulation.") + key,
-                  fmt::format("the run has no series '{}', allowed: the name of one of its "
-                              "history.csv",
-                              name));
+      csv::refuse(
+          history, std::string("simulation.") + key,
+          fmt::format(
+              "the run has no series '{}', allowed: the name of a series in its history.csv",
+              name));
     return csv::numbers(history, csv::column_at(history, name), unit);
   };
   const std::vector<double> density = series(spec.density, "density", "");
@@ -169,7 +170,7 @@ CompressionMisfit misfit_of(const SimulatedCompression& simulated, const Reduced
   misfit.until = std::min(m.x.back(), simulated.density.back());
   if (!(misfit.until > misfit.from)) {
     misfit.not_compared =
-        fmt::format("measured at densities of {:.4g} to {:.4g}, simulated at {:.4g} to {:.4g}",
+        fmt::format("measured at densities from {:.4g} to {:.4g}, simulated from {:.4g} to {:.4g}",
                     m.x.front(), m.x.back(), simulated.density.front(), simulated.density.back());
     return misfit;
   }

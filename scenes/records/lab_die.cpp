@@ -125,7 +125,7 @@ DieCurve simulated_die(const std::filesystem::path& run_folder) {
   const csv::Table history = history_of_run(run_folder);
   if (!names.has_die())
     csv::refuse(history, "stress/axial_top",
-                "the run has no die of four plane tools, allowed: a compaction in one");
+                "the run has no die of four plane tools, allowed: a compaction in such a die");
   const auto series = [&](const std::string& name, const char* unit) {
     return csv::numbers(history, csv::column_at(history, name), unit);
   };

@@ -142,8 +142,7 @@ class EffectsFinder {
     if (design_.factors.empty()) return refused("all runs have the same condition");
     if (rank_of(x) < x.cols())
       return refused(
-          "levels of different factors always change together: their effects cannot be "
-          "told apart");
+          "levels of different factors always change together: their effects cannot be separated");
     residual_ = residual_of(x, y_);
     const auto left = static_cast<int>(x.rows() - x.cols());
     result_.is_pure_error = pure_.freedom > 0;

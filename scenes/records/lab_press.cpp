@@ -32,11 +32,11 @@ void check_single(const PressRecord& record, std::size_t begin, std::size_t peak
   for (std::size_t i = begin; i <= peak; ++i) {
     highest = std::max(highest, record.force[i]);
     if (highest - record.force[i] > share * record.force[peak])
-      refuse(record, i, "force",
-             fmt::format("falls from {:.4g} N to {:.4g} N before its largest value of {:.4g} N: no "
-                         "single loading, allowed: a fall of {:g} of that "
-                         "(compression.largest_fall)",
-                         highest, record.force[i], record.force[peak], share));
+      refuse(
+          record, i, "force",
+          fmt::format("drops from {:.4g} N to {:.4g} N before its largest value of {:.4g} N: not a "
+                      "single loading, allowed: a drop of {:g} of that (compression.largest_fall)",
+                      highest, record.force[i], record.force[peak], share));
   }
   if (peak - begin + 1 < fewest_loading)
     refuse(record, peak, "force",
@@ -98,7 +98,8 @@ PressCurve press_curve(const PressRecord& record, const Filling& filling, const 
   check_single(record, begin, peak, spec.largest_fall);
   if (machine.largest_force > 0 && record.force[peak] > 1.001 * machine.largest_force)
     refuse(record, peak, "force",
-           fmt::format("{:.5g} N is beyond the record of the empty press, allowed: up to {:.5g} N",
+           fmt::format("{:.5g} N is beyond the range of the record of the empty press, allowed: up "
+                       "to {:.5g} N",
                        record.force[peak], machine.largest_force));
   const auto shortening = [&](std::size_t i) {
     return record.displacement[i] - machine.at(record.force[i]);
@@ -112,8 +113,8 @@ PressCurve press_curve(const PressRecord& record, const Filling& filling, const 
     const double height = zero - shortening(i);
     if (!(height > 0))
       refuse(record, i, "displacement",
-             fmt::format("the compact would be {:.4g} mm high, allowed: > 0 (its height, and what "
-                         "the press gives)",
+             fmt::format("the compact would be {:.4g} mm high, allowed: > 0 (check its height and "
+                         "the press compliance)",
                          height * 1e3));
     curve.height.push_back(height);
     curve.density.push_back(solid_height / height);

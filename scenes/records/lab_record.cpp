@@ -47,19 +47,18 @@ void read_time(const csv::Table& table, const std::string& name, double longest_
   for (std::size_t i = 1; i < t.size(); ++i) {
     steps.push_back(t[i] - t[i - 1]);
     if (!(steps.back() > 0))
-      csv::refuse(
-          table, i, column,
-          fmt::format("{:.6g} s does not come after {:.6g} s in line {}, allowed: time that "
-                      "grows from row to row",
-                      t[i], t[i - 1], table.lines[i - 1]));
+      csv::refuse(table, i, column,
+                  fmt::format("{:.6g} s does not come after {:.6g} s in line {}, allowed: time "
+                              "that increases from row to row",
+                              t[i], t[i - 1], table.lines[i - 1]));
   }
   record.interval = median(steps);
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (steps[i] > longest_gap * record.interval)
       csv::refuse(
           table, i + 1, column,
-          fmt::format("a gap of {:.4g} s after line {}, allowed: {:.4g} s, which is {:g} "
-                      "times the median interval (clock.longest_gap)",
+          fmt::format("a gap of {:.4g} s after line {}, allowed: at most {:.4g} s, {:g} times the "
+                      "median interval (clock.longest_gap)",
                       steps[i], table.lines[i], longest_gap * record.interval, longest_gap));
 }
 
@@ -128,8 +127,8 @@ void refuse_exchanged(const csv::Table& table, std::size_t bottom, const DieReco
   const double from_top = largest_size(record.force), below = largest_size(record.bottom);
   if (below > (1 + error) * from_top)
     csv::refuse(table, table.columns[bottom].name,
-                fmt::format("bears up to {:.6g} N, more than the {:.6g} N of the top punch, "
-                            "allowed: less, the columns may be exchanged",
+                fmt::format("carries up to {:.6g} N, more than the {:.6g} N of the top punch, "
+                            "allowed: less (are the columns swapped?)",
                             below, from_top));
 }
 
@@ -149,7 +148,7 @@ Instrument instrument_of(const std::filesystem::path& file, const Settings& sett
       press, "record",
       fmt::format("{} of press and logger, its columns are {}, allowed: either '{}' and '{}' "
                   "(press), or '{}' and '{}' (logger)",
-                  is_press ? "has the columns" : "has not the columns", listed(names),
+                  is_press ? "has the columns" : "does not have the columns", listed(names),
                   settings.press.force, settings.press.displacement, settings.logger.strain,
                   settings.logger.lvdt));
 }

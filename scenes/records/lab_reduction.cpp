@@ -57,8 +57,8 @@ class CurveMaker {
                                          : *compact.fill_height - displacement;
     if (!(length > 0))
       refuse(logger_, sample, "compact",
-             fmt::format("the punch has come {:.4g} mm, which leaves no compact, allowed: a length "
-                         "or fill_height that is larger than the punch displacement",
+             fmt::format("the punch has moved {:.4g} mm, which leaves no compact, allowed: a "
+                         "length or fill_height that is larger than the punch displacement",
                          displacement * 1e3));
     return length;
   }
@@ -68,12 +68,11 @@ class CurveMaker {
       return ratio * std::exp(k * *settings_.compact.wall_friction);
     const std::optional<double> friction = friction_coefficient(ratio, k);
     if (!friction)
-      refuse(
-          logger_, sample, settings_.logger.strain,
-          fmt::format("the shear force is {:.4g} of the force on the punch, which no coefficient "
-                      "gives in (3.1) with (3.2), allowed: up to {:.4g} for this compact, or a "
-                      "compact.wall_friction of its own",
-                      ratio, largest_ratio(k)));
+      refuse(logger_, sample, settings_.logger.strain,
+             fmt::format("the shear force is {:.4g} of the force on the punch, which is not "
+                         "possible with any coefficient in (3.1) with (3.2), allowed: up to {:.4g} "
+                         "for this compact, or a separate compact.wall_friction",
+                         ratio, largest_ratio(k)));
     return *friction;
   }
 
@@ -134,8 +133,8 @@ double coefficient_for_force(const Curve& curve, const CompactSpec& compact) {
 void check_pull(const LoggerRecord& logger, const Curve& curve, const std::string& key) {
   if (!(sample_of(curve.shear_force).mean > 0))
     refuse(logger, key,
-           "the mean shear force is not positive, allowed: a load cell that is pushed, or a "
-           "load_cell.gain of the other sign");
+           "the mean shear force is not positive, allowed: a load cell in compression, or a "
+           "load_cell.gain of the opposite sign");
 }
 
 }  // namespace
@@ -207,8 +206,8 @@ ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Se
   const std::size_t samples = dynamic_part(run.curve, window).distance.size();
   if (samples < fewest_dynamic)
     refuse(logger, settings.logger.lvdt,
-           fmt::format("the plate slides {:.4g} mm, of which {} samples are for the dynamic mean, "
-                       "allowed: at least {} beyond {:.4g} mm (analysis.dynamic_from)",
+           fmt::format("the plate slides {:.4g} mm, with {} samples for the dynamic mean, allowed: "
+                       "at least {} beyond {:.4g} mm (analysis.dynamic_from)",
                        end * 1e3, samples, fewest_dynamic, analysis.dynamic_from * 1e3));
   run.speed = end / (sliding.last_time - sliding.start.time);
   run.noise = rest.deviation * coefficient_for_force(run.curve, settings.compact);

@@ -23,10 +23,10 @@ constexpr const char* introduction = R"(# The settings of `pulvis reduce`
 
 <!-- Generated from the declarations in scenes/records/declare_*.cpp: change those, not this file. -->
 
-A TOML file (`reduce.toml`) that tells `pulvis reduce` about instruments, compact or die, and records. Every key
-can also be given as `--set key.path=value`. Quantities are strings with a unit, as in a scene; ranges
-below are in SI units. Numbers in brackets, as (3.1), are equations and sections of the thesis; how the
-values are taken is in [laboratory.md](laboratory.md).
+A TOML file (`reduce.toml`) that describes the instruments, the compact or die, and the records for
+`pulvis reduce`. Every key can also be given as `--set key.path=value`. Quantities are strings with a unit,
+as in a scene; ranges below are in SI units. Numbers in parentheses, such as (3.1), refer to equations and
+sections of the thesis. The evaluation is described in [laboratory.md](laboratory.md).
 )";
 
 class SettingsReader {
@@ -98,7 +98,7 @@ class SettingsReader {
                   "compact.powder", all.compact.powder.has_value(), "powder = \"316L\"");
     check_conditions(all.runs);
     if (all.load_cell.gain == 0)
-      add("load_cell.gain", "is 0 N, allowed: the load cell's force for each strain");
+      add("load_cell.gain", "is 0 N, allowed: the force of the load cell per unit strain");
     const AnalysisSpec& a = all.analysis;
     if (a.dynamic_until && !(*a.dynamic_until > a.dynamic_from))
       add("analysis.dynamic_until",
@@ -134,7 +134,8 @@ class SettingsReader {
     if (!all.transmissions.empty()) kinds.emplace_back("transmission");
     if (kinds.size() > 1)
       add(kinds.back(),
-          fmt::format("stands beside {}, allowed: records of one kind in one file", kinds.front()));
+          fmt::format("is given together with {}, allowed: records of one kind in one file",
+                      kinds.front()));
   }
 
   template <class Spec>
@@ -148,11 +149,12 @@ class SettingsReader {
         add(path + ".name",
             fmt::format("'{}' is the name of another, allowed: each name once", one.name));
       if (one.fill_height && one.final_height)
-        add(path + ".final_height", "stands beside fill_height, allowed: one of them");
+        add(path + ".final_height",
+            "is given together with fill_height, allowed: only one of them");
       if (!one.fill_height && !one.final_height && !empty_press)
         add(path,
-            "has no height, allowed: fill_height, final_height, or compression.empty with "
-            "the same zero");
+            "has no height, allowed: fill_height, final_height, or compression.empty with the same "
+            "zero");
     }
   }
 
@@ -161,7 +163,8 @@ class SettingsReader {
     if (all.die.solid_density == 0)
       add("die.solid_density", "is not given, allowed: > 0 kg/m^3, for relative densities");
     if (!c.empty.empty() && !c.compliance.empty())
-      add("compression.compliance", "stands beside compression.empty, allowed: one of them");
+      add("compression.compliance",
+          "is given together with compression.empty, allowed: only one of them");
     if (c.fit_from && c.fit_until && !(*c.fit_until > *c.fit_from))
       add("compression.fit_until", fmt::format("{:g} Pa is not beyond fit_from, allowed: > {:g} Pa",
                                                *c.fit_until, *c.fit_from));
@@ -183,7 +186,7 @@ class SettingsReader {
   void exactly_one(const std::string& a, bool has_a, const std::string& b, bool has_b,
                    const std::string& example) {
     if (has_a == has_b)
-      add(a, fmt::format("{} given, allowed: {} or {}, one of them, as in {}",
+      add(a, fmt::format("{} given, allowed: either {} or {}, e.g. {}",
                          has_a ? "two are" : "none is", a, b, example));
   }
 

@@ -39,7 +39,7 @@ csv::Table history_of_run(const std::filesystem::path& run_folder) {
   for (const csv::Column& column : history.columns)
     if (column.name.starts_with("tool/") && column.name.ends_with("/force_z"))
       csv::refuse(history, column.name,
-                  "the run is one in three dimensions, allowed: runs in two dimensions");
+                  "the run is three-dimensional, allowed: two-dimensional runs");
   return history;
 }
 

@@ -49,10 +49,11 @@ std::vector<Loop> loops_of_traces(const csv::Table& table, double skip) {
     const auto left_out = static_cast<std::size_t>(skip * static_cast<double>(end - begin));
     const std::size_t count = end - begin - 2 * left_out;
     if (count < fewest_places)
-      csv::refuse(table, end - 1, csv::column_at(table, "trace"),
-                  fmt::format("the loop ends after {} places, {} of them at its ends, allowed: at "
-                              "least {} others",
-                              end - begin, 2 * left_out, fewest_places));
+      csv::refuse(
+          table, end - 1, csv::column_at(table, "trace"),
+          fmt::format(
+              "the loop has only {} points, {} of them at its ends, allowed: at least {} others",
+              end - begin, 2 * left_out, fewest_places));
     const lab::Mean f = lab::correlated_mean(std::span(trace).subspan(begin + left_out, count));
     const lab::Mean b = lab::correlated_mean(std::span(retrace).subspan(begin + left_out, count));
     const double error = 0.5 * portable::hypot(f.error, b.error);

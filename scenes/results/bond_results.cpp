@@ -115,18 +115,19 @@ Lines crack_lines(const World& world) {
 }
 
 constexpr const char* other_meaning =
-    "number of the other one; of a tool -1 - its position in the scene";
+    "number of the other particle; for a tool: -1 - its position in the scene";
 
 }  // namespace
 
 // ---- series -------------------------------------------------------------------------------------------
 std::vector<SeriesInfo> bond_series(const Scene& scene) {
   if (!has_bonds(scene)) return {};
-  return {{"bonds/area", "m^2", "of the surfaces that are bonded"},
-          {"bonds/crack_length", "m", "of all that broke so far"},
-          {"bonds/damage", "-", "broken share of the length bonded at the start; NaN: nothing was"},
-          {"bonds/fragments", "-", "pieces that bonds hold together, loose particles among them"},
-          {"bonds/largest_fragment", "-", "area of the largest / area of the particles"}};
+  return {{"bonds/area", "m^2", "of the bonded surfaces"},
+          {"bonds/crack_length", "m", "of all cracks so far"},
+          {"bonds/damage", "-",
+           "broken share of the length bonded at the start; NaN if nothing was bonded"},
+          {"bonds/fragments", "-", "pieces held together by bonds, including loose particles"},
+          {"bonds/largest_fragment", "-", "area of the largest fragment / area of the particles"}};
 }
 
 void append_bond_sample(const World& world, std::vector<double>& row) {
@@ -141,26 +142,26 @@ void append_bond_sample(const World& world, std::vector<double>& row) {
 std::vector<FieldInfo> bond_fields(const Scene& scene) {
   if (!has_bonds(scene)) return {};
   constexpr auto list = FieldPlace::list;
-  return {{"bonds/ids", "-",
-           std::string("number of the particle whose edge it is; ") + other_meaning, list, 2, true},
-          {"bonds/length", "m", "as in bonds/area: half of it where the other side has a line, too",
-           list, 1},
-          {"bonds/damage", "-", "mean of the line's points, 0 ... 1", list, 1},
-          {"bonds/start", "m", "of a line along the bonded part of an edge", list, 2},
-          {"bonds/end", "m", "of a line along the bonded part of an edge", list, 2},
-          {"cracks/start", "m",
-           "of every row of /cracks so far: its part of the edge, where it is now", list, 2},
-          {"cracks/end", "m",
-           "of every row of /cracks so far: its part of the edge, where it is now", list, 2},
-          {"fragments/number", "-", "lowest particle number of every fragment", list, 1, true},
-          {"fragments/particles", "-", "how many it has", list, 1, true},
-          {"fragments/area", "m^2", "of its particles, undeformed", list, 1},
-          {"fragment", "-", "lowest number of a particle that it holds together with",
-           FieldPlace::particle, 1, true},
-          {"damage", "-", "broken share of the length bonded at the start; NaN: nothing was",
-           FieldPlace::particle, 1},
-          {"parent", "-", "number of the particle that it is a grain of, or its own",
-           FieldPlace::particle, 1, true}};
+  return {
+      {"bonds/ids", "-", std::string("number of the particle whose edge it is; ") + other_meaning,
+       list, 2, true},
+      {"bonds/length", "m", "as in bonds/area: half of it where the other side has a line as well",
+       list, 1},
+      {"bonds/damage", "-", "mean of the line's points, 0 ... 1", list, 1},
+      {"bonds/start", "m", "of a line along the bonded part of an edge", list, 2},
+      {"bonds/end", "m", "of a line along the bonded part of an edge", list, 2},
+      {"cracks/start", "m", "of every row of /cracks so far: its part of the edge, where it is now",
+       list, 2},
+      {"cracks/end", "m", "of every row of /cracks so far: its part of the edge, where it is now",
+       list, 2},
+      {"fragments/number", "-", "lowest particle number of each fragment", list, 1, true},
+      {"fragments/particles", "-", "number of its particles", list, 1, true},
+      {"fragments/area", "m^2", "of its particles, undeformed", list, 1},
+      {"fragment", "-", "lowest particle number of its fragment", FieldPlace::particle, 1, true},
+      {"damage", "-", "broken share of the length bonded at the start; NaN if nothing was bonded",
+       FieldPlace::particle, 1},
+      {"parent", "-", "number of the particle it is a grain of, or its own number",
+       FieldPlace::particle, 1, true}};
 }
 
 void append_bond_frame(const World& world, std::vector<std::vector<double>>& fields) {
@@ -200,10 +201,10 @@ std::vector<TableInfo> bond_tables(const Scene& scene) {
             {"particle", "-", "number of the particle whose edge it is on", true},
             {"other", "-", other_meaning, true},
             {"bond", "-", "position of its [[bond]] in the scene", true},
-            {"length", "m", "half of it where the other side's points break, too"},
+            {"length", "m", "half of it where the points of the other side break as well"},
             {"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"},
-            {"energy", "J", "spent in breaking it"},
-            {"inside", "-", "1 between grains of one particle, or 0", true}}}};
+            {"energy", "J", "dissipated in breaking it"},
+            {"inside", "-", "1 between grains of one particle, otherwise 0", true}}}};
 }
 
 std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t first) {

@@ -192,7 +192,7 @@ Transmission transmission(const Scene& scene, const CompactionCurve& curve) {
   const auto moved = [&](const CompactionSample& s) { return s.bottom_place != place; };
   if (std::ranges::any_of(curve.samples(), moved))
     result.not_compared =
-        "the bottom punch moves: the powder does not slide from one end to the other";
+        "the bottom punch moves: the powder does not slide along the wall in one direction";
   for (const auto& piece : pieces_of_loading) {
     result.shares.push_back(mean_transmission(piece));
     if (result.not_compared.empty())

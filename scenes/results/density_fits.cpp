@@ -65,7 +65,7 @@ std::string falls(std::span<const double> density, std::size_t last) {
   for (std::size_t i = 1; i <= last; ++i)
     if (density[i] < density[i - 1] - allowed_fall)
       return fmt::format(
-          "the relative density falls from {:.6g} to {:.6g} before its largest value: no single "
+          "the relative density falls from {:.6g} to {:.6g} before its largest value: not a single "
           "loading",
           density[i - 1], density[i]);
   return "";
@@ -131,7 +131,7 @@ DensityFit fit_heckel(const FitRange& range) {
   const Line line = straight_line(range.pressure, y);
   if (!(line.slope > 0)) {
     fit.not_fitted =
-        fmt::format("the slope K is {:.3g} 1/Pa: no yield pressure follows", line.slope);
+        fmt::format("the slope K is {:.3g} 1/Pa: it gives no yield pressure", line.slope);
     return fit;
   }
   fit.parameters = {{"K", "1/Pa", line.slope},
@@ -158,7 +158,7 @@ DensityFit fit_kawakita(const FitRange& range) {
   const Line line = straight_line(range.pressure, y);
   if (!(line.slope > 0) || !(line.intercept > 0)) {
     fit.not_fitted = fmt::format(
-        "P/C = {:.4g} P + {:.4g} Pa: a and b have a meaning only where both numbers are positive",
+        "P/C = {:.4g} P + {:.4g} Pa: a and b are meaningful only if both numbers are positive",
         line.slope, line.intercept);
     return fit;
   }
@@ -177,7 +177,7 @@ DensityFit fit_cooper_eaton(const FitRange& range) {
   const auto y = each(range.density, [&](double d) { return (1 - d0 / d) / (1 - d0); });
   const CooperEaton found = find_cooper_eaton(range.pressure, y);
   if (found.terms == 0) {
-    fit.not_fitted = "no sum of terms with a > 0 and k > 0 comes near the curve";
+    fit.not_fitted = "no sum of terms with a > 0 and k > 0 fits the curve";
     return fit;
   }
   fit.parameters = {{"a1", "-", found.a[0]}, {"k1", "Pa", found.k[0]}};

@@ -43,19 +43,23 @@ class SeriesList {
     const std::string name = "tool/" + tool.name + "/";
     const bool constraint = tool.shape == ToolSpec::Shape::constraint;
     const bool radial = constraint && tool.holds == ToolSpec::Holds::radial;
-    const char* middle = radial        ? "x: its centre's, and the radial displacement of its nodes"
-                         : tool.radius ? "of the middle of its circle, moved with its nodes"
-                         : constraint  ? "of the middle of its box, moved with its nodes"
-                                       : "a point of the tool's surface";
+    const char* middle = radial
+                             ? "x: position of its centre plus the radial displacement of its nodes"
+                         : tool.radius ? "of the centre of its circle, which moves with its nodes"
+                         : constraint  ? "of the centre of its box, which moves with its nodes"
+                                       : "of a point on the tool's surface";
     add(name + "position_x", "m", middle);
     add(name + "position_y", "m", middle);
     add(name + "force_x", "N",
-        radial ? "radial, of the particles, on the tool" : "of the particles, on the tool");
-    add(name + "force_y", "N", "of the particles, on the tool");
+        radial ? "radial force of the particles on the tool"
+               : "force of the particles on the tool");
+    add(name + "force_y", "N", "force of the particles on the tool");
     if (is_servo_driven(scene_, tool))
-      add(name + "force_asked", "N", "that its servo is to hold now, in the direction it pushes");
+      add(name + "force_asked", "N",
+          "force that its servo is to hold at this time, in the direction it pushes");
     else if (is_driven_through_a_spring(scene_, tool))
-      add(name + "drive_force", "N", "of its drive's spring and dashpot on it, along its move");
+      add(name + "drive_force", "N",
+          "force of its drive's spring and dashpot on it, along its move");
   }
 
   void add_die() {
@@ -66,12 +70,12 @@ class SeriesList {
     }
     add("stress/axial_top", "Pa",
         "on the top tool: force / width of the die times thickness; compression > 0");
-    add("stress/axial_bottom", "Pa", "the same of the bottom tool");
+    add("stress/axial_bottom", "Pa", "on the bottom tool, defined likewise");
     add("stress/radial_left", "Pa",
         "on the left tool: force / height between the punches times thickness");
-    add("stress/radial_right", "Pa", "the same of the right tool");
+    add("stress/radial_right", "Pa", "on the right tool, defined likewise");
     add("stress/transmission", "-",
-        "axial force on the bottom tool / on the top tool; NaN where the top bears none");
+        "axial force on the bottom tool / on the top tool; NaN where the top carries none");
   }
 
   void add_cell() {
@@ -86,38 +90,37 @@ class SeriesList {
       add(std::string("cell/stress_") + part, "Pa",
           "Cauchy, of the forces across the cell's borders, or on the walls; tension > 0");
     add("cell/stored_energy", "J/m^3",
-        "in elements with their hourglass modes, contact springs and bonds, over the volume of the "
-        "cell now");
+        "in elements including their hourglass modes, contact springs and bonds, per current "
+        "volume of the cell");
     add("cell/dissipated_energy", "J/m^3",
-        "by plastic flow, friction, damping and fracture so far, over the same volume");
+        "by plastic flow, friction, damping and fracture so far, per the same volume");
   }
 
   void add_energies() {
     add("energy/kinetic", "J", "of all nodes");
     add("energy/elastic", "J", "stored in the elements");
-    add("energy/plastic", "J", "spent in plastic flow");
-    add("energy/hourglass", "J",
-        "stored in hourglass modes and spent in them; none with four points");
+    add("energy/plastic", "J", "dissipated by plastic flow");
+    add("energy/hourglass", "J", "stored and dissipated in hourglass modes; zero with four points");
     add("energy/contact", "J", "stored in the contact springs");
     add("energy/friction", "J", "dissipated by friction");
     add("energy/damping", "J", "dissipated by contact damping");
     if (std::ranges::any_of(scene_.materials, &MaterialSpec::damped))
-      add("energy/bulk_damping", "J", "dissipated by the materials' damping");
+      add("energy/bulk_damping", "J", "dissipated by material damping");
     if (has_bonds(scene_)) {
       add("energy/bonds", "J", "stored in the bonds");
-      add("energy/fracture", "J", "spent in breaking bonds");
+      add("energy/fracture", "J", "dissipated in breaking bonds");
     }
     add("energy/external", "J", scene_.cell ? "work of the cell" : "work of the tools");
     add("energy/balance", "J",
-        "all energies less the work of the tools and the energy at the start");
+        "sum of all energies minus the work of the tools and the initial energy");
   }
 
   void add_contacts() {
-    add("contacts", "-", "boundary edges that touch another particle or a tool");
-    add("penetration", "-", "deepest so far, of the boundary edge length");
+    add("contacts", "-", "boundary edges in contact with another particle or a tool");
+    add("penetration", "-", "deepest so far, relative to the boundary edge length");
     add("contact_overlap", "-", "area in which outlines overlap / area of the particles");
     add("narrow_contacts", "-",
-        "share of the contact force on contacts narrower than two boundary edges");
+        "share of the contact force carried by contacts narrower than two boundary edges");
     add(bond_series(scene_));
   }
 

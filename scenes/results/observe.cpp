@@ -53,13 +53,13 @@ void check_output(const Scene& scene, const schema::Origins& origins, Problems& 
   if (scene.output.density() && !die_sides(scene))
     refuse("density_cells",
            "the tools do not enclose a grid, allowed: with one tool on each of the four sides, "
-           "planes whose normals look along an axis or polylines");
+           "planes with normals along an axis, or polylines");
   const bool touchable = std::ranges::any_of(
       scene.tools, [](const ToolSpec& t) { return t.shape != ToolSpec::Shape::constraint; });
   if (scene.output.contacts && !touchable && scene.packings.empty() && scene.bodies.size() < 2)
     refuse("contacts",
-           "has no effect, nothing can touch the only particle, allowed: with two particles or a "
-           "tool that is no constraint");
+           "has no effect: nothing can touch the only particle, allowed: with two particles, or "
+           "with a tool that is not a constraint");
 }
 
 void add_observed(World& world, const Scene& scene) {

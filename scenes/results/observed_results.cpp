@@ -46,8 +46,8 @@ void append_compact_stress(const World& world, double area, std::vector<double>&
 }
 
 // ---- contacts -----------------------------------------------------------------------------------------
-constexpr LinkWords link_words{2, "along the normal turned by 90 degrees", "length", "m",
-                               "of the surface that touches; times thickness: area"};
+constexpr LinkWords link_words{2, "along the normal rotated by 90 degrees", "length", "m",
+                               "of the surface in contact; times thickness: area"};
 
 ContactCounts contact_counts(const World& world) {
   return {world.resource<ContactNetwork>(), world.resource<Bodies>().particles()};
@@ -148,22 +148,22 @@ std::vector<SeriesInfo> observed_series(const Scene& scene) {
         all.end(),
         {{"stress/xx", "Pa",
           "Cauchy, mean over the area between the tools, or of the cell; tension > 0"},
-         {"stress/yy", "Pa", "the same"},
-         {"stress/xy", "Pa", "the same"},
+         {"stress/yy", "Pa", "as stress/xx"},
+         {"stress/xy", "Pa", "as stress/xx"},
          {"stress/mean", "Pa", "(xx + yy + zz) / 3 over the same area: minus the pressure p"},
-         {"stress/zz", "Pa", "the same, across the plane of strain"},
+         {"stress/zz", "Pa", "the same, normal to the plane of strain"},
          {"stress/deviatoric", "Pa", "von Mises' stress q of these means"}});
   if (scene.output.contacts)
     all.insert(
         all.end(),
-        {{"network/coordination", "-", "other particles that a particle touches, mean"},
-         {"network/tools", "-", "tools that a particle touches, mean"},
+        {{"network/coordination", "-", "mean number of other particles that a particle touches"},
+         {"network/tools", "-", "mean number of tools that a particle touches"},
          {"network/rattlers", "-", "share of particles that touch fewer than two others or tools"},
          {"network/fabric_xx", "-", "fabric tensor of the contacts between particles"},
          {"network/fabric_xy", "-", "fabric tensor of the contacts between particles"},
          {"network/fabric_yy", "-", "fabric tensor of the contacts between particles"},
          {"network/anisotropy", "-", "difference of the fabric tensor's principal values"},
-         {"network/fabric_angle", "rad", "of the direction that most contacts face, from x"},
+         {"network/fabric_angle", "rad", "of the preferred direction of the contacts, from x"},
          {"network/mean_force", "N", "normal, between particles"},
          {"network/largest_force", "N", "normal, between particles"},
          {"network/chain_share", "-", "share of particles in force chains"}});
@@ -195,11 +195,11 @@ std::vector<FieldInfo> observed_fields(const Scene& scene) {
             {"rose/force", "-", "the same, weighted with the normal force", FieldPlace::list, 1},
             {"coordination", "-", "other particles that it touches", FieldPlace::particle, 1, true},
             {"tools_touched", "-", "tools that it touches", FieldPlace::particle, 1, true},
-            {"force_chain", "-", "number of its force chain; 0: in none", FieldPlace::particle, 1,
+            {"force_chain", "-", "number of its force chain; 0: none", FieldPlace::particle, 1,
              true}});
   }
   if (scene.output.density())
-    append({{"local_density", "-", "of every cell; NaN where a tool fills it. Rows from the bottom",
+    append({{"local_density", "-", "of every cell; NaN where a tool fills it; rows from the bottom",
              FieldPlace::list, scene.output.density_cells[0]},
             {"density_profile", "-", "of every row of cells, from the bottom", FieldPlace::list, 1},
             {"density_grid/x", "m", "lines between the columns", FieldPlace::list, 1},

@@ -15,33 +15,33 @@ constexpr double most_hourglass = 0.03;  // of the internal energy
 
 // What helps, in the order of the figures.
 constexpr const char* of_energy_balance =
-    "take smaller steps (a lower time.safety), or more elements where they are most distorted";
+    "use smaller steps (a lower time.safety), or more elements where they are most distorted";
 constexpr const char* of_kinetic_energy =
-    "let the tools move more slowly: longer stages, or a longer ramp of their moves";
+    "move the tools more slowly: longer stages, or a longer ramp of their moves";
 constexpr const char* of_hourglass =
-    "the mesh does not resolve the bending of its elements: take more of them "
-    "(accuracy = \"fine\"), or element.formulation = \"four-point\"";
+    "the mesh is too coarse for the bending in it: use more elements (accuracy = \"fine\"), or "
+    "element.formulation = \"four-point\"";
 constexpr const char* of_hourglass_in_space =
-    "the mesh does not resolve the bending of its elements: take more of them "
-    "(accuracy = \"fine\"), or element.formulation = \"eight-point\"";
+    "the mesh is too coarse for the bending in it: use more elements (accuracy = \"fine\"), or "
+    "element.formulation = \"eight-point\"";
 constexpr const char* of_projections =
-    "outlines turn too sharply for their boundary edges: take more of them (boundary_edges)";
+    "outlines turn too sharply for their boundary edges: use more of them (boundary_edges)";
 constexpr const char* of_projections_in_space =
-    "surfaces turn too sharply for their faces: take more of them (particle.mesh.divisions)";
+    "surfaces turn too sharply for their faces: use more of them (particle.mesh.divisions)";
 
 std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
 std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
   if (contacts.stiffness_to_do() <= scene.contact.stiffness)
-    return scene.space ? "take smaller faces (particle.mesh.divisions): contacts are as stiff as "
-                         "they may be"
-                       : "take shorter boundary edges (boundary_edges): contacts are as stiff as "
-                         "they may be";
+    return scene.space ? "use smaller faces (particle.mesh.divisions): the contacts are already as "
+                         "stiff as possible"
+                       : "use shorter boundary edges (boundary_edges): the contacts are already as "
+                         "stiff as possible";
   // Of powders: springs that give way offset what coarse faces add to the force (docs/accuracy.md).
   return fmt::format(
-      "contact.stiffness = {:g} would do{}", contacts.stiffness_to_do(),
+      "use contact.stiffness = {:g}{}", contacts.stiffness_to_do(),
       scene.space && any_material_yields(scene)
-          ? ", with smaller faces (particle.mesh.divisions): coarse ones bear too much"
+          ? ", with smaller faces (particle.mesh.divisions): coarse ones carry too much force"
           : "");
 }
 
@@ -52,8 +52,8 @@ std::string short_number(double value) {
 
 std::string finer(const ContactFindings& contacts) {
   return fmt::format(
-      "the mesh is too coarse for them, they are {} of its boundary edges wide on average: edges "
-      "of {}{} um would do",
+      "the mesh is too coarse for them, they are {} boundary edges wide on average: use edges of "
+      "{}{} um",
       short_number(contacts.narrow_edges), contacts.too_soft() ? "at most " : "",
       short_number(1e6 * contacts.edge_to_do));
 }
@@ -74,7 +74,7 @@ class Figures {
 void add_lost_force(Figures& figures, const Scene& scene, const ContactFindings& contacts) {
   if (!contacts.force_error) return;
   figures.add("Force lost to penetration",
-              "by how much the largest force is too low because surfaces sink into each other",
+              "error of the largest force, too low because surfaces penetrate each other",
               std::max(0.0, -*contacts.force_error), ContactFindings::max_force_error,
               stiffer(scene, contacts));
 }
@@ -82,22 +82,23 @@ void add_lost_force(Figures& figures, const Scene& scene, const ContactFindings&
 // What three dimensions know of their contacts.
 void add_contacts_in_space(Figures& figures, const Scene& scene, const Totals& totals,
                            double penetration, const ContactFindings& contacts) {
-  figures.add("Penetration", "deepest overlap of two surfaces, of the size of a face", penetration,
-              scene.limits.penetration,
-              "take stiffer contacts (contact.stiffness), or smaller faces "
-              "(particle.mesh.divisions)");
-  figures.add("Unconverged projections",
-              "share of the closest points of contacting surfaces that were not found",
-              totals.unconverged_share(), scene.limits.unconverged_projections,
-              of_projections_in_space);
+  figures.add(
+      "Penetration", "deepest overlap of two surfaces, relative to the size of a face", penetration,
+      scene.limits.penetration,
+      "use stiffer contacts (contact.stiffness), or smaller faces (particle.mesh.divisions)");
+  figures.add(
+      "Unconverged projections",
+      "share of closest-point projections between contacting surfaces that did not converge",
+      totals.unconverged_share(), scene.limits.unconverged_projections, of_projections_in_space);
   add_lost_force(figures, scene, contacts);
 }
 
 void add_contacts(Figures& figures, const Scene& scene, const ContactFindings& contacts) {
   add_lost_force(figures, scene, contacts);
-  figures.add("Narrow contacts",
-              "share of the largest contact force on contacts narrower than two boundary edges",
-              contacts.narrow_share, ContactFindings::most_narrow, finer(contacts));
+  figures.add(
+      "Narrow contacts",
+      "share of the largest contact force carried by contacts narrower than two boundary edges",
+      contacts.narrow_share, ContactFindings::most_narrow, finer(contacts));
 }
 
 }  // namespace
@@ -117,24 +118,26 @@ std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
   const Peaks& peaks = results.peaks();
   const Totals& totals = world.resource<Totals>();
   figures.add("Energy balance error",
-              "energy lost or made by the calculation, of the largest energy in the run",
+              "energy lost or gained numerically, relative to the largest energy in the run",
               results.energy_balance_error(), limits.energy_balance, of_energy_balance);
-  figures.add("Kinetic energy", "kinetic energy, of the internal energy", results.kinetic_ratio(),
-              limits.kinetic_energy, of_kinetic_energy);
+  figures.add("Kinetic energy", "kinetic energy, relative to the internal energy",
+              results.kinetic_ratio(), limits.kinetic_energy, of_kinetic_energy);
   if (const double internal = std::max(peaks.elastic, peaks.plastic); internal > 0)
-    figures.add("Hourglass energy",
-                "largest energy of bending inside the elements, plastic work included, of the "
-                "largest internal energy",
-                peaks.hourglass / internal, most_hourglass,
-                scene.space ? of_hourglass_in_space : of_hourglass);
+    figures.add(
+        "Hourglass energy",
+        "largest hourglass energy, including plastic work, relative to the largest internal energy",
+        peaks.hourglass / internal, most_hourglass,
+        scene.space ? of_hourglass_in_space : of_hourglass);
   if (scene.space && world.has<ContactRules>())
     add_contacts_in_space(figures, scene, totals, peaks.penetration, contacts);
   if (!world.has<ContactQuality>()) return figures.all;
-  figures.add("Penetration", "deepest overlap of two surfaces, of the length of a boundary edge",
+  figures.add("Penetration",
+              "deepest overlap of two surfaces, relative to the length of a boundary edge",
               peaks.penetration, limits.penetration, stiffer(scene, contacts));
-  figures.add("Unconverged projections",
-              "share of the closest points of contacting outlines that were not found",
-              totals.unconverged_share(), limits.unconverged_projections, of_projections);
+  figures.add(
+      "Unconverged projections",
+      "share of closest-point projections between contacting outlines that did not converge",
+      totals.unconverged_share(), limits.unconverged_projections, of_projections);
   add_contacts(figures, scene, contacts);
   return figures.all;
 }

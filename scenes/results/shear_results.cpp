@@ -96,13 +96,13 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
   std::vector<SeriesInfo> all{
       {"shear/distance", "m",
        "displacement of the target along itself since the shear stage began"},
-      {"shear/friction", "-", "lateral over normal force on the target; NaN where it bears none"},
-      {"shear/work", "J", "of the target against friction and grooves"},
-      {"shear/locked", "-", "particles that touch the target and go along with it, within 10%"},
-      {"shear/plastic_work", "J", "spent in plastic flow since the shear stage began"},
+      {"shear/friction", "-", "lateral over normal force on the target; NaN where it carries none"},
+      {"shear/work", "J", "work of the target against friction and grooves"},
+      {"shear/locked", "-", "particles that touch the target and move with it, within 10%"},
+      {"shear/plastic_work", "J", "dissipated by plastic flow since the shear stage began"},
       {"shear/ploughing", "-",
-       "shear/plastic_work over the normal force on the target, integrated over the distance: what "
-       "ploughing adds to the mean coefficient; NaN before the target has moved"}};
+       "shear/plastic_work over the normal force on the target, integrated over the distance: "
+       "contribution of ploughing to the mean coefficient; NaN before the target has moved"}};
   if (setup->width > 0) {
     all.push_back({"shear/normal_stress", "Pa", "on the target: normal force / width x thickness"});
     all.push_back({"shear/lateral_stress", "Pa", "on the target, against its motion"});
@@ -115,8 +115,8 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
                    "displacement of the punch away from the target since the shear stage began"});
   if (setup->wall >= 0)
     all.push_back({"shear/wall_share", "-",
-                   "force on the wall that the powder is drawn against / lateral force on the "
-                   "target; NaN where that is none"});
+                   "force on the wall that the powder is dragged against / lateral force on the "
+                   "target; NaN where the latter is zero"});
   return all;
 }
 

@@ -26,7 +26,7 @@ bool is_wall(const Vec2& normal) { return std::abs(normal.x()) > std::abs(normal
 }  // namespace
 
 FieldInfo ToolOutlines::field() {
-  return {"tools/outline", "m", "corners of the tools' outlines, joined by /tools/lines",
+  return {"tools/outline", "m", "corners of the tools' outlines, connected by /tools/lines",
           FieldPlace::list, 2};
 }
 

@@ -156,21 +156,22 @@ class SpaceChecks {
     if (const auto* sphere = std::get_if<SphereShape>(&shape))
       packing.spacing = touching_spacing(packing.kind) * sphere->diameter;
     else
-      refuse(path + ".spacing",
-             "required key is missing: only spheres have a spacing of their own, allowed: a "
-             "quantity in m");
+      refuse(
+          path + ".spacing",
+          "required key is missing: only spheres have a default spacing, allowed: a quantity in m");
   }
 
   void output() {
     if (scene_.output.contacts && space_.tools.empty() && space_.packings.empty() &&
         space_.bodies.size() < 2)
       refuse("output.contacts",
-             "has no effect, nothing can touch the only particle, allowed: with two particles or "
-             "a tool");
+             "has no effect: nothing can touch the only particle, allowed: with two particles, or "
+             "with a tool");
     if (scene_.output.density() && !has_grid_room(scene_))
-      refuse("output.density_cells",
-             "the tools are around no room that a grid can fill, allowed: with six planes whose "
-             "normals are along the axes, or a round die along one between two planes or punches");
+      refuse(
+          "output.density_cells",
+          "the tools do not enclose a space for the grid, allowed: with six planes whose normals "
+          "are along the axes, or a round die along one axis between two planes or punches");
   }
 
   void stages() {

@@ -39,8 +39,8 @@ std::vector<std::string> coarse_surface_warnings(const Scene& scene) {
     const Shape shape = class_shape(scene, i);
     if (surface_error_share(shape) <= far) continue;
     lines.push_back(fmt::format(
-        "the surface of '{}' that contacts see stands up to {:.3g} m off its shape, {:.0f}% of "
-        "its mean radius: sharp bends are rounded off; take more divisions, or a rounder shape",
+        "the contact surface of '{}' deviates by up to {:.3g} m from its shape, {:.0f}% of its "
+        "mean radius: sharp edges are rounded off; use more divisions, or a rounder shape",
         shape.name, shape.surface_error, 100 * surface_error_share(shape)));
   }
   return lines;

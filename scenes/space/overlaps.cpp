@@ -199,8 +199,8 @@ class OverlapReport {
         {scene_.file_of(tool.mark).string(), tool.mark.line, tool.mark.column, "",
          fmt::format("tool[{}].normal", number),
          fmt::format(
-             "tool '{}' faces away from the powder: every particle lies behind it, allowed: "
-             "the normal out of the tool into the powder, [{:g}, {:g}, {:g}]",
+             "tool '{}' faces away from the powder: every particle lies behind it, allowed: a "
+             "normal that points from the tool into the powder, [{:g}, {:g}, {:g}]",
              tool.name, n.x() + 0, n.y() + 0, n.z() + 0)});
   }
 
@@ -215,7 +215,7 @@ class OverlapReport {
     const bool last = problems_.size() == most_reports;
     problems_.push_back({scene_.file_of(body.mark).string(), body.mark.line, body.mark.column, "",
                          last ? "scene" : key_of(body),
-                         last ? "there are more overlaps, not listed" : message});
+                         last ? "there are more overlaps that are not listed" : message});
   }
 
   // A packing's particles share its mark, so the mark tells where a particle comes from.
@@ -285,12 +285,11 @@ std::vector<std::string> contact_overlap_warnings(const Scene& scene,
     see(search.with_tool(t),
         [&](std::size_t tool) { return fmt::format("tool '{}'", scene.space->tools[tool].name); });
   if (count == 0) return {};
-  return {
-      fmt::format("the surfaces that contacts see bulge out over their shapes: at the start {}, by "
-                  "up to {:.3g} "
-                  "m ({}), and push each other apart; leave as much room, or take more divisions",
-                  count == 1 ? "two overlap" : fmt::format("they overlap in {} places", count),
-                  deepest, where)};
+  return {fmt::format(
+      "the contact surfaces bulge out beyond the shapes: at the start {}, by up to {:.3g} m ({}), "
+      "and push each other apart; leave larger gaps, or use more divisions",
+      count == 1 ? "two overlap" : fmt::format("they overlap in {} places", count), deepest,
+      where)};
 }
 
 }  // namespace pulvis::space

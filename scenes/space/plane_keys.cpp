@@ -57,10 +57,11 @@ class PlaneKeys {
 
   void refuse(const document::Origin& origin, const std::string& path, const std::string& allowed,
               const std::string& subject = "") {
-    problems_.add(origin, path,
-                  fmt::format("{}belongs to two dimensions and has no meaning with dimension = 3, "
-                              "allowed: {}",
-                              subject, allowed));
+    problems_.add(
+        origin, path,
+        fmt::format(
+            "{}is for two dimensions only and has no meaning with dimension = 3, allowed: {}",
+            subject, allowed));
   }
 
   Problems& problems_;

@@ -43,7 +43,7 @@ void check_sizes(const PolyhedronShape& polyhedron, const std::string& path, con
                                           polyhedron.corners.size(), fewest));
   else if (thickness_of(polyhedron.corners) == 0)
     refuse(path + ".corners",
-           "they lie in one plane, allowed: at least four points that have a volume between them");
+           "they lie in one plane, allowed: at least four points that enclose a volume");
 }
 
 }  // namespace
@@ -56,16 +56,15 @@ void check_extruded(const CylinderShape& cylinder, const MeshSpec& mesh, const s
                     const Refuse& refuse) {
   if (mesh.divisions < 2)
     refuse(path + ".mesh.grid",
-           "\"extruded\" has no node of four faces between the corners of its square, allowed: "
-           "divisions of at least 2");
+           "\"extruded\" needs a node between the corners of its square, allowed: divisions of at "
+           "least 2");
   const double most = 0.5 * std::min(cylinder.diameter / (mesh.divisions + 2 * mesh.rings),
                                      cylinder.height / mesh.axial());
   if (cylinder.rounding > most)
-    refuse(
-        path + ".rounding",
-        fmt::format("{:g} m is more than half of an element, whose rim would be folded flat with "
-                    "grid = \"extruded\", allowed: <= {:g} m",
-                    cylinder.rounding, most));
+    refuse(path + ".rounding",
+           fmt::format("{:g} m is more than half of an element, which would degenerate at the rim "
+                       "with grid = \"extruded\", allowed: <= {:g} m",
+                       cylinder.rounding, most));
 }
 
 }  // namespace pulvis::space

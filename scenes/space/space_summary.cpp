@@ -17,7 +17,7 @@ std::string packing_summary(const Scene& scene) {
     if (packing.kind != PackingSpec::Kind::random) continue;
     text += fmt::format(
         "packing[{}]: {}, relative density {:.4f}, {:.6g} m high, mean gap to the nearest "
-        "neighbours {:.3g} diameters, contacts of a particle (mean) {:.3g}\n",
+        "neighbours {:.3g} diameters, mean contacts per particle {:.3g}\n",
         i, counted(packing.placed.size(), "particle"), packing.reached.density,
         packing.top - packing.container.corner.z(), packing.reached.mean_gap,
         2.0 * packing.reached.touches / static_cast<double>(packing.placed.size()));

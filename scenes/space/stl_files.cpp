@@ -59,7 +59,8 @@ void read_stl_files(Scene& scene, const Refuse& refuse) {
     if (!triangles) continue;
     if (const auto why = why_not_star_shaped(*triangles))
       refuse(path + ".file",
-             fmt::format("{}, allowed: a surface that its centre of volume sees as a whole", *why));
+             fmt::format("{}, allowed: a surface that is star-shaped about its centre of volume",
+                         *why));
     set_in_place(*triangles, shape->diameter);
     shape->triangles = std::move(*triangles);
   }

@@ -45,21 +45,18 @@ class ToolsInSpace {
   void profile(const ToolSpec& tool, const std::string& path) {
     if (tool.profile.empty()) return;
     if (tool.profile.front().x() != 0)
-      return refuse_(path,
-                     fmt::format("begins {:g} m from the axis, allowed: a first point [\"0 m\", "
-                                 "..]",
-                                 tool.profile.front().x()));
+      return refuse_(
+          path, fmt::format("starts {:g} m from the axis, allowed: a first point [\"0 m\", ..]",
+                            tool.profile.front().x()));
     for (std::size_t i = 1; i < tool.profile.size(); ++i)
       if (!(tool.profile[i].x() > tool.profile[i - 1].x()))
-        return refuse_(path,
-                       fmt::format("point {} is not farther from the axis than the one before "
-                                   "it, allowed: growing distances",
-                                   i));
+        return refuse_(path, fmt::format("point {} is not farther from the axis than the one "
+                                         "before it, allowed: increasing distances",
+                                         i));
     const double end = tool.profile.back().x(), radius = tool.diameter / 2;
     if (std::abs(end - radius) > 1e-9 * radius)
-      refuse_(path,
-              fmt::format("ends {:g} m from the axis, allowed: at half of the diameter, {:g} m",
-                          end, radius));
+      refuse_(path, fmt::format("ends {:g} m from the axis, allowed: at half the diameter, {:g} m",
+                                end, radius));
   }
 
   void moves(const std::vector<MoveSpec>& moves, const std::string& stage) {
@@ -72,7 +69,7 @@ class ToolsInSpace {
                             name_of(moves[i].tool)));
       if (moves[i].displacement.isZero(0))
         refuse_(path + ".displacement",
-                "a move by nothing has no effect, allowed: a displacement that is not 0");
+                "a move by zero has no effect, allowed: a displacement that is not 0");
     }
   }
 
@@ -83,7 +80,7 @@ class ToolsInSpace {
       if (move.stiffness &&
           std::ranges::count(space_.servos[stage], move.tool, &ServoSpec::tool) > 0)
         refuse_(fmt::format("{}.move[{}].stiffness", stage_path, i),
-                fmt::format("'{}' has a servo in the same stage, allowed: one of the two",
+                fmt::format("'{}' has a servo in the same stage, allowed: only one of the two",
                             name_of(move.tool)));
     }
   }
@@ -107,7 +104,7 @@ class ToolsInSpace {
       const ToolSpec& tool = space_.tools[static_cast<std::size_t>(servo.tool)];
       if (has_face(tool) && direction.dot(tool.normal) < -1e-9)
         refuse_(path + ".direction",
-                fmt::format("points away from the powder, which nothing holds to '{}', allowed: "
+                fmt::format("points away from the powder, which does not stick to '{}', allowed: "
                             "along its normal, or across it",
                             tool.name));
       for (const MoveSpec& move : space_.moves[stage])
@@ -133,7 +130,8 @@ class ToolsInSpace {
       refuse_(path + ".tool", "has no effect together with relative_density, allowed: without it");
     if (until.relative_density && !die_room(scene_))
       refuse_(path + ".relative_density",
-              "there is no die that it refers to, allowed: with six planes with normals along +x, "
+              "there is no die to which it could refer, allowed: with six planes with normals "
+              "along +x, "
               "-x, +y, -y, +z and -z, or a round die and a plane or punch at either end");
   }
 

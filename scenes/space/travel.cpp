@@ -64,11 +64,11 @@ FullDensity reached_by(const std::vector<MoveSpec>& moves, const DieRoom& room,
 
 std::string told(const Scene& scene, const FullDensity& full) {
   const std::string density = full.density > 100
-                                  ? "none of the die is left"
+                                  ? "no volume is left in the die"
                                   : fmt::format("relative density {:.3g}", full.density);
   return fmt::format(
-      "stage '{}': tool '{}' travels {:.4g} m, beyond full density, which it reaches after {:.4g} "
-      "m ({} at its end)",
+      "stage '{}': tool '{}' travels {:.4g} m, beyond full density, which is reached after {:.4g} "
+      "m ({} at the end)",
       scene.stages[static_cast<std::size_t>(full.stage)].name,
       scene.space->tools[static_cast<std::size_t>(full.tool)].name, full.travel, full.until_full,
       density);
@@ -106,8 +106,8 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
   Places places = start_of_tools(*scene.space);
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     const std::vector<MoveSpec>& moves = scene.space->moves[s];
-    const bool gives = std::ranges::any_of(
-        moves, [](const MoveSpec& move) { return move.stiffness.has_value(); });
+    const bool gives =
+        std::ranges::any_of(moves, [](const MoveSpec& move) { return move.stiffness.has_value(); });
     if (gives || !scene.space->servos[s].empty() || scene.stages[s].until) return std::nullopt;
     const Places end = moved(places, moves, 1);
     const double left = room_left(*room, end);
@@ -127,7 +127,7 @@ void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
     throw SceneError(
         {{scene.file_of(moves[m].mark).string(), moves[m].mark.line, moves[m].mark.column, "",
           fmt::format("stage[{}].move[{}].displacement", full->stage, m),
-          fmt::format("{}, allowed: a travel of up to some {:.4g} m", told(scene, *full),
+          fmt::format("{}, allowed: a travel of up to about {:.4g} m", told(scene, *full),
                       full->until_full)}});
   }
 }
@@ -136,7 +136,7 @@ std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<B
   constexpr double slightly = 1.02;  // -, what metals stand under a few GPa
   const auto full = full_density(scene, bodies);
   if (!full || full->density < slightly) return {};
-  return {told(scene, *full) + ": the solid has to give way elastically"};
+  return {told(scene, *full) + ": beyond it the solid can only be compressed elastically"};
 }
 
 }  // namespace pulvis::space

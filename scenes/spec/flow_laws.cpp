@@ -21,11 +21,12 @@ void check_point(const csv::Table& table, std::size_t i, const std::vector<doubl
     refuse("stress", fmt::format("{:g} Pa, allowed: >= 0.001 Pa", stress[0]));
   if (i == 0) return;
   if (strain[i] <= strain[i - 1])
-    refuse("plastic_strain", fmt::format("{:g} is not above the last row's, allowed: > {:g}",
-                                         strain[i], strain[i - 1]));
+    refuse("plastic_strain",
+           fmt::format("{:g} is not above that of the previous row, allowed: > {:g}", strain[i],
+                       strain[i - 1]));
   if (stress[i] < stress[i - 1])
-    refuse("stress", fmt::format("{:g} Pa is below the last row's, which would be softening, "
-                                 "allowed: >= {:g} Pa",
+    refuse("stress", fmt::format("{:g} Pa is below that of the previous row, which would be "
+                                 "softening, allowed: >= {:g} Pa",
                                  stress[i], stress[i - 1]));
 }
 
@@ -69,15 +70,15 @@ class Completion {
     const bool table = std::holds_alternative<TabulatedHardening>(flow.hardening);
     const bool has_table = origins_.contains(path_ + ".hardening");
     if (table && material.yield_stress)
-      refuse(".yield_stress", "the table of material.hardening states it, allowed: one of them");
+      refuse(".yield_stress",
+             "it is given by the table of material.hardening, allowed: only one of them");
     else if (!table && !material.yield_stress)
       refuse(has_table ? ".hardening" : ".rate",
              "has no effect without yield_stress, allowed: with it");
     else if (has_table && material.hardening_modulus > 0)
-      refuse(
-          ".hardening_modulus",
-          "is the short form of linear hardening, which material.hardening replaces, allowed: one "
-          "of them");
+      refuse(".hardening_modulus",
+             "is the short form of linear hardening, which material.hardening replaces, allowed: "
+             "only one of them");
     else
       return check_family(flow);
     return false;
@@ -85,9 +86,9 @@ class Completion {
 
   bool check_family(const FlowLaw& flow) {
     if (!scene_.afm || flow.rate.index() == 0) return true;
-    refuse(".rate",
-           "levers are solved statically, where flow has no rate, allowed: only with family = "
-           "\"compaction\"");
+    refuse(
+        ".rate",
+        "levers are solved statically, without rates, allowed: only with family = \"compaction\"");
     return false;
   }
 

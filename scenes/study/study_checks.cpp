@@ -203,7 +203,7 @@ class StudyChecks {
                                   "`series` alone",
                                   quantity.series));
     if (quantity.at && quantity.when)
-      refuse("when", "has no effect together with `at`, allowed: one of them");
+      refuse("when", "has no effect together with `at`, allowed: only one of them");
     if (!quantity.against.empty() && !quantity.at && !quantity.from && !quantity.until)
       refuse("against",
              "has no effect without `at`, `from` or `until`, allowed: together with one of them");
@@ -245,11 +245,12 @@ class StudyChecks {
     const std::vector<SeriesInfo> all = study_series(first->scene);
     if (power) this->power(fit);
     if (fit.area && !fit.disc.empty())
-      refuse("disc", "has no effect together with `area`, allowed: one of them");
+      refuse("disc", "has no effect together with `area`, allowed: only one of them");
     if ((fit.area || !fit.disc.empty()) && unit_in(all, fit.series) != "N")
-      refuse("series", fmt::format("'{}' is no force, allowed: a series in N, which `{}` makes a "
-                                   "strength",
-                                   fit.series, fit.area ? "area" : "disc"));
+      refuse("series",
+             fmt::format(
+                 "'{}' is not a force, allowed: a series in N, which `{}` converts to a strength",
+                 fit.series, fit.area ? "area" : "disc"));
     for (const std::string& key : fit.by) varied("by", key);
     enough(fit);
     place(fit, first->scene);
@@ -263,7 +264,7 @@ class StudyChecks {
       for (const StudyRun* run : group.runs) {
         const std::optional<double> number = number_of_key(*run, fit.key);
         if (!number || !(*number > 0)) {
-          refuse("key", fmt::format("'{}' is no number above 0 in a run of '{}', allowed: a key "
+          refuse("key", fmt::format("'{}' is not a number above 0 in a run of '{}', allowed: a key "
                                     "whose values are numbers or quantities above 0",
                                     fit.key, run->variation));
           return;
@@ -288,14 +289,14 @@ class StudyChecks {
                    ? fmt::format("a run of '{}' has no series '{}'{}, allowed: {}", run.variation,
                                  fit.density, suggestion(fit.density, names_of(all)),
                                  listed(names_of(all)))
-                   : fmt::format("'{}' is no relative density, allowed: a series without a unit",
+                   : fmt::format("'{}' is not a relative density, allowed: a dimensionless series",
                                  fit.density));
         return false;
       }
     }
     if (fit.disc.empty() || disc_diameter(run.scene, fit.disc)) return true;
-    refuse("disc", fmt::format("'{}' is no class of discs in a run of '{}', allowed: the name of a "
-                               "particle whose outline is a disc",
+    refuse("disc", fmt::format("'{}' is not a class of discs in a run of '{}', allowed: the name "
+                               "of a particle whose outline is a disc",
                                fit.disc, run.variation));
     return false;
   }

@@ -117,11 +117,12 @@ class StudyFitter {
       if (!failure.empty())
         group.not_fitted = fmt::format("no result of {}: {}", run->name, failure);
       else if (!std::isfinite(point.strength))
-        group.not_fitted = fmt::format("{} has no such value: it does not get there", run->name);
-      else if (!(point.strength > 0))
         group.not_fitted =
-            fmt::format("{:.4g} of {} {}: only numbers above 0 {}", point.strength, run->name,
-                        power() ? "has no power law" : "is no strength", power() ? "have" : "are");
+            fmt::format("{} has no such value: the run does not reach it", run->name);
+      else if (!(point.strength > 0))
+        group.not_fitted = fmt::format(
+            "{:.4g} of {} {}: only numbers above 0 {}", point.strength, run->name,
+            power() ? "has no power law" : "is not a strength", power() ? "have" : "are");
       else
         group.points.push_back(point);
     }
@@ -155,7 +156,7 @@ class StudyFitter {
         diameters.insert(*diameter);
     if (diameters.size() == 1) group.diameter = *diameters.begin();
     if (group.points.front().strength == group.points.back().strength) {
-      group.not_fitted = "all strengths are alike";
+      group.not_fitted = "all strengths are equal";
       return;
     }
     const WeibullFit found = fit_weibull({strengths_of(group)});
@@ -169,7 +170,7 @@ class StudyFitter {
     std::vector<double> porosity;
     for (const FittedPoint& point : group.points) porosity.push_back(point.porosity);
     if (porosity.front() == porosity.back()) {
-      group.not_fitted = "all porosities are alike";
+      group.not_fitted = "all porosities are equal";
       return;
     }
     const PorosityFit found = fit_porosity(porosity, strengths_of(group));

@@ -27,8 +27,8 @@ const char* const introduction = R"(# The study file
 
 <!-- Generated from the declarations in scenes/study/declare_study.cpp: change those, not this file. -->
 
-A study is a TOML file that names a scene and what to vary in it. `pulvis study STUDY.toml` runs every
-variation, several at once, and puts their values into one table and their curves into one report.
+A study is a TOML file that names a scene and the keys to vary in it. `pulvis study STUDY.toml` runs all
+variations, several at once, and collects their values in one table and their curves in one report.
 
 ```toml
 scene = "../compaction/regular-100.toml"
@@ -43,18 +43,18 @@ order = ["friction=0.001", "friction=0.1", "friction=0.3"]
 trend = "increasing"
 ```
 
-Keys of the scene are written as for `--set` (docs/scene.md). What a variation changes is applied in this
-order: `[set]`, the variation's own `set`, the grid, the seed, `overrides`, and `--set` of the command line. Anything
-that is wrong, in the study or in a scene it makes, is refused before the first run as
+Keys of the scene are written as for `--set` (docs/scene.md). Changes are applied in this order: `[set]`, the
+variation's own `set`, the grid, the seed, `overrides`, and `--set` on the command line. Errors in the study or in
+any of the resulting scenes are reported before the first run as
 `file:line:col: key: what is wrong, allowed: what is allowed`.
 
 **Series** are those of `history.csv` and `time`; for every tool `travel/<tool>`, its displacement since the start
-[m]; and in a die of four plane tools `pressure/<tool>`, the force towards the tool over its face [Pa], and
-`transmission`, the bottom punch's force over the top punch's.
+[m]; and in a die of four plane tools `pressure/<tool>`, the force towards the tool divided by the area of its face
+[Pa], and `transmission`, the force on the bottom punch divided by that on the top punch.
 
-Studies of levers (scenes with `family = "afm"`) have the history of the programme, against `actions`, how many are done,
-and the **values of a run**, one number each, which need no `when`: those that an `[[expect]]` of the scene may name
-(docs/afm.md#studies-of-levers).
+Studies of levers (scenes with `family = "afm"`) provide the history of the programme versus `actions`, the number of
+completed actions. They also provide the **values of a run**: single numbers that need no `when`, the same as in an
+`[[expect]]` of the scene (docs/afm.md#studies-of-levers).
 
 ```toml
 scene = "../afm/calibration-v.toml"
@@ -70,25 +70,25 @@ above = -2
 below = -1.6
 ```
 
-## What it leaves
+## Output files
 
 | file | content |
 |---|---|
-| `study.csv` | one row a run: what is varied, its values, its quality |
-| `variations.csv` | one row a variation: mean and standard deviation (n - 1) of every value over its seeds |
-| `effects.csv` | main effects: for each varied key and level the mean over all runs that have it, and their standard deviation |
-| `curves.json` | the curves as drawn; of several seeds mean (`y`), `standard_deviation`, `low` and `high` |
-| `summary.json` | all of this, and the verdicts |
-| `report.html` | charts with bars of the standard deviation, effect plots, the last frame of each run, tables |
-| `slurm.sh`, `slurm.json`, `slurm/` | on a cluster: the job, which runs it has, what it prints (docs/cluster.md) |
+| `study.csv` | one row per run: varied keys, values, quality |
+| `variations.csv` | one row per variation: mean and standard deviation (n - 1) of every value over its seeds |
+| `effects.csv` | main effects: for each varied key and level, the mean over all runs with this level, and their standard deviation |
+| `curves.json` | the curves as plotted; for several seeds, mean (`y`), `standard_deviation`, `low` and `high` |
+| `summary.json` | all of the above, and the results of the checks |
+| `report.html` | charts with standard deviation bars, effect plots, the last frame of each run, tables |
+| `slurm.sh`, `slurm.json`, `slurm/` | on a cluster: the job script, its list of runs, its output (docs/cluster.md) |
 
-Runs that did not reach their end are in `study.csv` alone. Values of compactions between four planes are also told at the
+Runs that did not complete appear only in `study.csv`. For compaction between four planes, values are also reported at the
 sample with the highest relative density: `peak/relative_density`, `peak/top_force`, `peak/bottom_force`, `peak/top_pressure`,
-`peak/transmission`, `peak/stress_ratio/axial`, `peak/stress_ratio/lateral`. `quality` names each value of the quality card
-that is beyond its limit, of levers each friction loop without a plateau; otherwise it is `within limits`. Where not every
-combination of keys was run alike often, a main effect holds part of those of other keys; the report marks it with *.
-Of variations with scenes of their own, keys that some of them do not set have no main effect.
-All pictures of last frames together have at most 3 million pixels, one byte each before they are deflated; studies of more
+`peak/transmission`, `peak/stress_ratio/axial`, `peak/stress_ratio/lateral`. `quality` lists all quantities of the quality
+card that exceed their limits, and for levers all friction loops without a plateau; otherwise it is `within limits`. If the
+combinations of keys were not all run equally often, a main effect contains part of the effects of other keys; the report
+marks it with *. For variations with their own scenes, keys that some of them do not set have no main effect.
+The images of the last frames have at most 3 million pixels in total, one byte each before compression; studies of more
 than 1302 runs have none.
 )";
 
@@ -287,11 +287,10 @@ class StudyReader {
       problems_.add(origin, "variation",
                     fmt::format("two are called '{}', allowed: each name once", run.variation));
     if (!can_be_folder(run.variation))
-      problems_.add(
-          origin, "variation.name",
-          fmt::format("'{}' is no name for the folder of a run, allowed: one that does not "
-                      "begin with '.' and that the study has no file of ({})",
-                      run.variation, fmt::join(files_of_a_study, ", ")));
+      problems_.add(origin, "variation.name",
+                    fmt::format("'{}' cannot be the folder name of a run, allowed: a name that "
+                                "does not begin with '.' and is not a file of the study ({})",
+                                run.variation, fmt::join(files_of_a_study, ", ")));
     study_.variations.push_back(run.variation);
     const std::string& scene = one.scene.empty() ? study_.spec.scene : one.scene;
     if (scene.empty()) {

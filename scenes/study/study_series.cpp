@@ -83,8 +83,8 @@ std::vector<double> share_below(const Scene& scene, const History& history) {
 
 std::vector<SeriesInfo> study_series(const Scene& scene) {
   if (scene.afm) {
-    std::vector<SeriesInfo> all{
-        {study_abscissa(scene, false), "-", "of the programme that are done, parts included"}};
+    std::vector<SeriesInfo> all{{study_abscissa(scene, false), "-",
+                                 "of the programme that are completed, including partial ones"}};
     for (const SeriesInfo& series : expectable_series(scene)) all.push_back(series);
     return all;
   }
@@ -96,7 +96,8 @@ std::vector<SeriesInfo> study_series(const Scene& scene) {
   if (!cell) return all;
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     if (face_of(*cell, static_cast<int>(t)))
-      all.push_back({"pressure/" + scene.tools[t].name, "Pa", "force towards the tool / its face"});
+      all.push_back(
+          {"pressure/" + scene.tools[t].name, "Pa", "force towards the tool / area of its face"});
   all.push_back({"transmission", "-", "force on the bottom punch / force on the top punch"});
   return all;
 }

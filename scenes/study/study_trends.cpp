@@ -114,7 +114,7 @@ class Judge {
     const double figure =
         figure_of(expect_, series_(run, expect_.against), series_(run, expect_.series));
     if (!std::isfinite(figure) && reason_.empty())
-      reason_ = fmt::format("{} has no such value: it does not get there", run.name);
+      reason_ = fmt::format("{} has no such value: the run does not reach it", run.name);
     return figure;
   }
 
@@ -173,10 +173,10 @@ class Judge {
     result.value = std::abs(here / there);
     result.met = std::abs(here) > expect_.factor * std::abs(there);
     result.measured = fmt::format("{:+.5g} against {:+.5g}{}", here, there, unit());
-    result.allowed =
-        fmt::format("{} to {} changes more than {}{} to {}", expect_.effect[0], expect_.effect[1],
-                    expect_.factor == 1 ? "" : fmt::format("{:g} times ", expect_.factor),
-                    expect_.exceeds[0], expect_.exceeds[1]);
+    result.allowed = fmt::format(
+        "the change from {} to {} is larger than {}that from {} to {}", expect_.effect[0],
+        expect_.effect[1], expect_.factor == 1 ? "" : fmt::format("{:g} times ", expect_.factor),
+        expect_.exceeds[0], expect_.exceeds[1]);
   }
 
   const Study& study_;

@@ -172,9 +172,9 @@ BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules) 
       problems.push_back(
           {scene.file_of(mark).string(), mark.line, mark.column, "",
            fmt::format("bond[{}].{}", i, key),
-           fmt::format("{:.4g} J/m^2 is less than the bond stores when it begins to break at "
-                       "{:.4g} Pa, allowed: >= {:.4g} J/m^2 with this mesh; finer edges or a "
-                       "higher `stiffness` allow less",
+           fmt::format("{:.4g} J/m^2 is less than the energy stored in the bond when it starts to "
+                       "break at {:.4g} Pa, allowed: >= {:.4g} J/m^2 with this mesh; finer edges "
+                       "or a higher `stiffness` allow less",
                        energy, strength, least)});
     };
     bound("fracture_energy", law.strength, law.energy);

@@ -51,8 +51,8 @@ void hold_node(const Scene& scene, const Held& node, double size, std::vector<He
   const Vec2 arm = node.place - tool.point;
   if (arm.norm() <= round_off * size)
     refuse(scene, node.tool, "point",
-           fmt::format("node {} of particle {} lies at the centre, where no direction is radial, "
-                       "allowed: a point where the constraint holds no node",
+           fmt::format("node {} of particle {} lies at the centre, where the radial direction is "
+                       "undefined, allowed: a point where the constraint holds no node",
                        node.node, tool.body));
   add(arm.normalized(), Vec2::UnitX());
 }
@@ -73,8 +73,8 @@ bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Vec2& place : places) nearest = std::min(nearest, (place - tool.point).norm());
   refuse(scene, number, "radius",
-         fmt::format("no node of particle {} lies within it, allowed: at least {:.6g} m, where the "
-                     "nearest is",
+         fmt::format("no node of particle {} lies within it, allowed: at least {:.6g} m, the "
+                     "distance of the nearest one",
                      tool.body, nearest));
 }
 

@@ -15,7 +15,7 @@ constexpr std::size_t largest_drawing = 4U << 20U;  // bytes
 
 std::vector<Vec2> line_in(const std::filesystem::path& path, const ToolSpec& tool) {
   if (!drawing::is_drawing(path))
-    throw drawing::BadDrawing("no drawing by its ending, allowed: .svg, .dxf");
+    throw drawing::BadDrawing("not a drawing by its file extension, allowed: .svg, .dxf");
   try {
     const std::string text = text_of_input(path, largest_drawing);
     return drawing::only_line(drawing::chains_in(path, text, tool.unit, tool.layer));

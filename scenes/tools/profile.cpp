@@ -228,10 +228,10 @@ class ProfileMaker {
   std::vector<Vec2> made_rough() {
     std::vector<Vec2> points = rough(tool_, scene_.seed, extent_);
     if (points.empty())
-      refuse(
-          "correlation_length",
-          fmt::format("too short for the {:.6g} m that the powder comes over, allowed: >= {:.6g} m",
-                      length(), 1.01 * length() * stations_a_length / max_stations));
+      refuse("correlation_length",
+             fmt::format(
+                 "too short for the {:.6g} m that the powder slides over, allowed: >= {:.6g} m",
+                 length(), 1.01 * length() * stations_a_length / max_stations));
     return points;
   }
 
@@ -241,12 +241,11 @@ class ProfileMaker {
     for (Vec2& p : points) p.x() += tool_.point.x() - begin;
     const double from = points.front().x(), to = points.back().x();
     if (from <= extent_.low && to >= extent_.high) return between_flats(points, tool_.point.y());
-    refuse(
-        "file",
-        fmt::format("the profile is {:.6g} m long and lies from x = {:.6g} m to {:.6g} m; powder "
-                    "and sliding take it from {:.6g} m to {:.6g} m, allowed: a profile of at least "
-                    "{:.6g} m, which starts (point) at x <= {:.6g} m",
-                    to - from, from, to, extent_.low, extent_.high, length(), extent_.low));
+    refuse("file",
+           fmt::format("the profile is {:.6g} m long, from x = {:.6g} m to {:.6g} m; powder and "
+                       "sliding need it from {:.6g} m to {:.6g} m, allowed: a profile of at least "
+                       "{:.6g} m that starts (point) at x <= {:.6g} m",
+                       to - from, from, to, extent_.low, extent_.high, length(), extent_.low));
     return {};
   }
 

@@ -16,11 +16,10 @@ void check(const csv::Table& table, const std::vector<double>& x) {
                 fmt::format("{} points, allowed: {} to {}", x.size(), fewest_points, max_points));
   for (std::size_t i = 1; i < x.size(); ++i)
     if (!(x[i] > x[i - 1]))
-      csv::refuse(
-          table, i, csv::column_at(table, "x"),
-          fmt::format("x goes from {:.6g} m {} {:.6g} m: the profile overhangs or turns back, "
-                      "allowed: x that rises from row to row",
-                      x[i - 1], x[i] < x[i - 1] ? "back to" : "on to", x[i]));
+      csv::refuse(table, i, csv::column_at(table, "x"),
+                  fmt::format("x goes from {:.6g} m {} {:.6g} m: the profile overhangs or turns "
+                              "back, allowed: x that increases from row to row",
+                              x[i - 1], x[i] < x[i - 1] ? "back to" : "to", x[i]));
   if (x.back() - x.front() < shortest)
     csv::refuse(table, "x",
                 fmt::format("a profile of {:g} m, allowed: at least {:g} m", x.back() - x.front(),

@@ -55,8 +55,7 @@ class ServoChecks {
     if (tool(servo).shape == ToolSpec::Shape::constraint)
       return refuse(
           path, "tool",
-          fmt::format("'{}' is a constraint, allowed: a plane or a polyline, which bear what "
-                      "touches them",
+          fmt::format("'{}' is a constraint, allowed: a plane or a polyline, which have contact",
                       tool(servo).name));
     const Vec2 direction = direction_of(servo, scene_);
     if (direction.isZero(0))
@@ -81,12 +80,12 @@ class ServoChecks {
       refuse(path, "stiffness",
              fmt::format("'{}' is a constraint, allowed: a plane or a polyline", moved.name));
     if (move.displacement.isZero(0))
-      refuse(path, "displacement", "is zero, allowed: a direction for the drive that gives");
+      refuse(path, "displacement", "is zero, allowed: a direction for the compliant drive");
     for (const ServoSpec& servo : stage_.servos)
       if (servo.tool == move.tool)
-        refuse(
-            path, "stiffness",
-            fmt::format("'{}' has a servo in the same stage, allowed: one of the two", moved.name));
+        refuse(path, "stiffness",
+               fmt::format("'{}' has a servo in the same stage, allowed: only one of the two",
+                           moved.name));
     for (std::size_t k = 0; k < stage_.moves.size(); ++k)
       if (k != number && stage_.moves[k].tool == move.tool)
         refuse(path, "stiffness",
@@ -107,7 +106,8 @@ class ServoChecks {
       refuse(path, "tool", "has no effect together with relative_density, allowed: without it");
     if (until.relative_density && !scene_.cell && !die_cell(scene_))
       refuse(path, "relative_density",
-             "there is no die that it refers to, allowed: in a periodic cell, or in a scene whose "
+             "there is no die to which it could refer, allowed: in a periodic cell, or in a scene "
+             "whose "
              "tools "
              "are four planes with normals along +x, -x, +y and -y");
   }

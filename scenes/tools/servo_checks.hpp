@@ -33,9 +33,9 @@ void check_travel(const UntilSpec& until, const std::vector<Move>& moves,
   if (*until.displacement > moved)
     refuse(
         path + ".displacement",
-        fmt::format("{:g} m is not reached: the stage moves the tool by {:g} m, allowed: at most "
-                    "that",
-                    *until.displacement, moved));
+        fmt::format(
+            "{:g} m cannot be reached: the stage moves the tool by {:g} m, allowed: at most that",
+            *until.displacement, moved));
 }
 
 }  // namespace pulvis

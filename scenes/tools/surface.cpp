@@ -79,7 +79,7 @@ std::string crossing_fault(const std::vector<Vec2>& points, const std::vector<Ve
       if (meet(points[i], t[i], low(i), high(i), points[j], t[j], low(j), high(j)))
         return fmt::format(
             "the straight part from point {} to point {} meets that from point {} to point {} (the "
-            "first and the last go on without end), allowed: a chain that does not cross or touch "
+            "first and the last extend to infinity), allowed: a chain that does not cross or touch "
             "itself",
             i, i + 1, j, j + 1);
   return "";
@@ -93,7 +93,7 @@ std::string rounding_fault(const std::vector<Vec2>& points, const std::vector<Ve
     const double length = (points[i + 1] - points[i]).norm();
     if (begin + end <= length * (1 + chain_round_off)) continue;
     return fmt::format(
-        "the arcs at the ends take {:.6g} m of the straight part from point {} to point {}, which "
+        "the arcs at the ends use {:.6g} m of the straight part from point {} to point {}, which "
         "is "
         "{:.6g} m long, allowed: <= {:.6g} m",
         begin + end, i, i + 1, length, rounding * length / (begin + end));

@@ -134,7 +134,7 @@ class ToolChecks {
           (tool.name == friction.first || tool.name == friction.second))
         refuse(fmt::format("friction[{}]", number), "between",
                fmt::format(
-                   "nothing touches the constraint '{}', allowed: tools that are no constraints",
+                   "the constraint '{}' has no contact, allowed: tools that are not constraints",
                    tool.name));
   }
 

@@ -84,15 +84,15 @@ Way way_of(const ForceCurve& curve, const CurveWindow& window, Trace& trace) {
   const double noise = noise_about(way.free);
   if (!(*std::ranges::max_element(trace.y) > 2 * clear_of_noise * noise) || curve.turn == 0)
     wrong(curve,
-          "no contact rises above the noise, allowed: volts that grow where the probe is pressed "
-          "on");
+          "no contact signal above the noise, allowed: volts that increase where the probe is "
+          "pressed on");
   const Part part = contact_part(window, trace);
   const std::size_t count = part.end - part.begin;
   if (count < fewest_in_line)
     wrong(curve,
-          fmt::format("{} samples lie between {:g} and {:g} of the greatest signal, allowed: at "
-                      "least {}",
-                      count, window.from, window.until, fewest_in_line));
+          fmt::format(
+              "{} samples lie between {:g} and {:g} of the largest signal, allowed: at least {}",
+              count, window.from, window.until, fewest_in_line));
   const auto d = std::span(trace.d).subspan(part.begin, count);
   const auto y = std::span(trace.y).subspan(part.begin, count);
   way.contact = lab::fit_line(d, y);
@@ -115,8 +115,8 @@ void find_pull_off(const ForceCurve& curve, const CurveWindow& window, const Tra
   if (!(back.y[least] < -clear_of_noise * noise)) return;
   if (least == 0 || back.d[least] <= window.free * curve.displacement[curve.turn])
     wrong(curve,
-          fmt::format("the probe leaves the surface at {:.4g} m, where force_curves.free takes it "
-                      "for free already, allowed: a longer retract, or a smaller share than {:g}",
+          fmt::format("the probe leaves the surface at {:.4g} m, which is within the range of "
+                      "force_curves.free, allowed: a longer retract, or a share smaller than {:g}",
                       back.d[least], window.free));
   // Noise may put the smallest sample before the last one under tension.
   for (const double half = back.y[least] / 2; least > 1 && back.y[least - 1] < half;) --least;

@@ -25,7 +25,7 @@ nlohmann::json summary_of(const std::filesystem::path& file) {
   } catch (const UnfitInput& unfit) {
     refuse_summary(file, unfit.what());
   } catch (const nlohmann::json::parse_error&) {
-    refuse_summary(file, "is no JSON");
+    refuse_summary(file, "is not JSON");
   }
 }
 

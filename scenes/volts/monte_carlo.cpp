@@ -138,7 +138,7 @@ void add_linear(const Model& model, std::vector<Quantity>& quantities) {
     up[i] += step * input.error;
     down[i] -= step * input.error;
     const auto above = attempt(model, up), below = attempt(model, down);
-    if (!above || !below) throw std::runtime_error(input.name + " lies on the edge of what fits");
+    if (!above || !below) throw std::runtime_error(input.name + " is at the limit of valid values");
     for (std::size_t q = 0; q < quantities.size(); ++q) {
       const double by_error = ((*above)[q] - (*below)[q]) / (2 * step);
       quantities[q].shares[static_cast<std::size_t>(input.group)].linear += by_error * by_error;
@@ -196,10 +196,10 @@ MonteCarlo propagate(const Model& model, const DrawSpec& spec) {
     return all;
   all.failed = spec.draws - (columns.empty() ? 0 : static_cast<int>(columns.front().size()));
   if (all.failed > spec.draws / 100)
-    throw std::runtime_error(fmt::format(
-        "{} of {} draws fit no friction, allowed: inputs that are certain enough for one in a "
-        "hundred at most",
-        all.failed, spec.draws));
+    throw std::runtime_error(
+        fmt::format("{} of {} draws give no valid friction, allowed: at most one in a hundred; "
+                    "reduce the uncertainties of the inputs",
+                    all.failed, spec.draws));
   for (std::size_t q = 0; q < columns.size(); ++q)
     describe(all.quantities[q], columns[q], spec.confidence);
   add_linear(model, all.quantities);

@@ -30,9 +30,9 @@ std::vector<double> errors_of(const LoopRecord& record, const std::vector<std::s
     if (known) return error;
     throw SceneError(
         {{record.file.string(), 1, 1, "", "half_width_error",
-          fmt::format("nothing says how uncertain {} are, allowed: raw traces, half_width_error "
+          fmt::format("the uncertainty of {} is not given, allowed: raw traces, half_width_error "
                       "and offset_error, or three loads on every slope",
-                      set.size() == 1 ? "this loop is and its slope" : "two loops")}});
+                      set.size() == 1 ? "this loop and its slope" : "two loops")}});
   }
   const lab::Line line = lab::fit_line(load, y);
   const double scatter = std::sqrt(line.residual / static_cast<double>(set.size() - 2));

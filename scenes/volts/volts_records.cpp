@@ -40,13 +40,14 @@ void order(const csv::Table& table, std::size_t row, ForceCurve& curve) {
   const double sign = d[curve.turn] < start ? -1 : 1;
   for (double& v : d) v = sign * (v - start);
   if (!(d[curve.turn] > 0))
-    csv::refuse(table, row, csv::column_at(table, "displacement"),
-                fmt::format("curve {} does not move, allowed: a piezo that does", curve.name));
+    csv::refuse(
+        table, row, csv::column_at(table, "displacement"),
+        fmt::format("curve {}: the piezo does not move, allowed: a moving piezo", curve.name));
   for (std::size_t i = 1; i < d.size(); ++i)
     if (i <= curve.turn ? d[i] <= d[i - 1] : d[i] >= d[i - 1])
       csv::refuse(table, row + 1 - d.size() + i, csv::column_at(table, "displacement"),
-                  fmt::format("{:.6g} m does not go on from {:.6g} m, allowed: one approach to "
-                              "the surface and one retract, without a stop",
+                  fmt::format("{:.6g} m does not continue the motion from {:.6g} m, allowed: one "
+                              "approach to the surface and one retract, without a stop",
                               d[i], d[i - 1]));
 }
 
@@ -55,7 +56,7 @@ void add_normal(const csv::Table& table, std::vector<std::vector<double>>& norma
   const bool trace = csv::has_column(table, "normal_trace");
   if (trace != csv::has_column(table, "normal_retrace"))
     csv::refuse(table, trace ? "normal_trace" : "normal_retrace",
-                "stands alone, allowed: normal_trace and normal_retrace, or none of both");
+                "is given alone, allowed: both normal_trace and normal_retrace, or neither");
   if (!trace) return;
   normal = {numbers_of(table, "normal_trace", "V"), numbers_of(table, "normal_retrace", "V")};
 }
@@ -70,10 +71,11 @@ VoltsLoop loop_of(const csv::Table& table, const Columns& columns, std::size_t b
   const auto left_out = static_cast<std::size_t>(skip * static_cast<double>(end - begin));
   const std::size_t count = end - begin - 2 * left_out;
   if (count < fewest_in_trace)
-    csv::refuse(table, end - 1, csv::column_at(table, "trace"),
-                fmt::format("the loop ends after {} places, {} of them at its ends, allowed: at "
-                            "least {} others",
-                            end - begin, 2 * left_out, fewest_in_trace));
+    csv::refuse(
+        table, end - 1, csv::column_at(table, "trace"),
+        fmt::format(
+            "the loop has only {} points, {} of them at its ends, allowed: at least {} others",
+            end - begin, 2 * left_out, fewest_in_trace));
   const auto mean = [&](const std::vector<double>& values) {
     return lab::correlated_mean(std::span(values).subspan(begin + left_out, count));
   };
@@ -182,8 +184,8 @@ LoopRecord read_loops(const std::filesystem::path& file, bool on_slopes, double 
   columns.load = csv::numbers(table, at, record.load_in_volts ? "V" : "N");
   if (!on_slopes && csv::has_column(table, "slope"))
     csv::refuse(table, "slope",
-                "stands in the loops of the sample, allowed: a flat sample; loops on slopes belong "
-                "to wedge.loops");
+                "is not allowed in the loops of the sample, allowed: a flat sample; loops on "
+                "slopes belong in wedge.loops");
   columns.slope =
       on_slopes ? numbers_of(table, "slope", "rad") : std::vector<double>(columns.load.size(), 0.0);
   const bool raw = csv::has_column(table, "trace");

@@ -16,9 +16,9 @@ void return_health::operator()() const {
     const int at = slot / lane_count * 2 * lane_count + slot % lane_count;
     if (entry(values, at) == 0) return;  // NaN is not
     throw RunFailure(fmt::format(
-        "j2_return_map: particle {}, element {}: the stress is beside the flow stress by {:.3g} of "
-        "it at "
-        "step {}, t = {:.6g} s; allowed 0: the return did not converge (is the law of its material "
+        "j2_return_map: particle {}, element {}: the stress deviates from the flow stress by "
+        "{:.3g} of it at step {}, t = {:.6g} s; allowed 0: the return mapping did not converge (is "
+        "the law of its material "
         "finite at this strain?)",
         entry(bodies->slots, slot).number, static_cast<int>(entry(values, at + lane_count)),
         entry(values, at), clock->step, clock->time));

@@ -46,8 +46,8 @@ void check_depth(const Bodies& bodies, const Clock& clock, double limit, const c
   const Row<At> row(worst.deepest);
   const Shape::Edge& edge = entry(bodies.shape_of_slot(rows.pair(row, 0)).edges, rows.pair(row, 1));
   throw RunFailure(
-      fmt::format("{}: {}: penetration {:.6g} m is {:.3g} of the edge length at "
-                  "step {}, t = {:.6g} s; allowed {:.3g} (limits.penetration)",
+      fmt::format("{}: {}: penetration {:.6g} m is {:.3g} of the edge length at step {}, t = "
+                  "{:.6g} s; allowed {:.3g} (limits.penetration)",
                   system, name_of(bodies, rows.pair, row, partner), worst.depth * edge.length,
                   worst.depth, clock.step, clock.time, limit));
 }

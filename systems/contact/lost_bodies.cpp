@@ -34,7 +34,7 @@ void lost_bodies::operator()() const {
                             (middle[1] - tools.position(tool, 1)) * tools.normal(tool, 1);
       if (height >= 0) continue;
       throw RunFailure(fmt::format(
-          "lost_bodies: particle {} has gone through tool '{}': its middle is {:.6g} m behind it "
+          "lost_bodies: particle {} has gone through tool '{}': its centre is {:.6g} m behind it "
           "at step {}, t = {:.6g} s; allowed: in front of it",
           entry(bodies->slots, slot).number, entry(program->names, t), -height, clock->step,
           clock->time));

@@ -158,11 +158,11 @@ void outline_health::operator()() const {
   if (faults.all.empty()) return;
   const Fault& fault = faults.all.front();
   throw RunFailure(fmt::format(
-      "outline_health: particle {} has gone through itself: node {}, of its {}, is {:.6g} m inside "
+      "outline_health: particle {} has penetrated itself: node {}, of its {}, is {:.6g} m inside "
       "another part of it at step {}, t = {:.6g} s; allowed {:.6g} m ({})",
       entry(bodies->slots, fault.slot).number, fault.node, fault.in_hole ? "hole" : "outline",
       fault.depth, clock->step, clock->time, fault.allowed,
-      fault.in_hole ? "nothing touches in holes: stop before they close" : "limits.penetration"));
+      fault.in_hole ? "holes have no contact: stop before they close" : "limits.penetration"));
 }
 
 }  // namespace pulvis

@@ -139,10 +139,10 @@ void SolidFactors<Real>::factorise(const SolidAssembly& assembly, std::span<cons
   fill_values(assembly, blocks, stiffness);
   factorise_stiffness(*this, first);
   if (factors->info() != Eigen::Success || !factors->vectorD().allFinite())
-    throw RunFailure(fmt::format(
-        "factorise: the stiffness of the solid is singular ({} equations): a part hangs loose or "
-        "has collapsed",
-        stiffness.rows()));
+    throw RunFailure(
+        fmt::format("factorise: the stiffness of the solid is singular ({} equations): a part is "
+                    "not supported or has collapsed",
+                    stiffness.rows()));
 }
 
 // L D L^T x = P b, then P^T x. Columns of L hold what lies below the diagonal, which is 1.

@@ -122,7 +122,7 @@ void require_in_sight(double displacement, const ContactRules& rules, const Cloc
   if (displacement <= rules.thinnest || std::isnan(displacement)) return;
   throw RunFailure(fmt::format(
       "advance_clock: surfaces moved up to {:.6g} m against each other in step {}, t = {:.6g} s: "
-      "contacts may have been passed unseen; allowed {:.6g} m, the thinnest part of an outline or "
+      "contacts may have been missed; allowed {:.6g} m, the thinnest part of an outline or "
       "a tool (is the load too sudden?)",
       displacement, clock.step, clock.time, rules.thinnest));
 }

@@ -127,10 +127,10 @@ void check_flanks(const Scenery& s, const ridge_health::Rows& rows) {
     if (depth <= deepest_share * thickness) continue;
     s.stop(
         slot, tool,
-        fmt::format("a ridge {:.6g} m thick is penetrated by {:.6g} m; allowed {:.6g} m: beyond, "
-                    "the particle would come out on the other side (stiffer contacts or a "
-                    "thicker ridge bear more)",
-                    thickness, depth, deepest_share * thickness));
+        fmt::format(
+            "a ridge {:.6g} m thick is penetrated by {:.6g} m; allowed {:.6g} m: beyond that, the "
+            "particle would emerge on the other side (use stiffer contacts or a thicker ridge)",
+            thickness, depth, deepest_share * thickness));
   }
 }
 
@@ -150,8 +150,8 @@ void check_corners(const Scenery& s, int slot, int tool) {
     s.stop(
         slot, tool,
         fmt::format("the tool's corner at ({:.6g}, {:.6g}) m is {:.6g} m, {:.3g} edges, inside the "
-                    "outline, between its Gauss points; allowed {:.3g} (limits.penetration; a "
-                    "finer mesh or a rounder corner is felt)",
+                    "outline, between its Gauss points; allowed {:.3g} (limits.penetration; use a "
+                    "finer mesh or a rounder corner)",
                     at[0] + tip[0], at[1] + tip[1], depth.distance, depth.share,
                     s.rules.penetration_limit));
   }

@@ -39,13 +39,13 @@ const Servo* servo_of(const ToolServos& servos, int tool, std::size_t stage) {
 void check_held(const Servo& servo, const ToolProgram& program, const Clock& clock, double force) {
   if (!servo.holds_force()) return;
   if (std::abs(force - servo.force) <= servo.tolerance * std::abs(servo.force)) return;
-  throw RunFailure(fmt::format(
-      "tool_servo: '{}' bears {:.6g} N at the end of stage '{}', step {}, t = {:.6g} s; asked for "
-      "{:.6g} N, allowed: within {:g} of it (stage.servo.tolerance); a longer stage, a higher "
-      "max_speed or a powder that bears more would reach it",
-      entry(program.names, servo.tool), force + 0.0 /* not -0 */,
-      entry(program.stages, servo.stage).name, clock.step, clock.time, servo.force,
-      servo.tolerance));
+  throw RunFailure(
+      fmt::format("tool_servo: '{}' carries {:.6g} N at the end of stage '{}', step {}, t = {:.6g} "
+                  "s; target {:.6g} N, allowed: within {:g} of it (stage.servo.tolerance); use a "
+                  "longer stage, a higher max_speed or a stronger powder",
+                  entry(program.names, servo.tool), force + 0.0 /* not -0 */,
+                  entry(program.stages, servo.stage).name, clock.step, clock.time, servo.force,
+                  servo.tolerance));
 }
 
 // Asked for now: smoothly from what the tool bore when the stage began.

@@ -114,15 +114,14 @@ void end_early(const End& end, double time, MixedControl* control, ToolProgram& 
   const std::string& tool = entry(program.names, end.tool);
   const std::string what = end.kind == StageEnds::Kind::density ? "relative density is"
                            : end.kind == StageEnds::Kind::force
-                               ? fmt::format("'{}' bears", tool)
+                               ? fmt::format("'{}' carries", tool)
                                : fmt::format("'{}' has moved", tool);
   const char* unit = end.kind == StageEnds::Kind::density ? ""
                      : end.kind == StageEnds::Kind::force ? " N"
                                                           : " m";
   throw RunFailure(
-      fmt::format("stage_control: {} {:.6g}{} when the time of stage '{}' is over, step {}, t = "
-                  "{:.6g} s; it was "
-                  "to end at {:.6g}{} (stage.until)",
+      fmt::format("stage_control: {} {:.6g}{} when the duration of stage '{}' is over, step {}, t "
+                  "= {:.6g} s; it was to end at {:.6g}{} (stage.until)",
                   what, value + 0.0 /* not -0 */, unit, entry(program.stages, end.stage).name,
                   clock.step, clock.time, end.value, unit));
 }

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -185,7 +185,7 @@ TEST_F(CommandLine, PlanListsSystemsEdgesAndColumnsWithTheirBytes) {
   EXPECT_THAT(end.out, HasSubstr("internal_force"));
   EXPECT_THAT(end.out, ContainsRegex("\nedges\n +[0-9]+ -> [0-9]+\n"));
   EXPECT_THAT(end.out, ContainsRegex("\n +node +position +2 x m +[0-9]+ B "));
-  EXPECT_THAT(end.out, ContainsRegex("[1-9][0-9]+ B in all"));
+  EXPECT_THAT(end.out, ContainsRegex("[1-9][0-9]+ B in total"));
   EXPECT_FALSE(fs::exists(place / "runs"));
 }
 
@@ -401,7 +401,7 @@ TEST_F(CommandLine, PackRefusesADensityOutOfReach) {
   const Outcome outcome = pulvis({"pack", scene("compaction/random-100.toml"), "--set",
                                   "packing[0].density=0.95", "-o", "packing.csv"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, ContainsRegex("0.9500 is not reached: .*allowed: at most 0.8"));
+  EXPECT_THAT(outcome.err, ContainsRegex("0.9500 cannot be reached: .*allowed: at most 0.8"));
   EXPECT_FALSE(fs::exists(place / "packing.csv"));
 }
 

@@ -163,7 +163,7 @@ TEST_F(Faults, ASceneThatVanishesIsNamedAndTheRunGoesOnOnceItIsBack) {
   const Outcome end = end_of(child);
   EXPECT_EQ(end.code, 4) << end.err;
   EXPECT_THAT(end.err,
-              HasSubstr("run/scene.toml: cannot go on without the file: it is no longer there"));
+              HasSubstr("run/scene.toml: cannot continue without the file: it is no longer there"));
   fs::rename(place / "kept.toml", place / "run" / "scene.toml");
   const Outcome rest = pulvis({"resume", "run", "--stop-after", "1"});
   EXPECT_EQ(rest.code, 130) << rest.err;

@@ -106,7 +106,7 @@ TEST_F(FitCommand, FindsAKnownFrictionAgainAndKeepsItsRuns) {
   EXPECT_GT(half, 1e-4);
   EXPECT_LT(half, 2e-3);
   EXPECT_NEAR(json["misfit_rms"], 0.002, 0.0005);
-  EXPECT_THAT(outcome.out, HasSubstr("No particle of the simulation has passed its own diameter"));
+  EXPECT_THAT(outcome.out, HasSubstr("No simulated particle has moved by its own diameter"));
   EXPECT_THAT(text_of(place / "fitted/report.html"), HasSubstr("Misfit of all runs"));
   const Outcome again = pulvis(words);
   EXPECT_EQ(again.code, 0);
@@ -161,7 +161,7 @@ TEST_F(FitCommand, RefusesWhatCannotBeSought) {
   other = one_key;
   other.replace(other.find("start = 0.15"), 12, "start = 0.75");
   write("fit.toml", other);
-  EXPECT_THAT(refusal(), HasSubstr("parameter[0].start: 0.75, allowed: within 0 and 0.5"));
+  EXPECT_THAT(refusal(), HasSubstr("parameter[0].start: 0.75, allowed: between 0 and 0.5"));
   EXPECT_EQ(pulvis({"fit", "fit.toml", "-o", "fitted"}).code, 2);
   EXPECT_FALSE(fs::exists(place / "fitted"));
 }
@@ -175,7 +175,7 @@ TEST_F(FitCommand, RefusesARecordThatDoesNotReachTheSimulation) {
   EXPECT_THAT(message_of([&] {
                 comparison.set_reach({"s", {0, 1e-3, 2e-3}, {0, 0.1, 0.1}});
               }),
-              HasSubstr("1 of its samples lie within 1 and 2 mm, allowed: at least 20"));
+              HasSubstr("1 of its samples lie between 1 and 2 mm, allowed: at least 20"));
 }
 
 TEST_F(FitCommand, TheShippedFitAndItsReferenceAreWhole) {

@@ -56,7 +56,7 @@ TEST_F(LeftBehind, ResumeTakesNoCheckpointOfAnotherRun) {
     fs::copy_file(file, place / "run" / file.filename());
   const Outcome none = pulvis({"resume", "run"});
   EXPECT_EQ(none.code, 2);
-  EXPECT_THAT(none.err, HasSubstr("only of others"));
+  EXPECT_THAT(none.err, HasSubstr("only those of other runs"));
 }
 
 TEST_F(LeftBehind, HalvesOfFilesGoWithTheNextRunAndResume) {

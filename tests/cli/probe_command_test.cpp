@@ -127,7 +127,7 @@ TEST_F(ProbeCommand, RefusesWhatCannotBeProbed) {
     std::string text = good;
     return text.replace(text.find(what), what.size(), instead);
   };
-  refused(with("[1.006]", "[0.9, 0.8]"), "do not rise");
+  refused(with("[1.006]", "[0.9, 0.8]"), "do not increase");
   refused(with("[1.006]", "[]"), "densities");
   refused(with("duration = \"0.4 ms\"\n", ""), "probe.duration");
   refused(with("directions = 8", "directions = 3"), "directions");

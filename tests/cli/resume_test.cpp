@@ -218,7 +218,7 @@ TEST_F(KilledRun, AShortenedCheckpointIsDamagedToo) {
   for (const fs::path& file : checkpoints("short")) fs::resize_file(file, fs::file_size(file) / 3);
   const Outcome end = pulvis({"resume", "short"});
   EXPECT_EQ(end.code, 4);
-  EXPECT_THAT(end.err, HasSubstr("no checkpoint is whole"));
+  EXPECT_THAT(end.err, HasSubstr("there is no intact checkpoint"));
 }
 
 TEST_F(KilledRun, AnotherRunsCheckpointIsLeftAside) {
@@ -241,7 +241,7 @@ TEST_F(KilledRun, AnotherScenesCheckpointIsRefused) {
   std::ofstream(place / "one/scene.toml") << scene;
   const Outcome end = pulvis({"resume", "one"});
   EXPECT_EQ(end.code, 2);
-  EXPECT_THAT(end.err, HasSubstr("the checkpoint is of another scene"));
+  EXPECT_THAT(end.err, HasSubstr("the checkpoint belongs to another scene"));
 }
 
 TEST_F(KilledRun, AnotherVersionsCheckpointIsRefused) {

@@ -107,7 +107,7 @@ TEST_F(SlurmCommand, WrongOptionsAreRefused) {
   }
   const Outcome time = submit({"--time", "half an hour"});
   EXPECT_EQ(time.code, 2);
-  EXPECT_THAT(time.err, HasSubstr("'half an hour' is no time limit, allowed: minutes, "));
+  EXPECT_THAT(time.err, HasSubstr("'half an hour' is not a time limit, allowed: minutes, "));
   EXPECT_EQ(submit({"--array-size", "0"}).code, 2);
   EXPECT_EQ(submit({"--partition", "two\nlines"}).code, 2);
   EXPECT_EQ(submit({"--sbatch=--array=0-9"}).code, 2);
@@ -141,7 +141,7 @@ TEST_F(SlurmCommand, WhatSbatchSaysIsTold) {
   stand_in("sbatch", "echo 'sbatch: account: powders' >&2\necho '77;west'");
   const Outcome end = submit({"--array-size", "2"});
   EXPECT_EQ(end.code, 0) << end.err;
-  EXPECT_THAT(end.out, HasSubstr("submitted as Slurm's job 77: 2 tasks of 1 thread"));
+  EXPECT_THAT(end.out, HasSubstr("submitted as Slurm job 77: 2 tasks of 1 thread"));
   const auto arrays = nlohmann::json::parse(text_of(results / "slurm.json"))["arrays"];
   ASSERT_EQ(arrays.size(), 1U);
   EXPECT_EQ(arrays[0]["job"], "77");
@@ -158,11 +158,11 @@ TEST_F(SlurmCommand, RunsInTheQueueAreNotStartedTwice) {
   EXPECT_EQ(some.code, 130) << some.err;
   EXPECT_THAT(some.out, HasSubstr("1 of 3 runs good, 2 not finished yet"));
   EXPECT_THAT(some.out,
-              HasSubstr("not started here: friction=0.3: under way: task 0 of Slurm's job 77\n"));
+              HasSubstr("not started here: friction=0.3: under way: task 0 of Slurm job 77\n"));
   EXPECT_FALSE(has("friction=0.1"));
   EXPECT_TRUE(has("friction=0.2"));
   EXPECT_FALSE(has("friction=0.3"));
-  EXPECT_THAT(text_of(results / "summary.json"), HasSubstr("under way: task 0 of Slurm's job 77"));
+  EXPECT_THAT(text_of(results / "summary.json"), HasSubstr("under way: task 0 of Slurm job 77"));
   EXPECT_THAT(submit().out, HasSubstr("there is nothing to submit"));
 
   stand_in("squeue", "echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1");
@@ -177,7 +177,7 @@ TEST_F(SlurmCommand, WhereSlurmCannotBeAskedItsRunsAreLeftAlone) {
   stand_in("squeue", "echo 'squeue: error: Unable to contact slurm controller' >&2; exit 1");
   const Outcome end = study();
   EXPECT_EQ(end.code, 130);
-  EXPECT_THAT(end.err, HasSubstr("Slurm cannot be asked about its job 77 (squeue: error: Unable"));
+  EXPECT_THAT(end.err, HasSubstr("cannot query Slurm about job 77 (squeue: error: Unable"));
   EXPECT_THAT(end.out, HasSubstr("3 runs: 0 to do, 0 finished before"));
   fs::remove(results / "slurm.json");
   EXPECT_EQ(study().code, 0);

@@ -160,7 +160,7 @@ TEST_F(StudyCommand, WhatNoLeverHasIsRefused) {
               HasSubstr("the study does not vary 'tip.hight'"));
   EXPECT_THAT(refused("tip.offset = [\"0 um\", \"2 um\"]",
                       "[[fit]]\nlaw = \"power\"\nseries = \"k_l\"\nkey = \"tip.offset\"\n"),
-              HasSubstr("'tip.offset' is no number above 0"));
+              HasSubstr("'tip.offset' is not a number above 0"));
   EXPECT_THAT(refused(heights,
                       "[[expect]]\nseries = \"k_l\"\nwhen = \"max\"\nof = "
                       "\"height=10um\"\nabove = 1\n"),
@@ -233,7 +233,7 @@ TEST_F(StudyCommand, StrengthsThatAreAlikeAreNotFitted) {
   std::ofstream(place / "study.toml") << "seeds = [1, 2, 3, 4, 5]\n" << text;
   const Outcome end = study();
   EXPECT_EQ(end.code, 0) << end.err;
-  EXPECT_THAT(end.out, HasSubstr("friction=0.1: not fitted: all strengths are alike"));
+  EXPECT_THAT(end.out, HasSubstr("friction=0.1: not fitted: all strengths are equal"));
 }
 
 TEST_F(StudyCommand, RunsOnlyWhatIsMissingOrChanged) {
@@ -347,7 +347,7 @@ TEST_F(StudyCommand, InterruptStopsCleanly) {
   kill(program, SIGINT);
   const Outcome end = end_of(program);
   EXPECT_EQ(end.code, 130);
-  EXPECT_THAT(end.err, HasSubstr("the same command continues"));
+  EXPECT_THAT(end.err, HasSubstr("run the same command again to continue"));
   EXPECT_EQ(summary(results / "friction=0.1")["outcome"], "interrupted");
   EXPECT_FALSE(fs::exists(results / "friction=0.3"));
   EXPECT_FALSE(fs::exists(results / "report.html"));

@@ -94,7 +94,7 @@ TEST_F(Launch, ExitCodesAreThoseOfTheRanks) {
 
 TEST_F(Launch, TheMachinesFailureIsToldWithHowToGoOn) {
   EXPECT_EQ(code_of("exit 4"), 4);
-  EXPECT_THAT(err, HasSubstr("there is no checkpoint yet"));
+  EXPECT_THAT(err, HasSubstr("there is no checkpoint to continue from"));
   fs::create_directories(place / "results");
   std::ofstream(place / "results" / "checkpoint-000000000007.h5") << "some";
   EXPECT_EQ(code_of("exit 4"), 4);

@@ -233,7 +233,7 @@ TEST(InitialState, GoesOnAsTheRunThatKeptIt) {
   std::ofstream(folder / "broken.h5") << "nothing";
   EXPECT_NE(told("initial_state = \"broken.h5\"\n" + before + second).find("keep_state"),
             std::string::npos);
-  EXPECT_NE(told("initial_state = \"none.h5\"\n" + before + second).find("no file"),
+  EXPECT_NE(told("initial_state = \"none.h5\"\n" + before + second).find("not a file"),
             std::string::npos);
   std::filesystem::remove_all(folder);
 }

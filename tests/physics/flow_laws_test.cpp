@@ -131,7 +131,7 @@ TEST(FlowLaws, AReturnThatFindsNoStressStopsTheRun) {
       {0, 0.01, 0.02, 1}, {240e6, 250e6, std::numeric_limits<double>::quiet_NaN(), 400e6});
   EXPECT_THAT(message_of<RunFailure>([&] { e.simulation.run_steps(100000); }),
               testing::ContainsRegex("j2_return_map: particle 4, element [0-9]+: the stress "
-                                     "is beside the flow stress by nan of it at step [0-9]+"));
+                                     "deviates from the flow stress by nan of it at step [0-9]+"));
 }
 
 }  // namespace

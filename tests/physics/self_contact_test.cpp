@@ -171,9 +171,9 @@ TEST(SelfContact, StopsWhereNoClosestPointMayBeMissed) {
 // Nothing touches in the hole: its faces would go through each other.
 TEST(SelfContact, ARingPressedFlatIsStopped) {
   Experiment e = pressed({.particle = ring, .way = 18});
-  EXPECT_THAT(run(e), ContainsRegex("^outline_health: particle 0 has gone through itself: node "
+  EXPECT_THAT(run(e), ContainsRegex("^outline_health: particle 0 has penetrated itself: node "
                                     "[0-9]+, of its hole, is .* at step [0-9]+, t = .* s; allowed "
-                                    "0 m \\(nothing touches in holes"));
+                                    "0 m \\(holes have no contact"));
   EXPECT_LT(e.value("tool/right/position_x"), -1e-3);  // not before its walls meet
 }
 

@@ -140,7 +140,7 @@ TEST(Servo, StopsWithTheForceReachedWhereItCannotReachMore) {
                joined(one_sheared, {"stage.load.servo.top.force=1 MN", "stage.load.duration=0.1 ms",
                                     "stage.load.servo.top.max_speed=0.5 m/s"}));
   EXPECT_THAT(message_of<RunFailure>([&] { e.run(10); }),
-              AllOf(HasSubstr("tool_servo: 'top' bears "), HasSubstr("asked for 1e+06 N")));
+              AllOf(HasSubstr("tool_servo: 'top' carries "), HasSubstr("target 1e+06 N")));
 }
 
 // A body on an incline: (s + mu) / (1 - mu s) up, (mu - s) / (1 + mu s) down. The way of the disc over the

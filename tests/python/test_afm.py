@@ -42,7 +42,7 @@ def test_a_friction_loop_is_that_of_the_program(coarse, scenes, program, read_su
     loop = lever.loops[-1]
     assert loop["half_width"] > 0 and loop["load"] > 0
     assert lever.figures["loop/half_width"] == loop["half_width"]
-    with pytest.raises(pulvis.RunError, match="has run"):
+    with pytest.raises(pulvis.RunError, match="has already run"):
         lever.run()
 
 
@@ -105,7 +105,7 @@ def test_a_programme_in_parts_keeps_its_bits_and_files(coarse, tmp_path):
 def test_steps_beyond_the_end_finish_the_programme(coarse):
     lever = coarse().simulation()
     assert lever.step(10_000).finished
-    with pytest.raises(pulvis.RunError, match="has run"):
+    with pytest.raises(pulvis.RunError, match="has already run"):
         lever.step()
 
 
@@ -127,5 +127,5 @@ def test_a_lever_that_is_closed_is_resumed(coarse, read_summary, tmp_path):
 def test_a_callback_takes_no_increments_of_its_own_lever(coarse):
     lever = coarse().simulation()
     lever.on_sample(lambda actions, row: lever.step())
-    with pytest.raises(pulvis.RunError, match="taking increments"):
+    with pytest.raises(pulvis.RunError, match="the lever is running"):
         lever.run()

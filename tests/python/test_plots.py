@@ -199,15 +199,15 @@ def test_titles_can_be_left_out(compact, tmp_path):
     (("--width", "85"), "--width 85: allowed: a length from 10 mm to 2 m"),
     (("--height", "nan mm"), "--height nan mm: allowed"),
     (("--dpi", "5"), "--dpi 5: allowed: 20 to 2400"),
-    (("--cmap", "virids"), "--cmap virids: no such colour map; allowed: those of matplotlib, as viridis"),
+    (("--cmap", "virids"), "--cmap virids: no such colour map; allowed: those of matplotlib, e.g. viridis"),
     (("--field", "pressure", "--range", "1:0 MPa"), "--range 1:0 MPa: allowed: LOW below HIGH"),
-    (("--field", "pressure", "--range", "0:1 mm"), "mm is no unit of what is drawn; allowed: LOW:HIGH in Pa"),
+    (("--field", "pressure", "--range", "0:1 mm"), "mm is not a unit of the plotted quantity; allowed: LOW:HIGH in Pa"),
     (("--field", "pressure", "--range", "5"), "--range 5: allowed: LOW:HIGH in Pa"),
-    (("--animate", "film.avi"), "--animate film.avi: allowed: a file .mp4 or .gif"),
+    (("--animate", "film.avi"), "--animate film.avi: allowed: a .mp4 or .gif file"),
     (("--field", "presure"), "no field presure of cells or particles; there are: "),
     (("--frame", "7"), "frame 7: there are 0 to 4"),
-    (("--across", "z"), "--across and --at are of sections, which three dimensions have"),
-    (("--at", "1mm"), "--across and --at are of sections"),
+    (("--across", "z"), "--across and --at are for sections, which only 3D runs have"),
+    (("--at", "1mm"), "--across and --at are for sections"),
 ])
 def test_wrong_options_are_refused_by_name_value_and_what_is_allowed(compact, tmp_path, words, says):
     assert says in call("figure", compact, *words, code=2, cwd=tmp_path)

@@ -180,7 +180,7 @@ def test_what_is_no_run_is_refused_by_name(compact, study, tmp_path):
         pulvis.open(tmp_path)
     os.remove(tmp_path / "run.h5")
     os.mkfifo(tmp_path / "run.h5")
-    with pytest.raises(pulvis.RunError, match="no regular file"):
+    with pytest.raises(pulvis.RunError, match="not a regular file"):
         pulvis.open(tmp_path)
     run = pulvis.open(compact)
     for wrong, says in ((lambda: run.frame(5), "there are 0 to 4"), (lambda: run.series("forces"), "tool/top/force_y"),

@@ -140,7 +140,7 @@ def test_the_section_shows_cells_and_tools(blocks):
 
 
 def test_sections_are_of_three_dimensions(compact):
-    with pytest.raises(PulvisError, match="sections, which three dimensions have"):
+    with pytest.raises(PulvisError, match="sections, which only 3D runs have"):
         pulvis.open(compact).plot.section()
 
 

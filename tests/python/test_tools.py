@@ -88,7 +88,7 @@ def test_a_driven_run_is_resumed_by_python_alone(cell, program, tmp_path):
 
 def test_what_cannot_be_driven_is_refused(cell):
     sim = cell.simulation().step(10)
-    with pytest.raises(pulvis.RunError, match="passed unseen"):
+    with pytest.raises(pulvis.RunError, match="could be missed"):
         sim.tools["top"].drive((0, "-1e9 m/s"))
     with pytest.raises(pulvis.SceneError):
         sim.tools["top"].drive((0, "-1 kg"))

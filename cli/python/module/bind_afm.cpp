@@ -67,9 +67,10 @@ class PythonLever {
   }
   // Until its target is reached, it is stopped, or the programme is over.
   void go(const AfmSession::Target& target) {
-    if (is_going_) throw NotNow("the lever is taking increments; allowed: when it has come back");
+    if (is_going_) throw NotNow("the lever is running; allowed: after the call has returned");
     if (is_finished_)
-      throw NotNow("the lever has run; allowed: scene.simulation() makes another one");
+      throw NotNow(
+          "the lever has already run; allowed: create another one with scene.simulation()");
     whole([&] { session_->go(target); });
     if (session_->over()) finish();
   }

@@ -75,7 +75,7 @@ const ColumnBase& readable_column(PythonRun& run, const std::string& name) {
   if (column.has_transient() && !observed)
     throw NotNow(
         fmt::format("column '{}' is not kept from step to step; allowed: in "
-                    "sim.on_sample(f) and sim.on_frame(f), or when the run has ended",
+                    "sim.on_sample(f) and sim.on_frame(f), or after the run has ended",
                     full_name(column)));
   return column;
 }
@@ -86,15 +86,15 @@ void require_writable(PythonRun& run, const ColumnBase& column) {
   if (!allowed.contains(name))
     throw NotNow(
         fmt::format("column '{}' cannot be changed: contacts, energies or the stable time "
-                    "step would no longer belong to it; allowed: {}",
+                    "step would no longer be consistent with it; allowed: {}",
                     name, listed({allowed.begin(), allowed.end()})));
   run.session_between_steps(("column '" + name + "'").c_str());
   if (name == "node.velocity") return;
   for (const MaterialSpec& material : run.session().loaded().scene.materials)
     if (material.flow && name != "particle.mass_damping")
       throw NotNow(
-          fmt::format("column '{}' has no part in the hardening law of material '{}', "
-                      "allowed: with linear hardening",
+          fmt::format("column '{}' does not enter the hardening law of material '{}', allowed: "
+                      "with linear hardening",
                       name, material.name));
 }
 

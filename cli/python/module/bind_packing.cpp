@@ -31,7 +31,7 @@ py::array_t<double> pairs(const std::vector<std::array<double, 2>>& points) {
 void require_particles(const LoadedScene& loaded) {
   if (loaded.scene.afm)
     throw SceneError({{loaded.scene.file.string(), 1, 1, "", "family",
-                       "an AFM scene has no particles, allowed: a scene of particles"}});
+                       "an AFM scene has no particles, allowed: a scene with particles"}});
 }
 
 template <class Number>
@@ -73,7 +73,7 @@ py::dict packing_in_space(const Scene& scene) {
 py::dict mesh_in_space(const Scene& scene, int number) {
   const auto& particles = scene.space->particles;
   if (number < 0 || static_cast<std::size_t>(number) >= particles.size())
-    throw py::index_error("there is no class of particles of this number");
+    throw py::index_error("there is no particle class with this number");
   const auto& particle = particles[static_cast<std::size_t>(number)];
   const space::Shape shape = space::make_shape(particle);
   auto nodes = table_of<double>(shape.nodes.size(), 3);
@@ -138,7 +138,7 @@ py::dict mesh_of_class(const LoadedScene& loaded, int number) {
   if (scene.space) return mesh_in_space(scene, number);
   if (number < 0 ||
       static_cast<std::size_t>(number) >= scene.particles.size() + scene.grains.size())
-    throw py::index_error("there is no class of particles of this number");
+    throw py::index_error("there is no particle class with this number");
   BodySpec body;
   body.particle = number;
   const ParticleSpec& particle = scene.class_of(body);

@@ -93,7 +93,7 @@ void PythonRun::on_frame(const py::function& f) {
 
 void PythonRun::every(std::int64_t steps, const py::function& f) {
   if (steps < 1) throw py::value_error(fmt::format("every: {} steps, allowed: >= 1", steps));
-  if (is_calling_) throw NotNow("every: a callback cannot add another one of this kind");
+  if (is_calling_) throw NotNow("every: a callback cannot register another callback of this kind");
   auto shared = std::shared_ptr<py::function>(new py::function(f), [](py::function* held) {
     py::gil_scoped_acquire gil;
     delete held;
@@ -118,8 +118,8 @@ void PythonRun::on_tick(const py::object& f) {
 Session& PythonRun::session() {
   if (is_going_ && !(is_calling_ && who_ == std::this_thread::get_id()))
     throw NotNow(
-        "the simulation is taking steps in another thread; allowed: in its callbacks, or "
-        "when it has come back");
+        "the simulation is running in another thread; allowed: in its callbacks, or after the call "
+        "has returned");
   return *open_.session;
 }
 

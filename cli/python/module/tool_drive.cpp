@@ -22,8 +22,8 @@ void require_free(const World& world, int tool, const std::string& name) {
   for (const ToolServos::Servo& servo : world.resource<ToolServos>().servos)
     if (servo.tool == tool)
       throw NotNow(fmt::format(
-          "tool {}: a servo or a drive that gives moves it in stage '{}', allowed: tools that the "
-          "scene moves by set displacements, or not at all; the force of a servo: "
+          "tool {}: a servo or a compliant drive moves it in stage '{}', allowed: tools that the "
+          "scene moves by prescribed displacements, or not at all; for the force of a servo: "
           "sim.servos[name].drive(force)",
           name,
           world.resource<ToolProgram>().stages.at(static_cast<std::size_t>(servo.stage)).name));
@@ -39,8 +39,8 @@ void require_seen(const World& world, const std::string& name, const Point3& vel
       seen_in_a_step * world.resource<ContactRules>().thinnest / world.resource<Clock>().dt;
   if (speed > fastest)
     throw NotNow(
-        fmt::format("tool {}: {:.6g} m/s, allowed: <= {:.6g} m/s, or contacts would be "
-                    "passed unseen within a step",
+        fmt::format("tool {}: {:.6g} m/s, allowed: <= {:.6g} m/s, otherwise contacts could be "
+                    "missed within a step",
                     name, speed, fastest));
 }
 

@@ -98,7 +98,7 @@ class Plot:
         if across not in ("x", "y", "z"):
             raise RunError(f"across {across}: allowed: x, y, z", self._run.folder, key="across")
         draw = space.section_picture if self._run.in_space else lambda *_: None
-        return self._drawn(draw, "sections, which three dimensions have", options_of(look, field=name, frame=frame, across=across, at=at), ax)
+        return self._drawn(draw, "sections, which only 3D runs have", options_of(look, field=name, frame=frame, across=across, at=at), ax)
 
     def network(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Normal forces of the contacts, and force chains."""

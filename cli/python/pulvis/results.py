@@ -186,7 +186,7 @@ class Run:
             if is_settled and self._last_change() == before:
                 break
             if time.monotonic() > deadline:
-                error = error or RunError(f"{self.folder}: is written faster than it can be read", self.folder)
+                error = error or RunError(f"{self.folder}: it is being written faster than it can be read", self.folder)
                 break
             time.sleep(_TICK / 5)
         if error:
@@ -230,10 +230,10 @@ class Run:
             raise RunError(f"{self.folder}: no such folder", self.folder)
         if not path.exists():
             study = (self.folder / "study.csv").exists()
-            raise RunError(f"{self.folder}: no run: there is no run.h5 in it"
+            raise RunError(f"{self.folder}: not a run: there is no run.h5 in it"
                            + (" (it is a study: pulvis.open_study)" if study else ""), self.folder)
         if not path.is_file():
-            raise RunError(f"{path}: no regular file", path)  # a named pipe would wait for a writer
+            raise RunError(f"{path}: not a regular file", path)  # a named pipe would wait for a writer
         try:
             if self.summary.get("outcome") != "done":
                 # HDF5 shares what it remembers of a file among all in a process who have it open by its name: of a run

@@ -70,10 +70,10 @@ class Study:
         if not self.folder.is_dir():
             raise RunError(f"{self.folder}: no such folder", self.folder)
         if (self.folder / "run.h5").exists():
-            raise RunError(f"{self.folder}: a run, no study: pulvis.open", self.folder)
+            raise RunError(f"{self.folder}: a run, not a study: use pulvis.open", self.folder)
         self.summary = self._read("summary.json")
         if "runs" not in self.summary or "effects" not in self.summary:
-            raise RunError(f"{self.folder}: no study: its summary.json has no runs", self.folder)
+            raise RunError(f"{self.folder}: not a study: its summary.json has no runs", self.folder)
         self.title = self.summary["title"]
         self.names = [run["name"] for run in self.summary["runs"]]
 
@@ -83,8 +83,8 @@ class Study:
     def _read(self, name):
         path = self.folder / name
         if not path.is_file():
-            there = "" if not (self.folder / "study.toml").exists() else " yet: pulvis study writes it when its runs are done"
-            raise RunError(f"{self.folder}: no study: there is no {name}{there}", self.folder)
+            there = "" if not (self.folder / "study.toml").exists() else " yet: pulvis study writes it when its runs are finished"
+            raise RunError(f"{self.folder}: not a study: there is no {name}{there}", self.folder)
         try:
             return json.loads(path.read_text(encoding="utf-8"))
         except ValueError as error:
@@ -163,5 +163,5 @@ class Study:
         with plt.rc_context(options.context(ax)):
             figure = draw(curves[number], self.title, options, ax)
         if figure is None:
-            raise RunError(f"{self.folder}: no run has what chart {number} shows", self.folder)
+            raise RunError(f"{self.folder}: no run has the data of chart {number} shows", self.folder)
         return figure, ax if ax is not None else figure.axes[0]

@@ -239,7 +239,7 @@ class Chart {
       const key = element("i", {}), tiny = negligible.has(i);
       key.innerHTML = keySvg(line, line.colour || colours[i % colours.length]);
       const button = element("button", {type: "button", "aria-pressed": String(!this.hidden.has(i)),
-        title: tiny ? "Below 1 % of the largest. Show or hide" : "Show or hide"}, key, line.label);
+        title: tiny ? "Below 1 % of the largest value. Show or hide" : "Show or hide"}, key, line.label);
       button.onclick = () => {
         this.hidden.delete(i) || this.hidden.add(i);
         if (this.hidden.size === this.spec.lines.length) this.hidden.clear();

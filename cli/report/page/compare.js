@@ -155,7 +155,7 @@ async function main() {
   placeSettings(document.getElementById("settings"), new Set(runs.flatMap(run => run.head.series).map(series => series.unit)));
   const views = await placeViews(runs, names), pace = views.map(view => view.run).sort((a, b) => b.frames.length - a.frames.length)[0];
   const timeline = new Timeline(document.getElementById("timeline"), pace ? pace.frames.map(frame => frame.time / (pace.frames.at(-1).time || 1)) : [],
-                                share => `share of the run ${digits(share, 3)}`);
+                                share => `fraction of the run ${digits(share, 3)}`);
   document.getElementById("timeline").hidden = !pace || pace.frames.length < 2;
   placeCurves(runs, names);
   placePanels(runs, names, timeline);

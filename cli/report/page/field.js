@@ -60,7 +60,7 @@ class FieldView {
     const fields = this.run.head.fields.map(field => [field.name, titled(nameOf(field.name).words)]);
     if (this.run.densities.length) fields.push(["density", "Local density"]);
     this.run.tags.forEach(({name}) => fields.push([name, titled(name)]));
-    return [...fields, ["number", "Particle number"], ["", "Outlines alone"]];
+    return [...fields, ["number", "Particle number"], ["", "Outlines only"]];
   }
 
   // Of all frames: the shape of the picture, which keeps its place on the page.

@@ -10,7 +10,7 @@ addFigures(({summary: {calibration, loops, force_curves: curves}}) => [
     loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null]),
   ...(curves || []).slice(0, 1).flatMap(curve => [["pull-off force", withUnit(curve.pull_off, "N"), "of the force curve"],
     ["pull-off work", withUnit(curve.work, "J"), "over the travel of the scanner"],
-    curve.work_of_adhesion ? ["work of adhesion", `${digits(1e3 * curve.work_of_adhesion)} mJ/m²`, "of pull-off and radius"] : null])]);
+    curve.work_of_adhesion ? ["work of adhesion", `${digits(1e3 * curve.work_of_adhesion)} mJ/m²`, "from pull-off and radius"] : null])]);
 
 // A series where `kept(sample)` holds, with the samples beside those: a line of its own over the axis of all.
 function partOf(series, label, kept, more = {}) {
@@ -127,10 +127,10 @@ addPanel({
       {title: "sensitivity", unit: "N/V", cells: of(loop => loop.sensitivity)}]);
     for (const loop of run.summary.loops.filter(loop => loop.settled === false)) {
       const why = loop.slides < 1 - 1e-3 ? "the probe still sticks" :
-        loop.turned < 1 - 1e-3 ? "friction has not turned along the scan" : "the force still drifts";
-      const scan = loop.needed_distance ? `a scan of ${withUnit(loop.needed_distance, "m")}` : "a longer scan, or one at a kept force,";
+        loop.turned < 1 - 1e-3 ? "friction is not yet aligned with the scan" : "the force still drifts";
+      const scan = loop.needed_distance ? `a scan of ${withUnit(loop.needed_distance, "m")}` : "a longer scan, or a scan at constant force,";
       host.append(element("p", {className: "note", textContent:
-        `In action ${loop.action} ${why} where W is taken from: ${scan} is needed.`}));
+        `In action ${loop.action} ${why} where W is evaluated: ${scan} is needed.`}));
     }
   },
 });
@@ -147,6 +147,6 @@ addPanel({
       {title: "pull-off work", unit: "J", cells: of("work")},
       {title: "work of adhesion", unit: "J/m^2", cells: of("work_of_adhesion")}]);
     host.append(element("p", {className: "note", textContent:
-      "Work: area under the line of no force while the probe is drawn off, over the travel of the scanner."}));
+      "Work: area below the zero-force line while the probe is retracted, over the travel of the scanner."}));
   },
 });

@@ -50,7 +50,7 @@ function bondPanel(title, order, y, names) {
 bondPanel('Bonds: crack length', 20, 'crack length', {'bonds/crack_length': 'broken so far'});
 bondPanel(
     'Bonds: energy', 21, 'energy',
-    {'energy/fracture': 'spent in breaking', 'energy/bonds': 'stored in bonds'});
+    {'energy/fracture': 'dissipated in breaking', 'energy/bonds': 'stored in bonds'});
 bondPanel('Bonds: fragments', 22, 'fragments', {'bonds/fragments': 'fragments'});
 bondPanel('Bonds: damage and largest fragment', 23, 'share', {
   'bonds/damage': 'broken share of the bonds',
@@ -112,7 +112,7 @@ addPanel({
       shape: 0.75,
       draw: (ctx, width, height, {fragments}) =>
           drawSizes(ctx, width, height, fragments, most(report.beside.flatMap(run => run.frames))),
-      note: frame => `Share of the fragments up to a diameter (of the circle of the same area): ` +
+      note: frame => `Share of the fragments up to a given diameter (of the circle of equal area): ` +
           `${
                          frame.fragments.count === 1 ?
                              'one fragment' :

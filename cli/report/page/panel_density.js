@@ -142,7 +142,7 @@ addPanel({
     report.figure(host, {
       title: "Relative density along the height", shape: 0.75,
       draw: (ctx, width, height, {density}, frames) => drawProfile(ctx, width, height, density, rangeOf(frames, "profile")),
-      note: frame => `Of every row of cells, ${atTime(frame)}.`,
+      note: frame => `For every row of cells, ${atTime(frame)}.`,
       columns: ({density: {profile, y}}) => [
         {label: "y", unit: "m", values: profile.map((_, j) => (y[j] + y[j + 1]) / 2)},
         {label: "relative density", unit: "-", values: profile}]});
@@ -156,7 +156,7 @@ addPanel({
     report.figure(host, {
       title: "Directions of the contact normals", shape: 0.8,
       draw: (ctx, width, height, {network}, frames) => drawRose(ctx, width, height, network, largestShare(frames)),
-      note: frame => `Between particles, ${atTime(frame)}: filled, shares of the normal force; outlined, of the number.`,
+      note: frame => `Between particles, ${atTime(frame)}. Filled: share of the normal force; outlined: share of the number.`,
       columns: ({network: {number, force}}) => [
         {label: "direction", unit: "degree", values: number.map((_, k) => 180 * k / number.length)},
         {label: "share of the number", unit: "-", values: number}, {label: "share of the force", unit: "-", values: force}]});

@@ -20,11 +20,11 @@ function faceNormal(tool) {
   return Math.abs(dx) >= Math.abs(dy) ? [0, Math.sign(dx)] : [-Math.sign(dy), 0];
 }
 
-const SIGNS = "Forces of the powder on the tools. Normal: out of the powder into the tool, compression > 0, tension < 0. " +
-  "Tangential: along the face, > 0 towards +x, or +y on an upright face. Fx, Fy: along the axes.";
+const SIGNS = "Forces of the powder on the tools. Normal: from the powder into the tool, compression > 0, tension < 0. " +
+  "Tangential: along the face, > 0 towards +x, or +y on a vertical face. Fx, Fy: along the axes.";
 
-const SPACE_SIGNS = "Forces of the powder on the tools. Normal: out of the powder into the tool, compression > 0, tension < 0. " +
-  "Tangential: along the face. Of a die: along its axis, which its normal gives, and across it. Fx, Fy, Fz: along the axes.";
+const SPACE_SIGNS = "Forces of the powder on the tools. Normal: from the powder into the tool, compression > 0, tension < 0. " +
+  "Tangential: along the face. For a die: along its axis, given by its normal, and across it. Fx, Fy, Fz: along the axes.";
 
 // In three dimensions a tangential force has no sign.
 function spaceForces({normal, shape}, axes, line) {

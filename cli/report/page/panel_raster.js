@@ -1,7 +1,7 @@
 // Images of a raster: trace and retrace side by side, levelled as microscopists do, over the sample in micrometres.
 "use strict";
 
-// Least-squares plane taken off: values line by line.
+// Least-squares plane subtracted: values line by line.
 function levelledPlane(values, pixels, lines) {
   const n = pixels * lines, mx = (pixels - 1) / 2, my = (lines - 1) / 2;
   let mean = 0, bx = 0, by = 0;
@@ -26,8 +26,8 @@ function levelledLines(values, pixels) {
   return levelled;
 }
 
-const LEVELS = {none: ["as measured", values => values], plane: ["plane taken off", levelledPlane],
-                lines: ["median of each line taken off", levelledLines]};
+const LEVELS = {none: ["as measured", values => values], plane: ["plane subtracted", levelledPlane],
+                lines: ["median of each line subtracted", levelledLines]};
 
 // The rasters of a run: {action, channels: {topography: {trace, retrace}, ...}}.
 function rastersOf(run) {

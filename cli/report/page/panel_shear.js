@@ -5,16 +5,16 @@ addFigures(({summary: {shear}}) => shear ? [
   ["static friction", digits(shear.static_friction, 3), "largest in the first quarter of the travel"],
   ["dynamic friction", digits(shear.dynamic_friction, 3), `± ${digits(shear.dynamic_deviation, 2)} over the second half`],
   ["normal stress", withUnit(shear.normal_stress, "Pa", 3), "on the target"],
-  ["dilation", withUnit(shear.dilation, "m", 3), "travel of the punch off the target"]] : []);
+  ["dilation", withUnit(shear.dilation, "m", 3), "travel of the punch away from the target"]] : []);
 
 // [title, what stands at the axis, [[series, label], ...]]
 const OF_SHEAR = [
   ["Friction of the target", "coefficient", [["friction", "lateral / normal force"]]],
   ["Stresses in shear", "stress", [["normal_stress", "normal, on the target"], ["lateral_stress", "lateral, on the target"],
                                    ["punch_lateral_stress", "lateral, on the punch"]]],
-  ["Dilation", "travel off the target", [["dilation", "travel of the punch outwards"]]],
-  ["Share of the lateral force that the wall bears", "share", [["wall_share", "wall / target"]]],
-  ["Particles that go along with the target", "particles", [["locked", "within 10 % of its speed"]]],
+  ["Dilation", "travel away from the target", [["dilation", "travel of the punch outwards"]]],
+  ["Share of the lateral force carried by the wall", "share", [["wall_share", "wall / target"]]],
+  ["Particles moving with the target", "particles", [["locked", "within 10 % of its speed"]]],
   ["Work of the target", "work", [["work", "lateral force times travel"]]]];
 
 // Static and dynamic coefficients as lines across, where the summary has them.

@@ -73,7 +73,7 @@ function placeRecords(records, runs) {
   label.append("run ", select);
   controls.append(label);
   const forces = card("Forces against time", controls);
-  const clocks = card("One clock: both instruments see the plate start and stop");
+  const clocks = card("On one clock: both instruments record the plate's start and stop");
   select.onchange = () => {
     const [time, distance, punch, normal, shear] = records[select.value];
     const from = time.values.findIndex(t => t >= -5), seen = one =>

@@ -49,7 +49,7 @@ async function placePicture(report, host) {
     box.onchange = () => view.show({[name]: box.checked});
     controls.append(element("label", {}, box, " " + label));
   };
-  if (!solid) tick("same-range", "same colours in all frames", true, "sameRange");
+  if (!solid) tick("same-range", "same colour scale in all frames", true, "sameRange");
   if (run.frames.some(frame => frame.network && frame.network.lines)) tick("contacts", "contact forces", false, "contacts");
   const hasBonds = run.frames.some(frame => frame.fragments);
   if (hasBonds) tick('bonds', 'bonds and cracks', true, 'bonds');
@@ -62,12 +62,12 @@ async function placePicture(report, host) {
 }
 
 function noteOfFrames({frames, head}) {
-  if (!frames.length) return "The scene wrote no frames, so there is no picture of its particles: output.frames asks for them.";
+  if (!frames.length) return "The scene wrote no frames, so there is no picture of its particles: set output.frames to get them.";
   const parts = [];
   if (head.all_frames > frames.length) parts.push(`${frames.length} of the ${head.all_frames} frames are in this page`);
   if (head.mesh && head.mesh.fans) {
     parts.push(`to keep it small, every particle is drawn as ${head.mesh.fans} triangles with the mean values of its ` +
-               `elements there; holes are drawn over`);
+               `elements there; holes are not shown`);
   }
   if (head.mesh && head.mesh.pyramids) {
     parts.push("to keep it small, every particle is drawn as pyramids from its centre to the faces of its surface with the mean " +

@@ -51,7 +51,7 @@ class Run {
   // The programme of a lever is quasi-static: what goes on is the number of its actions that are done. A
   // calibration has none: it pulls at the tip along one axis after the other.
   get isCalibration() { return this.family === "afm" && !this.has("scanner/z"); }
-  get timeName() { return this.isCalibration ? "load case" : this.family === "afm" ? "actions done" : "time"; }
+  get timeName() { return this.isCalibration ? "load case" : this.family === "afm" ? "actions completed" : "time"; }
   // A time in words.
   timeText(time) {
     return this.isCalibration ? titled(loadCase(time)) : (this.timeUnit === "s" ? "" : this.timeName + " ") + withUnit(time, this.timeUnit, 3);

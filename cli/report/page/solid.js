@@ -109,8 +109,8 @@ class SolidView {
     ctx.restore();
     this.drawAxes(ctx);
     drawScale(ctx, room + 14, 26, height - 60, {low: range[0], high: range[1], unit: "m"});
-    const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `drawn ${digits(this.larger)} times larger`;
-    this.note.textContent = `Lever, ${this.run.isCalibration ? loadCase(time) : digits(time, 3) + " actions done"}, ${drawn}; largest displacement ${withUnit(this.most, "m")}. Drag to turn.`;
+    const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `displacements × ${digits(this.larger)}`;
+    this.note.textContent = `Lever, ${this.run.isCalibration ? loadCase(time) : digits(time, 3) + " actions completed"}, ${drawn}; largest displacement ${withUnit(this.most, "m")}. Drag to turn.`;
     canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent}`);
     canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }

@@ -5,7 +5,7 @@
 
 const QUANTITIES = [
   ["friction", "friction coefficient", "-"], ["friction_of_loops", "mean of the loops, with adhesion", "-"],
-  ["adhesion", "adhesion, pull-off", "N"], ["adhesion_of_line", "adhesion, friction without load", "N"],
+  ["adhesion", "adhesion, pull-off", "N"], ["adhesion_of_line", "adhesion, friction at zero load", "N"],
   ["normal_sensitivity", "normal sensitivity", "N/V"], ["lateral_sensitivity", "lateral sensitivity", "N/V"]];
 
 let charts = 0;
@@ -90,7 +90,7 @@ function drawHistogram({from, until, counts}, {friction, confidence}, draws) {
   });
   const top = Math.max(...values);
   const upright = (label, at, dash) => ({label, unit: "-", x: [at, at], values: [0, top], dash});
-  draw("Friction coefficient: what the draws gave",
+  draw("Friction coefficient: distribution of the draws",
        {x: {label: "friction coefficient", unit: "-", values: []}, y: "probability density",
         lines: [{label: counted(draws, "draw"), unit: "-", x, values}, upright("value", friction.value),
                 upright(`${percent(confidence)} from`, friction.low, [5, 4]),
@@ -120,11 +120,11 @@ function barsSvg(groups, contributions, colours, width) {
 }
 
 function drawBars(groups, {friction}) {
-  const title = "What the uncertainty of the friction coefficient comes from", host = card(title);
+  const title = "Contributions to the uncertainty of the friction coefficient", host = card(title);
   const shown = groups.filter(group => friction.contributions[group].share > 0 || friction.contributions[group].linear > 0);
   const plot = element("div", {className: "bars", role: "img", "aria-label": title});
   host.append(plot, element("p", {className: "note", textContent:
-    "Bar: variance with that input alone drawn, over that of all. Tick: the same by the law of propagation."}));
+    "Bar: variance with only that input drawn, relative to that with all inputs drawn. Tick: the same by the law of propagation of uncertainty."}));
   const svg = (colours, width) => barsSvg(shown, friction.contributions, colours, width);
   const redraw = () => { plot.innerHTML = svg(theme(), Math.max(380, host.clientWidth)); };
   redraw();
@@ -146,8 +146,8 @@ function fillResults(summary) {
     addRow(table, [labelled(name, label), of(known.value), of(known.error, 2), of(known.low), of(known.high), of(known.linear_error, 2)]);
   }
   document.getElementById("results-note").textContent =
-    `${counted(summary.draws, "draw")} of all inputs with normal laws (seed ${summary.seed})` +
-    (summary.failed_draws ? `; ${summary.failed_draws} fit no friction and were left out.` : ".");
+    `${counted(summary.draws, "draw")} of all inputs from normal distributions (seed ${summary.seed})` +
+    (summary.failed_draws ? `; ${summary.failed_draws} gave no valid friction and were left out.` : ".");
 }
 
 function fillContributions(groups, summary) {

@@ -53,9 +53,9 @@ function fillTiles(summary) {
     element("dt", {textContent: name}), element("dd", {textContent: value}), element("small", {textContent: note})));
   const inclined = summary.facets.filter(facet => facet.friction).length;
   tile("friction coefficient", measured(summary.friction), `of ${inclined} inclined facet${inclined > 1 ? "s" : ""}`);
-  tile("lateral sensitivity", measured(summary.sensitivity, "N/V"), "force by detector signal");
-  if (summary.crosstalk) tile("signal of the load itself", measured(summary.crosstalk, "V/N"), "of the flat facet, taken off");
-  if (summary.flat_friction !== undefined) tile("friction on the flat", digits(summary.flat_friction), "with that sensitivity: a check");
+  tile("lateral sensitivity", measured(summary.sensitivity, "N/V"), "force per detector signal");
+  if (summary.crosstalk) tile("signal of the load itself", measured(summary.crosstalk, "V/N"), "of the flat facet, subtracted");
+  if (summary.flat_friction !== undefined) tile("friction on the flat facet", digits(summary.flat_friction), "with that sensitivity, as a check");
 }
 
 function main() {

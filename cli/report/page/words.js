@@ -7,7 +7,7 @@ function did({family, head, summary}) {
   if (family === "afm") return "A lever was calibrated" + (summary.loops ? " and scanned over a surface" :
                                (head.frames || []).length && summary.increments ? " and moved against a surface" : "");
   const particles = counted(head.mesh.particles, "particle");
-  if (family === "shear") return `A target was drawn under a compact of ${particles}`;
+  if (family === "shear") return `A target was slid under a compact of ${particles}`;
   const were = head.mesh.particles === 1 ? "was" : "were";
   return summary.relative_density === undefined ? `${titled(particles)} ${were} moved and deformed`
     : `${titled(particles)} ${were} pressed to a relative density of ` +
@@ -25,7 +25,7 @@ function leadOf(run) {
   const limited = figures.filter(figure => typeof figure.limit === "number");
   if (beyond.length) {
     parts.push(`Beyond ${beyond.length > 1 ? "their limits" : "its limit"}: ` +
-               `${beyond.map(figure => figure.name.toLowerCase()).join(", ")}; see the card on quality for what to do.`);
+               `${beyond.map(figure => figure.name.toLowerCase()).join(", ")}; see the card on quality for remedies.`);
   }
   if (!beyond.length && limited.length) parts.push("Every quality value is within its limit.");
   const missed = (summary.expectations || []).filter(one => !one.met).length;
@@ -90,7 +90,7 @@ function knownRows(run) {
       (has("threads") ? ` on ${counted(s.threads, "thread")}` : "") : null,
      ["wall_seconds", "threads"]],
     ["Speed", has("element_updates_per_second") ?
-      `${digits(s.element_updates_per_second / 1e6, 3)} million element updates a second` : null,
+      `${digits(s.element_updates_per_second / 1e6, 3)} million element updates per second` : null,
      ["element_updates_per_second"]],
     ["Peak memory", has("peak_memory_bytes") ? bytesInWords(s.peak_memory_bytes) : null,
      ["peak_memory_bytes"]],

@@ -34,7 +34,7 @@ const char* name_of(int type) {
     case 17:
     case 18:
     case 19:
-      return "another one of second order";
+      return "another second-order element";
     default:
       return "of an unknown kind";
   }
@@ -56,7 +56,7 @@ class Reader {
       if (section == "$MeshFormat")
         format();
       else if (version_ == 0)
-        refuse("gmsh", "does not begin with $MeshFormat, allowed: an MSH file of Gmsh (ASCII)");
+        refuse("gmsh", "does not start with $MeshFormat, allowed: an MSH file of Gmsh (ASCII)");
       else if (section == "$PhysicalNames")
         names();
       else if (section == "$Entities")
@@ -87,7 +87,7 @@ class Reader {
   std::istringstream line(const char* key) {
     std::string text;
     if (!next_line(text) || text.starts_with("$"))
-      refuse(key, "the section ends too early, allowed: as many lines as its head says");
+      refuse(key, "the section ends too early, allowed: as many lines as its header gives");
     return std::istringstream(text);
   }
 
@@ -99,7 +99,7 @@ class Reader {
   void end(const std::string& word) {
     std::string text;
     if (!next_line(text) || text != word)
-      refuse("gmsh", fmt::format("'{}' does not stand here, allowed: {}", text, word));
+      refuse("gmsh", fmt::format("'{}' is not expected here, allowed: {}", text, word));
   }
 
   void skip(const std::string& word) {
@@ -161,9 +161,9 @@ class Reader {
   void add_node(std::istringstream& from, std::size_t tag) {
     Eigen::Vector3d x;
     take(from, "Nodes", x[0], x[1], x[2]);
-    if (!x.allFinite()) refuse("Nodes", "is no finite place, allowed: numbers");
+    if (!x.allFinite()) refuse("Nodes", "has a coordinate that is not finite, allowed: numbers");
     if (!places_.try_emplace(tag, static_cast<int>(mesh_.nodes.size())).second)
-      refuse("Nodes", fmt::format("node {} is there twice, allowed: each once", tag));
+      refuse("Nodes", fmt::format("node {} occurs twice, allowed: each once", tag));
     mesh_.nodes.push_back(x);
   }
 
@@ -209,7 +209,7 @@ class Reader {
       take(from, "Elements", tag);
       const auto found = places_.find(tag);
       if (found == places_.end())
-        refuse("Elements", fmt::format("node {} is not there, allowed: nodes of $Nodes", tag));
+        refuse("Elements", fmt::format("node {} does not exist, allowed: nodes of $Nodes", tag));
       node = found->second;
     }
     return at;
@@ -223,13 +223,12 @@ class Reader {
     else if (type == quad4 || type == triangle6)
       mesh_.facets.push_back({nodes_of(from, type == quad4 ? 4 : 6), name->second, line_});
     else
-      refuse(
-          "Elements",
-          fmt::format("an element of group '{}' is {} (type {}), allowed: hexahedra of eight "
-                      "nodes (type 5) with quads of four (type 3), as transfinite, recombined or "
-                      "subdivided meshes have them, tetrahedra of ten (type 11) with triangles "
-                      "of six (type 9), as Mesh.ElementOrder = 2 makes them",
-                      name->second, name_of(type), type));
+      refuse("Elements",
+             fmt::format("an element of group '{}' is {} (type {}), allowed: hexahedra of eight "
+                         "nodes (type 5) with quads of four (type 3), as in transfinite, "
+                         "recombined or subdivided meshes, tetrahedra of ten (type 11) with "
+                         "triangles of six (type 9), as generated with Mesh.ElementOrder = 2",
+                         name->second, name_of(type), type));
   }
 
   void elements_2() {

@@ -54,9 +54,9 @@ class SolidReader {
   GmshSolid read() {
     for (const auto& element : mesh_.volumes) take_volume(element);
     if (!solid_.hexahedra.empty() && !solid_.tetrahedra.empty())
-      refuse(1,
-             "has hexahedra and tetrahedra, whose faces do not fit each other, allowed: one "
-             "kind of them");
+      refuse(
+          1,
+          "has both hexahedra and tetrahedra, whose faces do not match, allowed: one of the two");
     take_surfaces();
     drop_unused();
     return std::move(solid_);
@@ -88,9 +88,10 @@ class SolidReader {
     SolidMesh::Hexahedron corners;
     std::ranges::copy(element.nodes, corners.begin());
     if (!turn_outside_out(solid_.nodes, corners))
-      refuse(element.line,
-             fmt::format("a hexahedron of '{}' is folded, allowed: positive volume at every corner",
-                         element.group));
+      refuse(
+          element.line,
+          fmt::format("a hexahedron of '{}' is inverted, allowed: positive volume at every corner",
+                      element.group));
     solid_.hexahedra.push_back(corners);
     solid_.hexahedron_part.push_back(part);
   }
@@ -114,8 +115,8 @@ class SolidReader {
       const Vec3 middle = 0.5 * (corner(from) + corner(to));
       if (!((corner(between++) - middle).norm() <= bent * longest))
         refuse(element.line,
-               fmt::format("a tetrahedron of '{}' has a curved edge, or one whose node is not in "
-                           "its middle, allowed: straight edges (Mesh.SecondOrderLinear = 1)",
+               fmt::format("a tetrahedron of '{}' has a curved edge or a mid-side node that is not "
+                           "at mid-side, allowed: straight edges (Mesh.SecondOrderLinear = 1)",
                            element.group));
     }
     if (volume < 0) {  // its mirror image: corners 0 and 1 change places, and their edges with them
@@ -137,8 +138,8 @@ class SolidReader {
       const auto found = count.find(sorted(facet.nodes));
       if (found == count.end() || (!group->second && found->second > 1))
         refuse(facet.line,
-               fmt::format("an element of '{}' is no face of a volume's element{}, allowed: {}",
-                           facet.group, group->second ? "" : ", or lies between two",
+               fmt::format("an element of '{}' is not a face of a volume element{}, allowed: {}",
+                           facet.group, group->second ? "" : ", or lies between two of them",
                            "surfaces of the volumes"));
       solid_.surfaces[facet.group].push_back(facet.nodes);
     }

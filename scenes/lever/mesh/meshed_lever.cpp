@@ -98,8 +98,8 @@ class LeverReader {
     for (std::size_t n = 0; n < root.size(); ++n)
       if (find(static_cast<int>(n)) != held)
         refuse(fmt::format(
-            "the elements at x = {:g}, y = {:g}, z = {:g} m share no nodes with the clamped ones, "
-            "allowed: volumes whose meshes fit (BooleanFragments, Coherence)",
+            "the elements at x = {:g}, y = {:g}, z = {:g} m are not connected to the clamped ones, "
+            "allowed: volumes with conforming meshes (BooleanFragments, Coherence)",
             solid().nodes[n].x(), solid().nodes[n].y(), solid().nodes[n].z()));
   }
 
@@ -141,8 +141,8 @@ class LeverReader {
                  : Vec3((at(facet[2]) - at(facet[0])).cross(at(facet[3]) - at(facet[1])));
     if (std::abs(across.z()) < 0.1 * across.norm())
       refuse(
-          fmt::format("the surface '{}' stands upright at x = {:g}, y = {:g} m, allowed: it is "
-                      "seen along z",
+          fmt::format("the surface '{}' is vertical at x = {:g}, y = {:g} m, allowed: a surface "
+                      "visible along z",
                       name, at(facet[0]).x(), at(facet[0]).y()));
     std::vector<int> p;
     for (const int n : facet) p.push_back(point.at(n));
@@ -174,8 +174,8 @@ class LeverReader {
       refuse("the tip's end does not lie below the lever, allowed: z towards the sample is < 0");
     if (!locate(lever_.face.plan, lever_.tip_axis))
       refuse(
-          fmt::format("no element of 'face' lies over the tip's end (x = {:g}, y = {:g} m), "
-                      "allowed: what is under the tip belongs to it",
+          fmt::format("no element of 'face' lies above the tip's end (x = {:g}, y = {:g} m), "
+                      "allowed: a 'face' that includes the area under the tip",
                       lever_.tip_axis.x(), lever_.tip_axis.y()));
   }
 
@@ -206,14 +206,14 @@ void load_meshed_lever(Scene& scene, const schema::Origins& origins, Problems& p
     for (const auto& [path, given] :
          {std::pair{"tip.set_back", tip.set_back}, {"tip.offset", tip.offset}})
       if (!solid.end.empty() && given != 0)
-        refuse(path, "the lever's file says where its tip stands, allowed: not given");
+        refuse(path, "the lever's file defines the position of its tip, allowed: not given");
     const bool own_tip = tip.shape == TipSpec::Shape::mesh && tip.file.empty();
     if (own_tip && !solid.end.empty()) {
       tip.height = solid.tip_height;
       tip.set_back = solid.length - solid.tip_axis.x();
       tip.offset = solid.tip_axis.y();
     } else if (!own_tip && !solid.end.empty()) {
-      refuse("tip.shape", "the lever's file has a tip, allowed: \"mesh\" without a file");
+      refuse("tip.shape", "the lever's file contains a tip, allowed: \"mesh\" without a file");
     }
     lever.solid = std::make_shared<const LeverSolid>(std::move(solid));
   } catch (const SceneError& error) {

@@ -19,7 +19,7 @@ using TipShape = TipSpec::Shape;
 
 LeverMesh::Point on_lower_face(const LeverMesh& lever, const Vec2& point) {
   auto place = lever.on_lower_face(point);
-  if (!place) throw std::logic_error("tip_mesh: the tip stands beside the lever");
+  if (!place) throw std::logic_error("tip_mesh: the tip is not on the lever");
   return *std::move(place);
 }
 

@@ -8,51 +8,49 @@ namespace {
 const Words space_lattices{"cubic", "body-centred", "face-centred", "hexagonal"};
 
 Key<PackingSpec> kind_of_packing() {
-  return {{.name = "kind",
-           .kind = Kind::choice,
-           .choices = {{"cubic", "a particle in the middle of every cell"},
-                       {"body-centred",
-                        "particles at the corners and in the middle of cells; "
-                        "between flat walls whole particles alone: half a cell off "
-                        "the walls"},
-                       {"face-centred",
-                        "particles at the corners and on the faces of cells, whole "
-                        "ones alone"},
-                       {"hexagonal", "closely packed layers, ABAB"},
-                       {"random",
-                        "a mixture, [[packing.class]], thrown into a box or cylinder and "
-                        "pressed together without friction under shaking, as rigid "
-                        "particles, until it is as dense as wanted; the same `seed` gives "
-                        "the same packing on every machine"},
-                       {"csv", "where a file says, as `pulvis pack` writes it"}},
-           .required = true,
-           .doc = "How the particles are arranged."},
-          [](PackingSpec& packing, const Decoded& value) {
-            packing.kind = static_cast<PackingSpec::Kind>(value.index);
-          }};
+  return {
+      {.name = "kind",
+       .kind = Kind::choice,
+       .choices = {{"cubic", "simple cubic: one particle at the centre of each cell"},
+                   {"body-centred",
+                    "body-centred cubic: particles at the corners and centres of cells; between "
+                    "flat walls only whole particles: half a cell off the walls"},
+                   {"face-centred",
+                    "face-centred cubic: particles at the corners and face centres of cells; only "
+                    "whole particles"},
+                   {"hexagonal", "hexagonal close-packed layers, ABAB"},
+                   {"random",
+                    "a mixture, [[packing.class]], poured into a box or cylinder as rigid "
+                    "particles and compressed without friction while shaken until it reaches the "
+                    "required density; the same `seed` gives the same packing on every machine"},
+                   {"csv", "from a file as written by `pulvis pack`"}},
+       .required = true,
+       .doc = "Arrangement of the particles."},
+      [](PackingSpec& packing, const Decoded& value) {
+        packing.kind = static_cast<PackingSpec::Kind>(value.index);
+      }};
 }
 
 std::vector<Key<PackingSpec>> keys_of_lattices() {
-  return {
-      schema::class_of_lattice_key<PackingSpec>(space_lattices),
-      {{.name = "cells",
-        .kind = Kind::counts,
-        .range = within(1, 1000),
-        .dimensions = 3,
-        .required = true,
-        .only_for = space_lattices,
-        .doc = "Cells of the lattice along x, y and z; hexagonal: particles of a row, rows of a "
-               "layer, layers."},
-       [](PackingSpec& packing, const Decoded& value) { packing.cells = value.counts3; }},
-      {{.name = "spacing",
-        .kind = Kind::quantity,
-        .unit = "m",
-        .range = within(smallest_size, largest_size),
-        .only_for = space_lattices,
-        .doc = "Edge of the cubic cell; hexagonal: distance of neighbours. Must be given but for "
-               "spheres.",
-        .fallback_doc = "that at which spheres touch"},
-       to(&PackingSpec::spacing)}};
+  return {schema::class_of_lattice_key<PackingSpec>(space_lattices),
+          {{.name = "cells",
+            .kind = Kind::counts,
+            .range = within(1, 1000),
+            .dimensions = 3,
+            .required = true,
+            .only_for = space_lattices,
+            .doc = "Number of cells of the lattice along x, y and z; hexagonal: particles per "
+                   "row, rows per layer, layers."},
+           [](PackingSpec& packing, const Decoded& value) { packing.cells = value.counts3; }},
+          {{.name = "spacing",
+            .kind = Kind::quantity,
+            .unit = "m",
+            .range = within(smallest_size, largest_size),
+            .only_for = space_lattices,
+            .doc = "Edge of the cubic cell; hexagonal: distance between neighbours. Required "
+                   "except for spheres.",
+            .fallback_doc = "that at which spheres touch"},
+           to(&PackingSpec::spacing)}};
 }
 
 Key<PackingSpec> container_length(const char* name, const char* needs, const char* doc,
@@ -72,7 +70,7 @@ Key<PackingSpec> container_length(const char* name, const char* needs, const cha
 
 std::vector<Key<PackingSpec>> container_keys() {
   Key<PackingSpec> diameter =
-      container_length("diameter", "", "Of a cylinder along z, instead of a box.", "a box",
+      container_length("diameter", "", "Diameter of a cylinder along z, instead of a box.", "a box",
                        &ContainerSpec::diameter);
   diameter.set = [](PackingSpec& packing, const Decoded& value) {
     packing.container.kind = ContainerSpec::Kind::cylinder;
@@ -85,35 +83,37 @@ std::vector<Key<PackingSpec>> container_keys() {
             .dimensions = 3,
             .fallback = triple_of("0 m", "0 m", "0 m"),
             .only_for = {"cubic", "body-centred", "face-centred", "hexagonal", "random"},
-            .doc = "Corner of the lattice's first cell, or of the box, where x, y and z are least; "
-                   "of a cylinder the centre of its floor."},
+            .doc = "Corner with the smallest x, y and z of the first lattice cell or of the box; "
+                   "for a cylinder, the centre of its floor."},
            [](PackingSpec& packing, const Decoded& value) {
              packing.container.corner = value.vector3;
            }},
-          container_length("width", "depth", "Of the box, along x.", "required, but for a cylinder",
-                           &ContainerSpec::width),
-          container_length("depth", "width", "Of the box, along y.", "required, but for a cylinder",
-                           &ContainerSpec::depth),
+          container_length("width", "depth", "Size of the box along x.",
+                           "required except for a cylinder", &ContainerSpec::width),
+          container_length("depth", "width", "Size of the box along y.",
+                           "required except for a cylinder", &ContainerSpec::depth),
           diameter};
 }
 
 std::vector<Key<PackingSpec>> keys_of_random() {
   return {schema::height_key<PackingSpec>(
-              "From the floor to the top. Two of count, density and height are given."),
+              "Height from the floor to the top. Two of count, density and height must be "
+              "given."),
           schema::count_key<PackingSpec>(),
           schema::density_key<PackingSpec>(
-              "then shaken on and pressed again, as long as that pays",
-              "Relative density up to the top: volume of the particles over that of the box or "
-              "cylinder. Spheres come to rest at 0.55 to 0.64 by themselves, less in a narrow box; "
-              "denser ones are refused.")};
+              "shaking and compression then continue as long as they increase the density",
+              "Relative density up to the top: volume of the particles divided by that of "
+              "the box or cylinder. Spheres settle at 0.55 to 0.64, less in a narrow box; "
+              "higher densities are refused.")};
 }
 
 Key<PackingSpec> packing_file() {
   return schema::file_of_packing_key<PackingSpec>(
-      "Path from the scene's folder. Columns class, x, y, z, the rotation as a quaternion qw, qx, "
-      "qy, qz, and scale where shapes are not as the class says; units in the header, `x [mm]`. "
-      "Lines with # are comments; one `# top: 0.1 m` says where a punch rests, otherwise it rests "
-      "on the highest particle.");
+      "Path relative to the folder of the scene. The columns are class, x, y, z, the "
+      "rotation as a quaternion qw, qx, qy, qz, and scale if shapes differ in size "
+      "from their class. Units are in the header: `x [mm]`. Lines starting with # "
+      "are comments. A line `# top: 0.1 m` sets the height at which a punch rests; "
+      "by default it rests on the highest particle.");
 }
 
 TableDeclaration<PackingSpec> declared_packing_in_space() {
@@ -122,8 +122,8 @@ TableDeclaration<PackingSpec> declared_packing_in_space() {
   table.info.repeated = true;
   table.info.selector = "kind";
   table.info.doc =
-      "Many particles at once. Those of a lattice are numbered along x, then y, then z, those of a "
-      "random packing class by class.";
+      "A packing of many particles. Lattice particles are numbered along x, then y, "
+      "then z, particles of a random packing class by class.";
   table.keys.push_back(kind_of_packing());
   for (const auto& keys : {keys_of_lattices(), container_keys(), keys_of_random()})
     table.keys.insert(table.keys.end(), keys.begin(), keys.end());
@@ -144,24 +144,24 @@ const TableDeclaration<MixtureClass>& mixture_class() {
     TableDeclaration<MixtureClass> table = schema::mixture_class();
     schema::KeyInfo& share = key_of(table, "area_fraction").info;
     share.name = "volume_fraction";
-    share.doc = "Share of the volume of all particles; the classes' sum is 1.";
+    share.doc = "Volume fraction; the fractions of all classes sum to 1.";
     schema::KeyInfo& law = key_of(table, "distribution").info;
-    law.choices.back().doc = "what passes each sieve, by volume, from a file";
+    law.choices.back().doc = "sieve curve by volume, from a file";
     law.doc =
-        "Law of the sizes: by number of particles, \"sieve\" by their volume. The size of a "
-        "particle "
-        "is what a sieve lets through: its least width across the direction in which it is "
-        "thinnest; "
-        "of a sphere the diameter, of an ellipsoid the middle one of three, of a flat tablet its "
-        "diameter, too. The shape of the class is scaled to it.";
+        "Size distribution by number of particles; \"sieve\": by volume. The size of a "
+        "particle determines the sieve it passes: its smallest width perpendicular to "
+        "its thinnest direction. This is the diameter of a sphere or flat tablet, and "
+        "the middle one of the three axes of an ellipsoid. The shape of the class is "
+        "scaled to it.";
     key_of(table, "file").info.doc =
-        "Path from the scene's folder. Columns size (unit in the header, `size [mm]`) and passing: "
-        "the share of the volume that is smaller, rising from 0 to 1, straight in between.";
+        "Path relative to the folder of the scene. The columns are size (unit in the "
+        "header, `size [mm]`) and passing: the volume fraction of smaller particles, "
+        "rising from 0 to 1, linearly interpolated.";
     key_of(table, "sizes").info.doc =
-        "How many sizes stand for the law, each for the same share of it (of the particles, of "
-        "\"sieve\" of the volume) and with its share's mean volume. Particles of one size share "
-        "their mesh and are computed eight at a time: choose this so that many particles have "
-        "each.";
+        "Number of discrete sizes that represent the distribution. Each stands for an "
+        "equal fraction of it (of the particles; for \"sieve\" of the volume) and has "
+        "the mean volume of its fraction. Particles of one size share a mesh and are "
+        "computed eight at a time, so each size should have many particles.";
     return table;
   }();
   return declaration;

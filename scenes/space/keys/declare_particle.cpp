@@ -58,45 +58,44 @@ Key<ParticleSpec> exponent_key(const char* name, const char* doc, Set set) {
 }
 
 std::vector<Key<ParticleSpec>> class_keys() {
-  return {{{.name = "shape",
-            .kind = Kind::choice,
-            .choices = {{"sphere", "a ball"},
-                        {"ellipsoid", "of three axes"},
-                        {"superquadric", "between an ellipsoid and a box, by its exponents"},
-                        {"cylinder", "along its z axis, with rounded rims: tablets, pellets"},
-                        {"polyhedron", "the convex hull of its corners, edges rounded"},
-                        {"stl",
-                         "a closed surface from a file; its centre of volume must see all "
-                         "of it"}},
-            .required = true,
-            .doc = "Shape of the particle."},
-           choose_shape},
-          {{.name = "name",
-            .kind = Kind::name,
-            .required = true,
-            .doc = "Bodies and packings refer to it."},
-           to(&ParticleSpec::name)},
-          {{.name = "material",
-            .kind = Kind::reference,
-            .refers_to = "material",
-            .required = true,
-            .doc = "What it is made of."},
-           schema::index_to(&ParticleSpec::material)}};
+  return {
+      {{.name = "shape",
+        .kind = Kind::choice,
+        .choices = {{"sphere", "a ball"},
+                    {"ellipsoid", "three axes"},
+                    {"superquadric", "between an ellipsoid and a box, depending on the exponents"},
+                    {"cylinder", "along its z axis, with rounded rims: tablets, pellets"},
+                    {"polyhedron", "the convex hull of its corners, with rounded edges"},
+                    {"stl",
+                     "a closed surface from a file; the whole surface must be visible from its "
+                     "centre of volume"}},
+        .required = true,
+        .doc = "Shape of the particle."},
+       choose_shape},
+      {{.name = "name",
+        .kind = Kind::name,
+        .required = true,
+        .doc = "Name by which bodies and packings refer to the particle."},
+       to(&ParticleSpec::name)},
+      {{.name = "material",
+        .kind = Kind::reference,
+        .refers_to = "material",
+        .required = true,
+        .doc = "Material of the particle."},
+       schema::index_to(&ParticleSpec::material)}};
 }
 
 std::vector<Key<ParticleSpec>> size_keys_of_shapes() {
   Key<ParticleSpec> diameter = length_key(
       "diameter", within(smallest_size, largest_size), {"sphere", "cylinder", "stl"},
-      "Of a ball or cylinder; of an STL surface that of the ball of the same volume, to which it "
-      "is "
-      "scaled.",
+      "Diameter of a sphere or cylinder; for an STL surface, diameter of the sphere "
+      "of equal volume, to which it is scaled.",
       [](auto& s, double value) requires requires { s.diameter; } { s.diameter = value; });
   diameter.info.optional_for = "stl";
   Key<ParticleSpec> rounding = length_key(
       "rounding", within(0, largest_size), {"cylinder", "polyhedron"},
-      "Radius of the rims of a cylinder, of all edges and corners of a polyhedron. Sharp ones ask "
-      "for "
-      "a fine mesh.",
+      "Radius of the rims of a cylinder, or of all edges and corners of a "
+      "polyhedron. Small radii need a fine mesh.",
       [](auto& s, double value) requires requires { s.rounding; } { s.rounding = value; });
   return {diameter,
           {{.name = "size",
@@ -106,12 +105,13 @@ std::vector<Key<ParticleSpec>> size_keys_of_shapes() {
             .dimensions = 3,
             .required = true,
             .only_for = {"ellipsoid", "superquadric"},
-            .doc = "From end to end along the particle's own x, y and z axis."},
+            .doc = "Overall size along the particle's own x, y and z axes."},
            shape_to<Vec3>(
                [](auto& s, const Vec3& value) requires requires { s.size; } { s.size = value; },
                &Decoded::vector3)},
           length_key(
-              "height", within(smallest_size, largest_size), {"cylinder"}, "From face to face.",
+              "height", within(smallest_size, largest_size), {"cylinder"},
+              "Distance between the end faces.",
               [](auto& s, double value) requires requires { s.height; } { s.height = value; }),
           rounding};
 }
@@ -120,13 +120,13 @@ std::vector<Key<ParticleSpec>> form_keys() {
   return {
       exponent_key(
           "exponent_xy",
-          "e of (abs(2x/a)^e + abs(2y/b)^e)^(f/e) + abs(2z/c)^f = 1: 2 is an ellipse, "
-          "more goes towards a rectangle.",
+          "Exponent e in (abs(2x/a)^e + abs(2y/b)^e)^(f/e) + abs(2z/c)^f = 1: 2 gives an "
+          "ellipse, larger values approach a rectangle.",
           [](auto& s, double value) requires requires { s.exponent_xy; } {
             s.exponent_xy = value;
           }),
       exponent_key(
-          "exponent_z", "f of the same, towards both ends.",
+          "exponent_z", "Exponent f in the same equation: shape towards both ends.",
           [](auto& s, double value) requires requires { s.exponent_z; } { s.exponent_z = value; }),
       {{.name = "corners",
         .kind = Kind::points,
@@ -135,8 +135,8 @@ std::vector<Key<ParticleSpec>> form_keys() {
         .dimensions = 3,
         .required = true,
         .only_for = "polyhedron",
-        .doc = "At least four that do not lie in one plane, in any order; the centre of the "
-               "volume becomes the particle's."},
+        .doc = "At least four points that do not lie in one plane, in any order. The centre "
+               "of volume becomes the particle's centre."},
        shape_to<std::vector<Vec3>>(
            [](auto& s, const std::vector<Vec3>& value) requires requires { s.corners; } {
              s.corners = value;
@@ -150,7 +150,8 @@ std::vector<Key<ParticleSpec>> file_keys() {
         .kind = Kind::file,
         .required = true,
         .only_for = "stl",
-        .doc = "Relative to the scene's folder: STL, ASCII or binary, a closed surface."},
+        .doc = "STL file (ASCII or binary) of a closed surface, as a path relative to the "
+               "folder of the scene."},
        shape_to<std::string>(
            [](auto& s, const std::string& value) requires requires { s.file; } { s.file = value; },
            &Decoded::text)},
@@ -158,7 +159,7 @@ std::vector<Key<ParticleSpec>> file_keys() {
         .kind = Kind::text,
         .required = true,
         .only_for = "stl",
-        .doc = "Unit of the file's numbers: \"um\"."},
+        .doc = "Length unit of the file: \"um\"."},
        shape_to<std::string>(
            [](auto& s, const std::string& value) requires requires { s.unit; } { s.unit = value; },
            &Decoded::text)},
@@ -167,7 +168,7 @@ std::vector<Key<ParticleSpec>> file_keys() {
         .range = within(0, 0.5),
         .fallback = value_of(0.0),
         .only_for = "stl",
-        .doc = "Share of the mean radius over which the surface is smoothed."},
+        .doc = "Distance over which the surface is smoothed, as a fraction of the mean radius."},
        shape_to(
            [](auto& s, double value) requires requires { s.smoothing; } { s.smoothing = value; })}};
 }
@@ -177,7 +178,7 @@ TableDeclaration<ParticleSpec> declared_particle() {
   table.info.path = "particle";
   table.info.repeated = true;
   table.info.selector = "shape";
-  table.info.doc = "A class of equal particles; bodies and packings place them.";
+  table.info.doc = "A class of identical particles, placed by bodies and packings.";
   for (const auto& keys : {class_keys(), size_keys_of_shapes(), form_keys(), file_keys()})
     table.keys.insert(table.keys.end(), keys.begin(), keys.end());
   return table;
@@ -187,54 +188,55 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
   return {{{.name = "divisions",
             .kind = Kind::integer,
             .range = within(1, 64),
-            .doc = "Elements along each edge of the cube in the middle: its core has divisions^3, "
-                   "the surface 6 divisions^2 faces (with `axial_divisions` m: divisions^2 m and "
-                   "2 divisions^2 + 4 divisions m). The cube lies along the shape's axes; of polyhedra "
-                   "and STL shapes it is turned to where contacts see the shape best, unless "
-                   "`axial_divisions` is given.",
-            .fallback_doc = "by `accuracy`; beside `rings` 4"},
+            .doc = "Elements along each edge of the central cube: the core has divisions^3 "
+                   "elements and the surface 6 divisions^2 faces (with `axial_divisions` m: "
+                   "divisions^2 m and 2 divisions^2 + 4 divisions m). The cube is aligned with "
+                   "the axes of the shape; for polyhedra and STL shapes it is oriented for the "
+                   "best contact resolution unless `axial_divisions` is given.",
+            .fallback_doc = "set by `accuracy`; 4 if `rings` is given"},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.divisions = static_cast<int>(value.integer);
            }},
           {{.name = "rings",
             .kind = Kind::integer,
             .range = within(1, 64),
-            .doc = "Layers of elements between the core and the surface, as many in each as it has "
-                   "faces.",
-            .fallback_doc = "by `accuracy`; beside `divisions` 4"},
+            .doc = "Layers of elements between the core and the surface, each with as many "
+                   "elements as the surface has faces.",
+            .fallback_doc = "set by `accuracy`; 4 if `divisions` is given"},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.rings = static_cast<int>(value.integer);
            }},
           {{.name = "axial_divisions",
             .kind = Kind::integer,
             .range = within(2, 1024),
-            .doc = "Elements of the core along z: of long shapes more, of flat ones fewer, so that "
-                   "elements are about as long as they are wide.",
+            .doc = "Elements of the core along z: more for long shapes, fewer for flat ones, to "
+                   "keep the elements close to equal-sided.",
             .fallback_doc = "divisions"},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.axial_divisions = static_cast<int>(value.integer);
            }},
           {{.name = "grid",
             .kind = Kind::choice,
-            .choices = {{"cube", "a cube in the middle and layers around it"},
-                        {"extruded",
-                         "a square in the middle of a disc, rings around it, and `axial_divisions` "
-                         "such layers along z, of divisions^2 + 4 divisions rings elements each: "
-                         "for long cylinders and ends that are struck; rims are rounded by less than "
-                         "half an element"}},
+            .choices =
+                {{"cube", "a cube at the centre, with layers around it"},
+                 {"extruded",
+                  "a disc mesh, a square at the centre with rings around it, extruded along z in "
+                  "`axial_divisions` layers of divisions^2 + 4 divisions rings elements each: "
+                  "for long cylinders and ends under impact; the rim radius must be less than "
+                  "half an element"}},
             .fallback = value_of("cube"),
             .only_for = "cylinder",
-            .doc = "How the elements hang together."},
+            .doc = "Topology of the mesh."},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.grid = static_cast<MeshSpec::Grid>(value.index);
            }},
           {{.name = "phase",
             .kind = Kind::choice,
-            .choices = {{"fixed", "as the particle is turned"},
-                        {"random", "every particle's mesh is turned by its own random rotation"}},
+            .choices = {{"fixed", "the mesh rotates with the particle"},
+                        {"random", "the mesh of each particle has its own random rotation"}},
             .fallback = value_of("fixed"),
             .only_for = "sphere",
-            .doc = "Turn of the mesh inside the shape."},
+            .doc = "Orientation of the mesh inside the shape."},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.random_mesh_phase = value.index == 1;
            }}};
@@ -250,8 +252,8 @@ const TableDeclaration<ParticleSpec>& particle() {
 const TableDeclaration<ParticleSpec>& mesh() {
   static const TableDeclaration<ParticleSpec> declaration{
       {"particle.mesh", false, "shape",
-       "Finite elements of one particle: an O-grid, a cube in the middle and layers around it, or a "
-       "disc's drawn along z."},
+       "Finite element mesh of a particle: an O-grid (a central cube with layers "
+       "around it) or an extruded disc mesh."},
       mesh_keys()};
   return declaration;
 }

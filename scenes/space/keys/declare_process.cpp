@@ -30,7 +30,8 @@ std::vector<Key<BodySpec>> turn_keys() {
             .kind = Kind::quantity,
             .unit = "rad",
             .range = within(-1000, 1000),
-            .doc = "Turn about `axis`, counter-clockwise where that looks at one.",
+            .doc = "Rotation about `axis`, counter-clockwise when the axis points towards the "
+                   "viewer.",
             .fallback_doc = "`\"0 deg\"`"},
            [](BodySpec& spec, const Decoded& value) {
              const double half = value.number / 2;
@@ -40,7 +41,7 @@ std::vector<Key<BodySpec>> turn_keys() {
             .kind = Kind::direction,
             .dimensions = 3,
             .needs = "angle",
-            .doc = "Direction that the particle is turned about, of any length.",
+            .doc = "Rotation axis, of any length.",
             .fallback_doc = "`[0, 0, 1]`"},
            // The key before it has set the angle, about z.
            [](BodySpec& spec, const Decoded& value) {
@@ -56,7 +57,7 @@ TableDeclaration<BodySpec> declared_body() {
                          .kind = Kind::reference,
                          .refers_to = "particle",
                          .required = true,
-                         .doc = "Its class."},
+                         .doc = "Particle class."},
                         schema::index_to(&BodySpec::particle)});
   table.keys.push_back({{.name = "position",
                          .kind = Kind::vector,
@@ -64,14 +65,14 @@ TableDeclaration<BodySpec> declared_body() {
                          .range = within(-largest_size, largest_size),
                          .dimensions = 3,
                          .required = true,
-                         .doc = "Centre of its volume."},
+                         .doc = "Centre of volume."},
                         to(&BodySpec::position)});
   for (auto& key : turn_keys()) table.keys.push_back(std::move(key));
   table.keys.push_back(body_vector("velocity", "m/s", 1e5, "0 m/s", &BodySpec::velocity,
                                    "Initial velocity of the centre."));
   table.keys.push_back(body_vector("angular_velocity", "rad/s", 1e12, "0 rad/s",
                                    &BodySpec::angular_velocity,
-                                   "Initial spin, about the axes of the scene."));
+                                   "Initial angular velocity, in the axes of the scene."));
   return table;
 }
 
@@ -90,14 +91,15 @@ Key<MoveSpec> move_key(const char* name, Set set) {
 std::vector<Key<MoveSpec>> move_keys() {
   Key<MoveSpec> drive = move_key("stiffness", to(&MoveSpec::stiffness));
   drive.info.doc =
-      "Of a drive that gives, along the displacement, which is then that of its far end: the tool "
-      "follows as a mass on a spring. In the stage after it the tool stands where it was left, "
-      "unless that drives it so, too.";
+      "Stiffness of a compliant drive along the displacement. The displacement then "
+      "applies to the far end of the spring, and the tool follows as a mass on the "
+      "spring. In the next stage the tool keeps its last position unless that stage "
+      "also drives it through a spring.";
   return {{{.name = "tool",
             .kind = Kind::reference,
             .refers_to = "tool",
             .required = true,
-            .doc = "The tool that moves."},
+            .doc = "Tool that moves."},
            schema::index_to(&MoveSpec::tool)},
           {{.name = "displacement",
             .kind = Kind::vector,
@@ -111,8 +113,8 @@ std::vector<Key<MoveSpec>> move_keys() {
             .kind = Kind::number,
             .range = above(0, 0.5),
             .fallback = value_of(0.1),
-            .doc = "Share of the stage in which the speed rises smoothly, and falls again at its "
-                   "end."},
+            .doc = "Fraction of the stage over which the speed rises smoothly, and falls again at "
+                   "the end."},
            to(&MoveSpec::ramp)},
           drive,
           move_key("mass", to(&MoveSpec::mass)),
@@ -126,12 +128,12 @@ Key<ServoSpec> servo_key(const char* name, Set set) {
 
 std::vector<Key<ServoSpec>> servo_keys() {
   Key<ServoSpec> force = servo_key("force", to(&ServoSpec::force));
-  force.info.doc = "With which it is to push.";
+  force.info.doc = "Target force.";
   Key<ServoSpec> tool = servo_key("tool", schema::index_to(&ServoSpec::tool));
-  tool.info.doc = "The tool that holds the force.";
+  tool.info.doc = "Force-controlled tool.";
   Key<ServoSpec> direction = servo_key("direction", to(&ServoSpec::direction));
   direction.info.dimensions = 3;
-  direction.info.fallback_doc = "the normal of a plane or punch; required of others";
+  direction.info.fallback_doc = "the normal of a plane or punch; required for other tools";
   return {tool,
           force,
           direction,
@@ -152,7 +154,7 @@ const TableDeclaration<Scene>& top_level() {
     schema::KeyInfo& dimension = key_of(table, "dimension").info;
     dimension.range = within(3, 3);
     dimension.required = true;
-    dimension.doc = "Scenes of two dimensions are another language: docs/scene.md.";
+    dimension.doc = "Two-dimensional scenes have their own language: docs/scene.md.";
     dimension.fallback_doc = "";
     return table;
   }();
@@ -188,13 +190,16 @@ const TableDeclaration<UntilSpec>& until() {
   static const TableDeclaration<UntilSpec> declaration = [] {
     TableDeclaration<UntilSpec> table = schema::until();
     table.info.doc =
-        "Ends the stage above it before its time is over; its tools then come to rest as smoothly "
-        "as they started. A stage whose time is over before that stops the run. One of `force`, "
-        "`displacement` and `relative_density`.";
+        "Ends the preceding stage before its duration is over; its tools then come to "
+        "rest as smoothly as they started. If the condition is not met within the "
+        "duration of the stage, the run stops. Exactly one of `force`, `displacement` "
+        "and `relative_density` is given.";
     key_of(table, "force").info.doc =
-        "Of the powder on the tool: against the normal of a plane or punch, of others the whole.";
+        "Force of the powder on the tool: against the normal of a plane or punch, the "
+        "magnitude for other tools.";
     key_of(table, "relative_density").info.doc =
-        "Of the powder between six planes, or in a round die between two planes or punches.";
+        "Relative density of the powder between six planes, or in a round die between "
+        "two planes or punches.";
     return table;
   }();
   return declaration;
@@ -204,11 +209,13 @@ const TableDeclaration<ContactSpec>& contact() {
   static const TableDeclaration<ContactSpec> declaration = [] {
     TableDeclaration<ContactSpec> table = schema::contact();
     key_of(table, "stiffness").info.doc =
-        "Contact stiffness over bulk modulus times area of a face over volume of the element "
-        "behind it. 10 by default where no material yields; a run tells what force it misses.";
+        "Contact stiffness, as a multiple of bulk modulus times face area divided by "
+        "the volume of the element behind the face. The default is 10 if no material "
+        "yields; the run reports the resulting error in force.";
     key_of(table, "skin").info.doc =
-        "Share of the smallest face that surfaces may approach each other before the search for "
-        "contacts is done anew. Costs time only, changes no result.";
+        "Skin distance of the contact search, as a fraction of the smallest face: how "
+        "far surfaces may approach each other before the search is repeated. It "
+        "affects run time, not results.";
     return table;
   }();
   return declaration;
@@ -216,15 +223,17 @@ const TableDeclaration<ContactSpec>& contact() {
 
 const TableDeclaration<SpaceScene>& element() {
   static const TableDeclaration<SpaceScene> declaration{
-      {"element", false, "", "The finite elements of all particles: hexahedra of eight nodes."},
+      {"element", false, "", "Finite elements of all particles: 8-node hexahedra."},
       {{{.name = "formulation",
          .kind = Kind::choice,
-         .choices = {{"one-point",
-                      "one point, hourglass modes held by elastic-plastic bending: faster"},
-                     {"eight-point",
-                      "2x2x2 Gauss points, one dilatation (mean dilatation): the reference"}},
+         .choices =
+             {{"one-point",
+               "one Gauss point with hourglass modes stabilised by elastic-plastic bending; "
+               "faster"},
+              {"eight-point",
+               "2x2x2 Gauss points with a single dilatation (mean dilatation): the reference"}},
          .fallback = value_of("one-point"),
-         .doc = "Where an element takes its stresses."},
+         .doc = "Element formulation."},
         [](SpaceScene& spec, const Decoded& value) { spec.full_integration = value.index == 1; }}}};
   return declaration;
 }
@@ -241,13 +250,15 @@ const TableDeclaration<OutputSpec>& output() {
     cells.info.dimensions = 3;
     cells.info.range = within(1, 200);
     cells.info.doc =
-        "Cells along x, y and z of a grid between the tools whose relative densities are kept: in "
-        "every frame, and their minimum, maximum and standard deviation over time. Needs a room: "
-        "six planes along the axes, or a round die along one between two planes or punches.";
+        "Number of cells along x, y and z of a grid between the tools in which local "
+        "relative densities are recorded: in every frame, and their minimum, maximum "
+        "and standard deviation over time. Requires an enclosed region: six planes "
+        "along the axes, or a round die along one axis between two planes or punches.";
     cells.set = [](OutputSpec& spec, const Decoded& value) { spec.density_cells3 = value.counts3; };
     key_of(table, "contacts").info.doc =
-        "The network of contacts: forces, normals and areas of every pair that touches and force "
-        "chains in every frame; coordination, fabric and mean forces over time.";
+        "Record the contact network: forces, normals and areas of all touching pairs "
+        "and force chains in every frame; coordination number, fabric and mean forces "
+        "over time.";
     return table;
   }();
   return declaration;

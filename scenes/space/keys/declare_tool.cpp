@@ -9,16 +9,16 @@ std::vector<Key<ToolSpec>> keys_of_place() {
       {{.name = "name",
         .kind = Kind::name,
         .required = true,
-        .doc = "Moves, friction pairs and the results refer to it."},
+        .doc = "Name used in moves, friction pairs and results."},
        to(&ToolSpec::name)},
       {{.name = "shape",
         .kind = Kind::choice,
         .choices = {{"plane", "fills the half-space behind its surface"},
-                    {"die", "a round hole: fills all outside of a cylinder"},
+                    {"die", "a round hole: fills everything outside a cylinder"},
                     {"punch", "a body of revolution about its axis, whose face has a profile"},
                     {"stl", "a closed surface from a file"}},
         .required = true,
-        .doc = "What it is."},
+        .doc = "Type of tool."},
        [](ToolSpec& spec, const Decoded& value) {
          spec.shape = static_cast<ToolSpec::Shape>(value.index);
        }},
@@ -28,11 +28,11 @@ std::vector<Key<ToolSpec>> keys_of_place() {
         .range = within(-largest_size, largest_size),
         .dimensions = 3,
         .choices = {{"packing top",
-                     "the height at which a punch rests on the packing, with the foremost place "
-                     "of its face; of several packings the highest"}},
+                     "the height at which the foremost part of a punch face rests on the packing; "
+                     "with several packings, the highest"}},
         .required = true,
-        .doc = "A point of a plane's surface, of the axis of a die, the middle of a punch's "
-               "face, or where the origin of an STL file lies."},
+        .doc = "A point on the surface of a plane or on the axis of a die, the centre of a "
+               "punch face, or the position of the origin of an STL file."},
        [](ToolSpec& spec, const Decoded& value) {
          spec.point = value.vector3;
          spec.on_packing = value.is_word;
@@ -43,9 +43,9 @@ std::vector<Key<ToolSpec>> keys_of_place() {
         .required = true,
         .only_for = {"plane", "punch", "die"},
         .optional_for = "die",
-        .doc = "Direction from the tool into the powder, of any length; of a punch and a die "
-               "their axis.",
-        .fallback_doc = "of a die `[0, 0, 1]`"},
+        .doc = "Direction from the tool into the powder, of any length; for a punch or die, "
+               "its axis.",
+        .fallback_doc = "for a die `[0, 0, 1]`"},
        to(&ToolSpec::normal)}};
 }
 
@@ -56,29 +56,30 @@ std::vector<Key<ToolSpec>> keys_of_form() {
             .range = within(smallest_size, largest_size),
             .required = true,
             .only_for = {"die", "punch"},
-            .doc = "Of the hole; of the punch."},
+            .doc = "Diameter of the hole or punch."},
            to(&ToolSpec::diameter)},
           {{.name = "profile",
             .kind = Kind::points,
             .unit = "m",
             .range = within(-largest_size, largest_size),
             .only_for = "punch",
-            .doc = "Of the face: distance from the axis and height along the normal, from [0, ..] "
-                   "outward; straight in between.",
+            .doc = "Profile of the face: distance from the axis and height along the normal, from "
+                   "[0, ..] outwards, linearly interpolated.",
             .fallback_doc = "a flat face"},
            [](ToolSpec& spec, const Decoded& value) { spec.profile = value.points; }},
           {{.name = "file",
             .kind = Kind::file,
             .required = true,
             .only_for = "stl",
-            .doc = "Relative to the scene's folder: STL, ASCII or binary, a closed surface whose "
-                   "triangles are seen counter-clockwise from the powder."},
+            .doc = "STL file (ASCII or binary) of a closed surface, as a path relative to the "
+                   "folder of the scene. Triangles must be counter-clockwise as seen from the "
+                   "powder."},
            to(&ToolSpec::file)},
           {{.name = "unit",
             .kind = Kind::text,
             .required = true,
             .only_for = "stl",
-            .doc = "Unit of the file's numbers: \"mm\"."},
+            .doc = "Length unit of the file: \"mm\"."},
            to(&ToolSpec::unit)}};
 }
 
@@ -87,7 +88,7 @@ TableDeclaration<ToolSpec> declared_tool() {
   table.info.path = "tool";
   table.info.repeated = true;
   table.info.selector = "shape";
-  table.info.doc = "A rigid punch, die or wall. Without a move a tool stands still.";
+  table.info.doc = "A rigid punch, die or wall. A tool without a move stays fixed.";
   for (const auto& keys : {keys_of_place(), keys_of_form()})
     table.keys.insert(table.keys.end(), keys.begin(), keys.end());
   return table;

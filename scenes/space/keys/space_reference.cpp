@@ -11,8 +11,8 @@ constexpr const char* introduction_in_space = R"md(# The scene file in three dim
 
 <!-- Generated from the declarations in scenes/space/keys and scenes/keys: change those, not this file. -->
 
-A scene that says `dimension = 3` at its top is read by this language. Quantities, variables and expressions, files that
-extend another, and overrides are those of two dimensions: [scene](scene.md).
+This language applies to scenes with `dimension = 3` at the top. Quantities, variables and expressions, extending
+another file, and overrides work as in two dimensions: [scene](scene.md).
 
 ```toml
 family = "compaction"
@@ -54,9 +54,9 @@ tool = "top"
 displacement = ["0 mm", "0 mm", "-0.1 mm"]
 ```
 
-Vectors have three components, x, y and z; a punch usually moves along z. Forces are those on whole particles: there is
-no thickness. What two dimensions have and three have not, such as bonds, grains, periodic cells and constraints, is
-refused with a sentence that says so.
+Vectors have three components, x, y and z; a punch usually moves along z. Forces act on whole particles: there is no
+thickness. Features available only in two dimensions, such as bonds, grains, periodic cells and constraints, are
+refused with an explanation.
 )md";
 
 }  // namespace

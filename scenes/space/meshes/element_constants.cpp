@@ -71,7 +71,7 @@ Integrals integrals_of(const Corners& x, int element) {
     const Matrix3d jacobian = x * at.by_xi;
     const double det = jacobian.determinant();
     if (!(det > 0))
-      throw std::invalid_argument("element " + std::to_string(element) + " is inside out");
+      throw std::invalid_argument("element " + std::to_string(element) + " is inverted");
     const Matrix3d inverse = jacobian.inverse();
     entry(sum.points, g) = {to_tensor(inverse), det};
     sum.volume += det;

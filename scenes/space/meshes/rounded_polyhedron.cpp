@@ -39,7 +39,7 @@ class RoundedPolyhedron final : public StarSurface {
     std::vector<HalfSpace> planes = faces_of_hull(shape.corners);
     for (HalfSpace& plane : planes) plane.offset -= rounding_;
     const std::vector<Vec3> corners = corners_between(planes);
-    if (corners.size() < 4) throw std::invalid_argument("the rounding leaves nothing of it");
+    if (corners.size() < 4) throw std::invalid_argument("nothing is left of it after rounding");
     for (const HalfSpace& plane : planes) add_side(plane, corners);
     measure(corners);
     move_to_centre();

@@ -329,7 +329,7 @@ void complete_surface(Shape& shape, const StarSurface& surface) {
   store_points(shape, net, fit.points(), fit.smoothing());
   shape.surface_error = fit.reached().distance;
   shape.surface_bulge = fit.reached().bulge;
-  if (!(fit.reached().cosine > 0)) throw std::invalid_argument("its smooth surface is folded");
+  if (!(fit.reached().cosine > 0)) throw std::invalid_argument("its smoothed surface is folded");
   measure(shape);
 }
 

@@ -43,7 +43,7 @@ std::vector<Triangle> binary_triangles(const std::string& bytes) {
   const std::size_t count = little_endian(&bytes[header - 4]);
   refuse_count(count);
   if (bytes.size() < header + record * count)
-    throw BadStl(fmt::format("the file is cut short: {} triangles announced, {} there", count,
+    throw BadStl(fmt::format("the file is truncated: {} triangles announced, {} present", count,
                              (bytes.size() - header) / record));
   std::vector<Triangle> triangles(count);
   for (std::size_t t = 0; t < count; ++t)
@@ -71,7 +71,7 @@ class Words {
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty() || error != std::errc() || end != word.data() + word.size())
-      throw BadStl(fmt::format("'{}' where a coordinate is wanted", word.substr(0, 20)));
+      throw BadStl(fmt::format("'{}' where a coordinate is expected", word.substr(0, 20)));
     return value;
   }
 
@@ -92,7 +92,7 @@ std::vector<Triangle> text_triangles(const std::string& text) {
   }
   refuse_count(triangles.size());
   if (corners % 3 != 0)
-    throw BadStl("the file is cut short: the last triangle has no three corners");
+    throw BadStl("the file is truncated: the last triangle does not have three corners");
   return triangles;
 }
 
@@ -115,11 +115,11 @@ void refuse_open(const std::vector<Triangle>& triangles) {
     const auto back = sides.find({side.second, side.first});
     if (back == sides.end())
       throw BadStl(
-          fmt::format("the surface is open, or two triangles face different ways, at the side from "
-                      "({:g}, {:g}, {:g}), allowed: a closed surface",
+          fmt::format("the surface is open, or two triangles have opposite orientation, at the "
+                      "edge from ({:g}, {:g}, {:g}), allowed: a closed surface",
                       side.first[0], side.first[1], side.first[2]));
     if (back->second != count)
-      throw BadStl(fmt::format("more than two triangles meet at the side from ({:g}, {:g}, {:g})",
+      throw BadStl(fmt::format("more than two triangles meet at the edge from ({:g}, {:g}, {:g})",
                                side.first[0], side.first[1], side.first[2]));
   }
 }
@@ -142,7 +142,8 @@ Vec3 centre_of_volume(const std::vector<Triangle>& triangles) {
 std::vector<Triangle> stl_triangles(const std::string& bytes) {
   std::vector<Triangle> triangles =
       is_binary(bytes) ? binary_triangles(bytes) : text_triangles(bytes);
-  if (triangles.empty()) throw BadStl("no triangle is in it, allowed: an STL file, binary or text");
+  if (triangles.empty())
+    throw BadStl("it contains no triangles, allowed: an STL file, binary or text");
   refuse_numbers(triangles);
   refuse_open(triangles);
   if (volume_of(triangles) <= 0)
@@ -165,7 +166,7 @@ std::optional<std::string> why_not_star_shaped(const std::vector<Triangle>& tria
     const Vec3 normal = area_vector(triangles[t]);
     if (normal.norm() > 0 && normal.dot(triangles[t][0] - centre) <= 0)
       return fmt::format(
-          "its centre of volume ({:g}, {:g}, {:g}) does not see triangle {} from inside",
+          "from its centre of volume ({:g}, {:g}, {:g}), triangle {} is not visible from inside",
           centre.x(), centre.y(), centre.z(), t + 1);
   }
   return {};

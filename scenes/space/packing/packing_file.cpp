@@ -46,7 +46,7 @@ Rotation unit_rotation(const csv::Table& table, std::size_t row, const Rotation&
   const double length = length_of(q);
   if (length < 1e-6)
     csv::refuse(table, row, csv::column_at(table, "qw"),
-                "the quaternion is 0, allowed: one with a length, 1 0 0 0 for no rotation");
+                "the quaternion is 0, allowed: a non-zero one; 1 0 0 0 for no rotation");
   if (std::abs(length - 1) <= of_length_1) return q;
   return Rotation(q.w() / length, q.x() / length, q.y() / length, q.z() / length);
 }

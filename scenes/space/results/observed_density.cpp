@@ -84,17 +84,17 @@ void add_observed_density(World& world, const Scene& scene) {
 
 std::vector<SeriesInfo> density_series(const Scene& scene) {
   if (!scene.output.density()) return {};
-  return {{"density/compact", "-", "deformed particle volume / room between the tools"},
-          {"density/minimum", "-", "of the cells of which half is in the room"},
+  return {{"density/compact", "-", "deformed particle volume / volume between the tools"},
+          {"density/minimum", "-", "of the cells that lie at least half between the tools"},
           {"density/maximum", "-", "of the same cells"},
-          {"density/deviation", "-", "standard deviation over the cells, by their room"}};
+          {"density/deviation", "-", "standard deviation over the cells, weighted by volume"}};
 }
 
 std::vector<FieldInfo> density_fields(const World& world) {
   if (!world.has<DensityGrid>()) return {};
   const int along_x = world.resource<DensityGrid>().cells[0];
   return {{"local_density", "-",
-           "of every cell; NaN where it has no room. Rows along x: those of one z after the other",
+           "of every cell; NaN outside the tools; rows along x, then y, layer by layer in z",
            FieldPlace::list, along_x},
           {"density_profile", "-", "of every layer of cells across z, from the bottom",
            FieldPlace::list, 1},

@@ -11,8 +11,8 @@
 namespace pulvis::space {
 namespace {
 
-constexpr LinkWords link_words{3, "across the normal; >= 0", "area", "m^2",
-                               "of the surface that touches"};
+constexpr LinkWords link_words{3, "tangential to the surface; >= 0", "area", "m^2",
+                               "of the surface in contact"};
 
 ContactCounts contact_counts(const World& world) {
   return {world.resource<ContactNetwork>(), world.resource<Bodies>().particles()};
@@ -30,8 +30,8 @@ void add_observed_network(World& world, const Scene& scene) {
 std::vector<SeriesInfo> network_series(const Scene& scene) {
   if (!scene.output.contacts) return {};
   std::vector<SeriesInfo> all{
-      {"network/coordination", "-", "other particles that a particle touches, mean"},
-      {"network/tools", "-", "tools that a particle touches, mean"},
+      {"network/coordination", "-", "mean number of other particles that a particle touches"},
+      {"network/tools", "-", "mean number of tools that a particle touches"},
       {"network/rattlers", "-", "share of particles that touch fewer than two others or tools"}};
   for (const char* part : {"xx", "yy", "zz", "xy", "yz", "zx"})
     all.push_back({std::string("network/fabric_") + part, "-",
@@ -53,8 +53,7 @@ std::vector<FieldInfo> network_fields(const World& world) {
       all.end(),
       {{"coordination", "-", "other particles that it touches", FieldPlace::particle, 1, true},
        {"tools_touched", "-", "tools that it touches", FieldPlace::particle, 1, true},
-       {"force_chain", "-", "number of its force chain; 0: in none", FieldPlace::particle, 1,
-        true}});
+       {"force_chain", "-", "number of its force chain; 0: none", FieldPlace::particle, 1, true}});
   return all;
 }
 

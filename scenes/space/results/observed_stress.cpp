@@ -37,12 +37,12 @@ void add_observed_stress(World& world, const Scene& scene) {
 
 std::vector<SeriesInfo> stress_series(const Scene& scene) {
   if (!scene.observes_stress() || !die_room(scene)) return {};
-  return {{"stress/xx", "Pa", "Cauchy, mean over the room between the tools; tension > 0"},
-          {"stress/yy", "Pa", "the same"},
-          {"stress/zz", "Pa", "the same"},
-          {"stress/xy", "Pa", "the same"},
-          {"stress/yz", "Pa", "the same"},
-          {"stress/zx", "Pa", "the same"},
+  return {{"stress/xx", "Pa", "Cauchy, mean over the volume between the tools; tension > 0"},
+          {"stress/yy", "Pa", "as stress/xx"},
+          {"stress/zz", "Pa", "as stress/xx"},
+          {"stress/xy", "Pa", "as stress/xx"},
+          {"stress/yz", "Pa", "as stress/xx"},
+          {"stress/zx", "Pa", "as stress/xx"},
           {"stress/mean", "Pa", "(xx + yy + zz) / 3: minus the pressure p"},
           {"stress/deviatoric", "Pa", "von Mises' stress q of these means"}};
 }

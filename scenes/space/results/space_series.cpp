@@ -13,19 +13,19 @@ namespace {
 void add_tool_series(const Scene& scene, int number, std::vector<SeriesInfo>& all) {
   const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(number)];
   const std::string name = "tool/" + tool.name + "/";
-  const char* place = tool.shape == ToolSpec::Shape::die     ? "of a point of its axis"
-                      : tool.shape == ToolSpec::Shape::plane ? "of a point of its surface"
-                      : tool.shape == ToolSpec::Shape::punch ? "of the middle of its face"
+  const char* place = tool.shape == ToolSpec::Shape::die     ? "of a point on its axis"
+                      : tool.shape == ToolSpec::Shape::plane ? "of a point on its surface"
+                      : tool.shape == ToolSpec::Shape::punch ? "of the centre of its face"
                                                              : "of the origin of its file";
   for (const char* axis : {"x", "y", "z"}) all.push_back({name + "position_" + axis, "m", place});
   for (const char* axis : {"x", "y", "z"})
-    all.push_back({name + "force_" + axis, "N", "of the particles, on the tool"});
+    all.push_back({name + "force_" + axis, "N", "force of the particles on the tool"});
   if (is_servo_driven(scene, number))
-    all.push_back(
-        {name + "force_asked", "N", "that its servo is to hold now, in the direction it pushes"});
+    all.push_back({name + "force_asked", "N",
+                   "force that its servo is to hold at this time, in the direction it pushes"});
   else if (is_driven_through_a_spring(scene, number))
-    all.push_back(
-        {name + "drive_force", "N", "of its drive's spring and dashpot on it, along its move"});
+    all.push_back({name + "drive_force", "N",
+                   "force of its drive's spring and dashpot on it, along its move"});
 }
 
 void add_room_series(const Scene& scene, const DieRoom& room, std::vector<SeriesInfo>& all) {
@@ -39,7 +39,7 @@ void add_room_series(const Scene& scene, const DieRoom& room, std::vector<Series
   }
   all.push_back({"stress/axial_top", "Pa",
                  "on the top tool: force / cross-section of the die; compression > 0"});
-  all.push_back({"stress/axial_bottom", "Pa", "the same of the bottom tool"});
+  all.push_back({"stress/axial_bottom", "Pa", "on the bottom tool, defined likewise"});
   if (box)
     for (const char* side : {"left", "right", "front", "back"})
       all.push_back({std::string("stress/radial_") + side, "Pa",
@@ -47,8 +47,9 @@ void add_room_series(const Scene& scene, const DieRoom& room, std::vector<Series
   else
     all.push_back({"stress/radial", "Pa",
                    "on the wall of the die: normal force / area between the other tools"});
-  all.push_back({"stress/transmission", "-",
-                 "axial force on the bottom tool / on the top tool; NaN where the top bears none"});
+  all.push_back(
+      {"stress/transmission", "-",
+       "axial force on the bottom tool / on the top tool; NaN where the top carries none"});
 }
 
 }  // namespace
@@ -75,8 +76,8 @@ std::vector<SeriesInfo> tool_series(const Scene& scene) {
 }
 
 std::vector<SeriesInfo> contact_series() {
-  return {{"contacts", "-", "faces that touch another particle or a tool"},
-          {"penetration", "-", "deepest so far, of the size of a face"}};
+  return {{"contacts", "-", "faces in contact with another particle or a tool"},
+          {"penetration", "-", "deepest so far, relative to the size of a face"}};
 }
 
 std::vector<SeriesInfo> momentum_series() {

@@ -71,7 +71,7 @@ const ToolSpec* die_across(const SpaceScene& scene, const ToolSpec& plane) {
 }  // namespace
 
 FieldInfo ToolSheets::field() {
-  return {"tools/outline", "m", "corners of the tools' surfaces, joined by /tools/quads",
+  return {"tools/outline", "m", "corners of the tools' surfaces, connected by /tools/quads",
           FieldPlace::list, 3};
 }
 

@@ -244,12 +244,12 @@ TEST(Jkr, WhatItDoesNotHoldForIsRefused) {
   const auto refused = [&](const std::vector<std::string>& overrides, const char* why) {
     EXPECT_NE(refusal(overrides).find(why), std::string::npos) << refusal(overrides);
   };
-  refused({"surface.pull_off=1 nN"}, "surface.pull_off: is of another law");
-  refused({"surface.adhesion_range=2 nm"}, "surface.adhesion_range: is of another law");
-  refused({"surface.adhesion=dmt"}, "surface.work_of_adhesion: is of another law");
+  refused({"surface.pull_off=1 nN"}, "surface.pull_off: belongs to another law");
+  refused({"surface.adhesion_range=2 nm"}, "surface.adhesion_range: belongs to another law");
+  refused({"surface.adhesion=dmt"}, "surface.work_of_adhesion: belongs to another law");
   refused({"surface.work_of_adhesion=0 J/m^2"}, "surface.work_of_adhesion");
   refused({"surface.work_of_adhesion=1 N"}, "surface.work_of_adhesion");
-  refused({"tip.contact_edge=0.5 um"}, "not by its mesh");
+  refused({"tip.contact_edge=0.5 um"}, "not from its mesh");
   refused({"surface.shape=step", "surface.height=1 nm", "surface.slope=1"},
           "a surface of shape plane");
 }

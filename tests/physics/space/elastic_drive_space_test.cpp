@@ -89,10 +89,9 @@ TEST(ElasticDriveInSpace, IsRefusedBesideAServo) {
     driven_ball({"stage.press.move.top.stiffness=5e7 N/m", "stage.press.move.top.mass=20 g"},
                 "servo = [{ tool = \"top\", force = \"1 N\", direction = [1, 0, 0] }]\n");
   });
-  EXPECT_NE(
-      message.find("stage[0].move[0].stiffness: 'top' has a servo in the same stage, allowed: "
-                   "one of the two"),
-      std::string::npos)
+  EXPECT_NE(message.find("stage[0].move[0].stiffness: 'top' has a servo in the same stage, "
+                         "allowed: only one of the two"),
+            std::string::npos)
       << message;
 }
 

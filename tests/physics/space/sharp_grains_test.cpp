@@ -78,7 +78,7 @@ TEST(SharpGrainsWarnings, TellThatBendsAreRoundedOff) {
   const std::vector<std::string> lines = space::setup_warnings(coarse, space::place_bodies(coarse));
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines[0].find("'grain'"), std::string::npos);
-  EXPECT_NE(lines[0].find("sharp bends are rounded off"), std::string::npos);
+  EXPECT_NE(lines[0].find("sharp edges are rounded off"), std::string::npos);
   const Scene fine = sharp_grains(cube, 8, "0.1");
   EXPECT_TRUE(space::setup_warnings(fine, space::place_bodies(fine)).empty());
 }

@@ -63,7 +63,7 @@ TEST(SetupWarnings, ATravelBeyondFullDensityIsRefusedWithTheOneThatReachesIt) {
   EXPECT_THAT(warnings_of_25(to("12 mm")), ElementsAre(HasSubstr("beyond full density")));
   const std::string refused = refusal_of_25(to("30 mm"));
   EXPECT_THAT(refused, HasSubstr("stage[0].move[0].displacement"));
-  EXPECT_THAT(refused, HasSubstr("allowed: a travel of up to some 0.0107"));
+  EXPECT_THAT(refused, HasSubstr("allowed: a travel of up to about 0.0107"));
 }
 
 TEST(SetupWarnings, AToolThatFacesAwayIsNamedOnceWithTheNormalThatWouldDo) {
@@ -75,9 +75,9 @@ TEST(SetupWarnings, AToolThatFacesAwayIsNamedOnceWithTheNormalThatWouldDo) {
 }
 
 TEST(SetupWarnings, WallsBesideTheRoomOfThePackingAreTold) {
-  EXPECT_THAT(
-      warnings_of_25({"tool.right.point=[\"52 mm\", \"0 mm\"]"}),
-      ElementsAre(HasSubstr("packing[0] is made for a die 0.05 m wide (x = 0 to 0.05 m), but")));
+  EXPECT_THAT(warnings_of_25({"tool.right.point=[\"52 mm\", \"0 mm\"]"}),
+              ElementsAre(HasSubstr(
+                  "packing[0] is generated for a die 0.05 m wide (x = 0 to 0.05 m), but")));
 }
 
 TEST(LeverWarnings, AreOfDimensionsThatNoLeverHas) {
@@ -88,7 +88,7 @@ TEST(LeverWarnings, AreOfDimensionsThatNoLeverHas) {
   EXPECT_THAT(of({"lever.thickness=60 um"}),
               ElementsAre(HasSubstr("lever.length = 0.00044 m is 7.33 times lever.thickness"),
                           HasSubstr("bends sideways more easily")));
-  EXPECT_THAT(of({"lever.width=400 um"}), ElementsAre(HasSubstr("bends as a plate")));
+  EXPECT_THAT(of({"lever.width=400 um"}), ElementsAre(HasSubstr("bends like a plate")));
 }
 
 // E w t^3/(4 L^3) = 200 GPa 50 um (2.2/440)^3/4.

@@ -101,18 +101,18 @@ std::string fault_of_svg(const std::string& inside) {
 }
 
 TEST(SvgOutline, IsRefusedWithTheReason) {
-  EXPECT_THAT(fault_of_svg("<path d='M0 0H10V10'/>"), HasSubstr("is open: it begins at"));
+  EXPECT_THAT(fault_of_svg("<path d='M0 0H10V10'/>"), HasSubstr("is open: it starts at"));
   EXPECT_THAT(fault_of_svg("<circle id='a' r='9'/><circle id='b' r='5'/>"),
               HasSubstr("2 closed outlines (in 'a', 'b'), allowed: one"));
   EXPECT_THAT(fault_of_svg("<circle r='9'/><path id='axis' d='M0 0H10'/>"),
-              HasSubstr("open lines beside the outline (in 'axis')"));
+              HasSubstr("open lines besides the outline (in 'axis')"));
   EXPECT_THAT(fault_of_svg("<path d='M0 0L10 10V0L0 10Z'/>"), HasSubstr("crosses itself near"));
-  EXPECT_THAT(fault_of_svg("<path d='M0 0Lx'/>"), HasSubstr("a number is wanted"));
+  EXPECT_THAT(fault_of_svg("<path d='M0 0Lx'/>"), HasSubstr("a number is expected"));
   EXPECT_THAT(fault_of_svg("<path d='M0 0B1 1'/>"), HasSubstr("the command 'B'"));
-  EXPECT_THAT(fault_of_svg("<path d='5 5'/>"), HasSubstr("does not begin with a command"));
+  EXPECT_THAT(fault_of_svg("<path d='5 5'/>"), HasSubstr("does not start with a command"));
   EXPECT_THAT(fault_of_svg("<circle r='9' transform='skewX(3)'/>"),
               HasSubstr("the transform 'skewX'"));
-  EXPECT_THAT(fault_of_svg(""), HasSubstr("no outline is in it"));
+  EXPECT_THAT(fault_of_svg(""), HasSubstr("it contains no outline"));
   for (const char* shape :
        {"<circle r='0'/>", "<circle r='1e300'/>", "<circle r='9' transform='scale(0)'/>"})
     EXPECT_THAT(fault_of_svg(shape), HasSubstr("m across, allowed: 1e-12 m to 1000 m")) << shape;
@@ -120,9 +120,9 @@ TEST(SvgOutline, IsRefusedWithTheReason) {
     return message_of<BadDrawing>([&] { drawing::chains_of_svg(text, unit); });
   };
   EXPECT_THAT(fault("<svg><circle r='1'/></svg>", ""), HasSubstr("no unit, allowed: a width"));
-  EXPECT_THAT(fault(svg_of(""), "um"), HasSubstr("its width is in mm already"));
-  EXPECT_THAT(fault("<html/>", "um"), HasSubstr("its first element is another"));
-  EXPECT_THAT(fault("<svg", "um"), HasSubstr("no SVG"));
+  EXPECT_THAT(fault(svg_of(""), "um"), HasSubstr("its width already has the unit mm"));
+  EXPECT_THAT(fault("<html/>", "um"), HasSubstr("its root element is a different one"));
+  EXPECT_THAT(fault("<svg", "um"), HasSubstr("not an SVG file"));
 }
 
 // By Inkscape's label or by id, of the group or the shape; whatever else is drawn does not matter.
@@ -216,12 +216,13 @@ TEST(DxfOutline, IsRefusedWithTheReason) {
   EXPECT_THAT(fault(dxf_of(circle + "0\nCIRCLE\n8\nB\n10\n9\n20\n9\n40\n1\n")),
               HasSubstr("2 closed outlines (in 'A', 'B')"));
   EXPECT_THAT(fault(dxf_of(line)), HasSubstr("the outline is open"));
-  EXPECT_THAT(fault(dxf_of(circle + line)), HasSubstr("open lines beside the outline (in 'AXES')"));
+  EXPECT_THAT(fault(dxf_of(circle + line)),
+              HasSubstr("open lines besides the outline (in 'AXES')"));
   EXPECT_THAT(fault(dxf_of(circle, "0")), HasSubstr("no unit, allowed: $INSUNITS"));
-  EXPECT_THAT(fault(dxf_of(circle), "um"), HasSubstr("its header says its unit already"));
+  EXPECT_THAT(fault(dxf_of(circle), "um"), HasSubstr("its header already gives the unit"));
   EXPECT_THAT(fault(dxf_of("0\nELLIPSE\n8\n0\n")), HasSubstr("a ELLIPSE, allowed: LINE"));
   EXPECT_THAT(fault(dxf_of("0\nSPLINE\n8\n0\n71\n3\n")), HasSubstr("without control points"));
-  EXPECT_THAT(fault("hello\nworld\n"), HasSubstr("no DXF: 'hello'"));
+  EXPECT_THAT(fault("hello\nworld\n"), HasSubstr("not a DXF file: 'hello'"));
   EXPECT_THAT(fault(""), HasSubstr("without entities"));
 }
 

@@ -187,13 +187,14 @@ TEST(Grains, ThatCannotBeMadeAreRefused) {
   const auto refused = [](const char* outline, const char* grains) {
     return message_of([&] { of_grains(outline, grains); });
   };
-  EXPECT_THAT(refused(disc, "number = 20\nsize = \"1 mm\""), HasSubstr("allowed: number or size"));
-  EXPECT_THAT(refused(disc, "relaxation = 3"), HasSubstr("allowed: number or size"));
+  EXPECT_THAT(refused(disc, "number = 20\nsize = \"1 mm\""),
+              HasSubstr("neither or both of number and size"));
+  EXPECT_THAT(refused(disc, "relaxation = 3"), HasSubstr("neither or both of number and size"));
   EXPECT_THAT(refused(disc, "size = \"1 um\""),
-              HasSubstr("particle[0].grains.size: it makes more than 4096"));
+              HasSubstr("particle[0].grains.size: it gives more than 4096"));
   EXPECT_THAT(refused(disc, "size = \"20 mm\""), HasSubstr("2 to 4096 grains"));
   EXPECT_THAT(refused("outline = \"ring\"\ndiameter = \"10 mm\"\nhole = \"5 mm\"", "number = 20"),
-              HasSubstr("a ring is not cut"));
+              HasSubstr("a ring cannot be divided"));
   EXPECT_THAT(
       refused("outline = \"disc\"\ndiameter = \"10 mm\"\nmesh.boundary_edges = 48", "number = 20"),
       HasSubstr("particle[0].mesh.boundary_edges: has no effect on grains"));

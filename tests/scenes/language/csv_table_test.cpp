@@ -57,15 +57,15 @@ TEST(CsvTable, AHeaderBelowAPreambleIsFoundByItsLine) {
 
 TEST(CsvTable, RefusesWhatIsNoNumber) {
   EXPECT_THAT(message_of([] { column("x [m],y [m]\n1,2\n1,oops\n", "y", "m"); }),
-              StartsWith("t.csv:3:3: y: 'oops' is no finite number, allowed: "));
+              StartsWith("t.csv:3:3: y: 'oops' is not a finite number, allowed: "));
   EXPECT_THAT(message_of([] { column("x [m],y [m]\n1,2\n,3\n", "x", "m"); }),
               StartsWith("t.csv:3:1: x: no value, allowed: "));
   EXPECT_THAT(message_of([] { column("x;y\n1,5;2\n1.234,5;1\n", "x", ""); }),
-              StartsWith("t.csv:3:1: x: '1.234,5' is no finite number"));
+              StartsWith("t.csv:3:1: x: '1.234,5' is not a finite number"));
   EXPECT_THAT(message_of([] { column(std::string("x [m]\n1\0\n", 9), "x", "m"); }),
               StartsWith("t.csv:2:2: table: a NUL byte, allowed: text"));
   EXPECT_THAT(message_of([] { column("x [m]\n1e999\n", "x", "m"); }),
-              HasSubstr("no finite number"));
+              HasSubstr("not a finite number"));
   EXPECT_THAT(message_of([] { column("x [km]\n1e29\n", "x", "m"); }),
               StartsWith("t.csv:2:1: x: '1e29' is 1e+32 in SI units, allowed: up to 1e+30"));
 }
@@ -73,20 +73,21 @@ TEST(CsvTable, RefusesWhatIsNoNumber) {
 TEST(CsvTable, RefusesRowsOfAnotherLength) {
   EXPECT_THAT(
       message_of([] { table_of("x [m],y [m]\n1,2\n\n1,2,3\n"); }),
-      StartsWith("t.csv:4:1: row: has 3 fields, allowed: 2, as the column names in line 1"));
+      StartsWith(
+          "t.csv:4:1: row: has 3 fields, allowed: 2, as many as the column names in line 1"));
 }
 
 TEST(CsvTable, RefusesWrongAndMissingUnits) {
   EXPECT_THAT(message_of([] { column("x [kg]\n1\n", "x", "N"); }),
-              HasSubstr("has the dimension of kg, N is wanted"));
+              HasSubstr("has the dimension of kg, N is expected"));
   EXPECT_THAT(message_of([] { column("x\n1\n", "x", "N"); }),
               StartsWith("t.csv:1:1: x: has no unit, allowed: "));
 }
 
 TEST(CsvTable, RefusesMissingColumnsAndEmptyFiles) {
   EXPECT_THAT(message_of([] { column("x [m],y [m]\n1,2\n", "z", "m"); }),
-              StartsWith("t.csv:1:1: z: there is no such column, allowed: the name of one that is "
-                         "here: 'x', 'y'"));
+              StartsWith("t.csv:1:1: z: there is no such column, allowed: one of the columns of "
+                         "the file: 'x', 'y'"));
   EXPECT_THAT(message_of([] { table_of("# nothing\n\n"); }), HasSubstr("is empty, allowed: "));
   EXPECT_THAT(message_of([] { table_of("x [m]\n"); }), HasSubstr("has no rows, allowed: "));
   EXPECT_THAT(message_of([] { csv::read("no-such.csv"); }), HasSubstr("there is no such file"));

@@ -32,7 +32,7 @@ TEST(Preamble, MayHaveUnitsInALineOfTheirOwn) {
 
 TEST(Preamble, WithoutNamesIsRefusedAtTheLineWhereTheyShouldBe) {
   const std::string refused = refused_record("Logger 5000\nOperator: J. Doe\n0,1.5\n1,2.5\n");
-  EXPECT_THAT(refused, HasSubstr("record.csv:2:1: table: no names of the 2 columns"));
+  EXPECT_THAT(refused, HasSubstr("record.csv:2:1: table: there are no names for the 2 columns"));
 }
 
 TEST(DecimalCommas, BetweenCommasAreNamed) {

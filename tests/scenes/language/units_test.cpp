@@ -55,9 +55,9 @@ TEST(Units, AnglesInRadiansAndDegrees) {
 }
 
 TEST(Units, DimensionsAreNotMixed) {
-  EXPECT_EQ(refusal("10 N", "Pa"), "\"10 N\" has the dimension of m.kg.s-2, Pa is wanted");
-  EXPECT_THAT(refusal("10 Hz", "rad/s"), testing::HasSubstr("rad/s is wanted"));
-  EXPECT_THAT(refusal("1 m.rad", "m"), testing::HasSubstr("m is wanted"));
+  EXPECT_EQ(refusal("10 N", "Pa"), "\"10 N\" has the dimension of m.kg.s-2, Pa is expected");
+  EXPECT_THAT(refusal("10 Hz", "rad/s"), testing::HasSubstr("rad/s is expected"));
+  EXPECT_THAT(refusal("1 m.rad", "m"), testing::HasSubstr("m is expected"));
   EXPECT_THAT(refusal("10 %", "rad"), testing::HasSubstr("a plain number"));
 }
 
@@ -70,8 +70,9 @@ TEST(Units, WhatIsNoQuantity) {
   EXPECT_THAT(refusal("+-1 m", "m"), testing::HasSubstr("does not start with a number"));
   EXPECT_THAT(refusal("nan m", "m"), testing::HasSubstr("not a finite number"));
   EXPECT_THAT(refusal("-inf m", "m"), testing::HasSubstr("not a finite number"));
-  EXPECT_THAT(refusal("1e999 m", "m"), testing::HasSubstr("outside what a double can hold"));
-  EXPECT_THAT(refusal("1e300 Ym", "m"), testing::HasSubstr("outside what a double can hold"));
+  EXPECT_THAT(refusal("1e999 m", "m"), testing::HasSubstr("outside the range of double precision"));
+  EXPECT_THAT(refusal("1e300 Ym", "m"),
+              testing::HasSubstr("outside the range of double precision"));
 }
 
 TEST(Units, FactorsAndOffsetsDoNotHideInUnits) {

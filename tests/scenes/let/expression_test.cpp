@@ -110,17 +110,17 @@ INSTANTIATE_TEST_SUITE_P(
         WrongText{"D + 1", "the dimensions differ"}, WrongText{"phi + 1", "the dimensions differ"},
         WrongText{"ph*2", "no variable is called 'ph', did you mean 'phi'?"},
         WrongText{"n*mm", "for the unit write 1 mm"}, WrongText{"2 D + 1 mm", "write 2*D"},
-        WrongText{"sine(phi)", "no function 'sine'"}, WrongText{"sin(D)", "an angle is wanted"},
+        WrongText{"sine(phi)", "no function 'sine'"}, WrongText{"sin(D)", "an angle is expected"},
         WrongText{"exp(D)", "plain number"}, WrongText{"min(D, F)", "the dimensions differ"},
         WrongText{"sqrt(D, D)", "takes one value, 2 are given"},
-        WrongText{"2^D", "no plain number"}, WrongText{"(-n)^0.5", "cannot be raised"},
+        WrongText{"2^D", "not a plain number"}, WrongText{"(-n)^0.5", "cannot be raised"},
         WrongText{"D/(n - 10)", "not finite"}, WrongText{"log(0*n)", "not finite"},
         WrongText{"sqrt(-n)", "not finite"}, WrongText{"(D", "not closed"},
-        WrongText{"D)", "')' stands where an operator"},
-        WrongText{"D D", "'D' stands where an operator"},
-        WrongText{"n**2", "'*' stands where a value"}, WrongText{"n*", "it ends"},
-        WrongText{"sqrt", "a bracket is wanted"}, WrongText{"D & n", "'&' belongs"},
-        WrongText{"n*3 furlongses", "unknown unit"}, WrongText{"n*20 degC", "offset"}));
+        WrongText{"D)", "')' where an operator"}, WrongText{"D D", "'D' where an operator"},
+        WrongText{"n**2", "'*' where a value"}, WrongText{"n*", "it ends"},
+        WrongText{"sqrt", "an opening bracket is expected"},
+        WrongText{"D & n", "'&' is not allowed"}, WrongText{"n*3 furlongses", "unknown unit"},
+        WrongText{"n*20 degC", "offset"}));
 
 TEST(DeepExpressions, AreRefused) {
   const std::string deep(100, '('), signs(100, '-');

@@ -131,13 +131,13 @@ TEST_F(GmshTip, WhatCannotBeUsedIsRefusedWithItsLineAndWhatIsAllowed) {
       HasSubstr("is a tetrahedron of four nodes (type 4), allowed: hexahedra"));
   EXPECT_THAT(refusal(replaced(good, "\"end\"", "\"bottom\"")), HasSubstr("\"foot\" and \"end\""));
   EXPECT_THAT(refusal(replaced(good, "33 5 2 7 1 10 11", "33 5 2 7 1 9999 11")),
-              HasSubstr("node 9999 is not there"));
+              HasSubstr("node 9999 does not exist"));
   EXPECT_THAT(refusal(replaced(good, "33 5 2 7 1 10 11 16 15", "33 5 2 7 1 10 16 11 15")),
-              HasSubstr("is folded"));
+              HasSubstr("is inverted"));
   EXPECT_THAT(refusal(good.substr(0, good.rfind('\n', good.size() / 2) + 1)),
               HasSubstr("ends too early"));
   EXPECT_THAT(refusal(replaced(good, "\n1 3 2 1 5 10 11 16 15", "\n1 3 2 1 5 10 11 16 20")),
-              HasSubstr("an element of 'foot' is no face of a volume's element"));
+              HasSubstr("an element of 'foot' is not a face of a volume element"));
   EXPECT_THAT(refusal(replaced(good, "\n10 -1 -1 ", "\n10 -1e9 -1 ")),
               HasSubstr("allowed: up to 1 m"));
   // A count is only what the file claims: no memory is taken for it.

@@ -82,7 +82,7 @@ TEST(WrongAfm, ActionsNeedASurfaceAndAForceToKeep) {
       std::string(beam_with_tip) +
       "[[action]]\nkind = \"scan\"\ndistance = \"1 um\"\nset_point = \"force\"\n";
   EXPECT_NE(refusal(scan).find("there is no surface"), std::string::npos);
-  EXPECT_NE(refusal(scan + "[surface]\nshape = \"plane\"\n").find("no force to keep"),
+  EXPECT_NE(refusal(scan + "[surface]\nshape = \"plane\"\n").find("no force to hold"),
             std::string::npos);
 }
 
@@ -160,7 +160,7 @@ set_back = "5 um"
 }
 
 TEST(WrongAfm, AKeyOfTheMeshThatChangesNothingIsRefused) {
-  expect_refusal({"lever.aspect=12"}, "lever.aspect: 12 has no more effect");
+  expect_refusal({"lever.aspect=12"}, "lever.aspect: 12 is out of range");
   expect_refusal({"lever.aspect=0.6"}, "allowed: 1.33 to 10");
   expect_refusal({"lever.elements_across=4", "lever.side_aspect=1"},
                  "lever.side_aspect: has no effect");

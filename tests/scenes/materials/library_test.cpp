@@ -110,9 +110,9 @@ std::string problem_of(const std::string& material) {
 
 TEST(MaterialLibrary, NamesWhatItHas) {
   EXPECT_THAT(problem_of("library = \"316l\"\n"),
-              HasSubstr("wrong.toml:7:11: material[0].library: \"316l\" is no material of the "
+              HasSubstr("wrong.toml:7:11: material[0].library: \"316l\" is not a material of the "
                         "library, did you mean '316L'?, allowed: 316L, Cu-OFHC, Fe"));
-  EXPECT_THAT(problem_of("library = 316\n"), HasSubstr("316 is no material of the library"));
+  EXPECT_THAT(problem_of("library = 316\n"), HasSubstr("316 is not a material of the library"));
   EXPECT_THAT(problem_of("library = \"316L\"\nelastic = 1\n"), HasSubstr("allowed: true or false"));
   EXPECT_THAT(problem_of("library = \"316L\"\nelastic = true\nyield_stress = \"1 MPa\"\n"),
               HasSubstr("contradicts elastic = true"));

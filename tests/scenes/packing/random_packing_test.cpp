@@ -196,7 +196,7 @@ TEST(RandomPacking, RefusesADensityOutOfReach) {
   EXPECT_EQ(problems[0].line, 20);
   EXPECT_EQ(problems[0].column, 11);
   EXPECT_THAT(problems[0].message,
-              testing::ContainsRegex("0.9300 is not reached: .* allowed: at most 0.8[0-9]+"));
+              testing::ContainsRegex("0.9300 cannot be reached: .* allowed: at most 0.8[0-9]+"));
 }
 
 // Rough meshes, friction, four tools: the punch meets particles one after the other.

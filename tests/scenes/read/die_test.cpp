@@ -107,7 +107,7 @@ TEST(WrongDie, IsRefusedAtItsPlace) {
   EXPECT_THAT(
       problem_with(lattice + "[die]\n[[tool]]\nname = \"right\"\nshape = \"plane\"\npoint = [\"7 "
                              "mm\", \"9 mm\"]\nnormal = [-1, 0]\n"),
-      HasSubstr("tool[0].point: stands at x = 0.007 m, but this side of the die is at 0.006 m"));
+      HasSubstr("tool[0].point: is at x = 0.007 m, but this side of the die is at 0.006 m"));
   EXPECT_THAT(problem_with(lattice + "[die]\nwdth = \"1 mm\"\n"),
               HasSubstr("die.wdth: unknown key, did you mean 'width'?"));
   EXPECT_THAT(problem_with(lattice + "[die]\nwidth = 3\n"), HasSubstr("die.width: missing unit"));

@@ -77,9 +77,9 @@ TEST_P(WrongExpectation, IsRefused) {
 }
 
 const WrongExpect wrongs[] = {
-    {"Nothing", "", "", "either `series` or `outcome`"},
+    {"Nothing", "", "", "neither or both of `series` and `outcome`"},
     {"Both", "series = \"dt\"\nbelow = 1\noutcome = \"stops\"\nmessage = \"a\"", "",
-     "either `series` or `outcome`"},
+     "neither or both of `series` and `outcome`"},
     {"UnknownSeries", "series = \"tool/top/forcey\"\nbelow = 1", ".series",
      "did you mean 'tool/top/force_y'?"},
     {"SeriesOfADieWithoutADie", "series = \"relative_density\"\nbelow = 1", ".series",
@@ -101,7 +101,7 @@ const WrongExpect wrongs[] = {
      "did you mean 'always'?"},
     {"NoMessage", "outcome = \"stops\"", ".message", "required key"},
     {"NoRegularExpression", "outcome = \"stops\"\nmessage = \"(\"", ".message",
-     "no regular expression"},
+     "not a regular expression"},
     {"MessageWithoutOutcome", "series = \"dt\"\nbelow = 1\nmessage = \"a\"", ".message",
      "only together with outcome"},
     {"ScaleWithoutScene", "series = \"dt\"\nbelow = 1\nscale = 2", ".scale",

@@ -180,7 +180,7 @@ TEST_F(Program, AnotherSceneTimesAScale) {
   const std::string like = "series = \"tool/top/force_y\"\nlike = \"other.toml\"\nwithin = 1e-12\n";
   EXPECT_EQ(run(thick + expect(like + "scale = 2.0")), 0) << out;
   EXPECT_EQ(run(thick + expect(like)), 3);
-  EXPECT_THAT(out, HasSubstr(": 1 off; expected: within 1e-12 of that of other.toml\n"));
+  EXPECT_THAT(out, HasSubstr(": off by 1; expected: within 1e-12 of the value of other.toml\n"));
   EXPECT_EQ(run(thick + expect(like + "scale = 2.0"), "--set 'body[0].angle=10 deg'"), 3);
 }
 

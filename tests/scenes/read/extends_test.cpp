@@ -285,7 +285,7 @@ TEST_F(Extends, CirclesAndLongChainsAreRefused) {
   write("b.toml", "extends = \"c.toml\"");
   write("c.toml", "title = \"c\"\nextends = \"./b.toml\"");
   EXPECT_THAT(wrong_with("extends = \"b.toml\""),
-              HasSubstr("c.toml:2:11: extends: ./b.toml extends itself by way of this file"));
+              HasSubstr("c.toml:2:11: extends: ./b.toml extends itself through this file"));
   EXPECT_THAT(wrong_with("extends = \"scene.toml\""), HasSubstr("scene.toml:1:11: extends: "));
   for (int i = 0; i < 9; ++i)
     write("chain-" + std::to_string(i) + ".toml",

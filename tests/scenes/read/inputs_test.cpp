@@ -109,7 +109,7 @@ TEST_F(Inputs, AnotherFileOfTheCopysNameIsNeverReplaced) {
   std::ofstream(copy) << "somebody's notes";
   const Outcome outcome = run({"--overwrite"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("it is another file"));
+  EXPECT_THAT(outcome.err, HasSubstr("a different file is there already"));
   EXPECT_EQ(text_of(copy), "somebody's notes");
 }
 
@@ -122,7 +122,7 @@ TEST_F(Inputs, ASavedSceneRunsAgainButNotOverItself) {
   const std::string saved = text_of(place / "run/scene.toml");
   const Outcome over = pulvis({"run", "run/scene.toml", "-o", "run", "--overwrite"});
   EXPECT_EQ(over.code, 2);
-  EXPECT_THAT(over.err, HasSubstr("which is being read"));
+  EXPECT_THAT(over.err, HasSubstr("which is an input"));
   EXPECT_EQ(text_of(place / "run/scene.toml"), saved);
   const Outcome again = pulvis({"run", "run/scene.toml", "-o", "again"});
   ASSERT_EQ(again.code, 0) << again.err;
@@ -136,7 +136,7 @@ TEST_F(Inputs, ADamagedCopyIsNotResumed) {
   trace(copies().front(), 6);
   const Outcome outcome = pulvis({"resume", "run"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("the checkpoint is of another scene"));
+  EXPECT_THAT(outcome.err, HasSubstr("the checkpoint belongs to another scene"));
 }
 
 // What `reduce` keeps does the same again without the records, those of the command line included.

@@ -226,7 +226,7 @@ TEST_F(Limits, ExpressionsThatNeedBacktrackingAreRefused) {
         << "\n[[expect]]\noutcome = \"stops\"\nmessage = \"" + wrong + "\"\n";
     const Outcome end = patient({"check", "wrong.toml"});
     EXPECT_EQ(end.code, 2) << wrong;
-    EXPECT_THAT(end.err, HasSubstr("expect[0].message: no regular expression")) << end.err;
+    EXPECT_THAT(end.err, HasSubstr("expect[0].message: not a regular expression")) << end.err;
   }
 }
 
@@ -314,7 +314,7 @@ TEST_F(Limits, AHistoryThatIsDeletedMeanwhileIsToldOf) {
   fs::remove(place / "run" / "history.csv");
   const Outcome end = end_or_hang(child);
   EXPECT_EQ(end.code, 4) << end.err;
-  EXPECT_THAT(end.err, HasSubstr("history.csv: cannot go on with the file: it is no longer there"));
+  EXPECT_THAT(end.err, HasSubstr("history.csv: cannot continue the file: it is no longer there"));
 }
 
 TEST_F(Limits, WhatCannotBeToldIsAnError) {
@@ -330,7 +330,7 @@ TEST_F(Limits, AFullDiskBeforeTheFirstCheckpointDoesNotAdviseToResume) {
   const Outcome end = pulvis(short_run("run"), "ulimit -f 400");  // of 512 bytes: 200 kB
   ASSERT_EQ(end.code, 4) << end.err;
   EXPECT_THAT(end.err, Not(HasSubstr("pulvis resume")));
-  EXPECT_THAT(end.err, HasSubstr("there is no checkpoint yet"));
+  EXPECT_THAT(end.err, HasSubstr("there is no checkpoint to continue from"));
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(WrongDrives, AreRefused) {
               HasSubstr("'target' has another move in the same stage, allowed: one"));
   EXPECT_THAT(drive_refusal("move = [" + move(spring) +
                             "]\nservo = [{ tool = \"target\", force = \"1 N\" }]"),
-              HasSubstr("'target' has a servo in the same stage, allowed: one of the two"));
+              HasSubstr("'target' has a servo in the same stage, allowed: only one of the two"));
   EXPECT_THAT(drive_refusal("",
                             "friction = [{ between = [\"steel\", \"target\"], coefficient = "
                             "0.2, rate = 0.1 }]\n"),

@@ -51,7 +51,7 @@ TEST(WrongOutline, PolygonIsRefusedWithReasonAndBound) {
                  "sides that meet only at their ends");
   expect_refused(polygon(R"(["0 mm", "0 mm"], ["9 mm", "0 mm"])"), ".corners", "2 corners",
                  "at least 3");
-  expect_refused(polygon(square, "rounding = \"5 mm\""), ".rounding", "0.005 m is more",
+  expect_refused(polygon(square, "rounding = \"5 mm\""), ".rounding", "0.005 m is too large",
                  "0.0045 m");
   expect_refused(polygon(square, "diameter = \"5 mm\""), ".diameter", "no effect", "sides");
   expect_refused(polygon(square, "sides = 5\ndiameter = \"5 mm\""), ".corners", "already",
@@ -66,7 +66,7 @@ TEST(WrongOutline, PolygonIsRefusedWithReasonAndBound) {
           R"(["0 mm","0 mm"],["10 mm","0 mm"],["10 mm","9 mm"],["5 mm","5 mm"],["0 mm","9 mm"])"),
       ".rounding", "(", "> 0 and <= ");
   expect_refused(polygon(hooked, "rounding = \"0.5 mm\""), ".corners", "no point inside",
-                 "outlines with such a point");
+                 "outlines, which have such a point");
 }
 
 TEST(WrongOutline, ExponentSlendernessAndMeshAreRefusedWithTheirBounds) {
@@ -80,7 +80,7 @@ TEST(WrongOutline, ExponentSlendernessAndMeshAreRefusedWithTheirBounds) {
   expect_refused(ellipse + "\"6 mm\"\n\n[particle.mesh]\nrings = 0", ".mesh.rings", "needs a ring",
                  ">= 1");
   expect_refused(ellipse + "\"6 mm\"\n\n[particle.mesh]\nsize = \"1 mm\"\nrings = 1", ".mesh.rings",
-                 "no effect together with size", "either of them");
+                 "no effect together with size", "only one of them");
   expect_refused(ellipse + "\"6 mm\"\n\n[particle.mesh]\nsize = \"1 um\"", ".mesh", "quads",
                  "at most 1000000");
   expect_refused("outline = \"disc\"\ndiameter = \"9 mm\"\nmirrored = true", ".mirrored",
@@ -91,10 +91,10 @@ TEST(WrongOutline, ExponentSlendernessAndMeshAreRefusedWithTheirBounds) {
 TEST(WrongOutline, IrregularIsRefusedWhereItWouldCrossItselfOrIsTooSharpForItsMesh) {
   const std::string grain = "outline = \"fourier\"\ndiameter = \"10 mm\"\n";
   const std::string coarse = "\n[particle.mesh]\nboundary_edges = 20";
-  expect_refused(grain + "irregularity = 0.5\ndecay = 0", ".irregularity", "soon crosses itself",
+  expect_refused(grain + "irregularity = 0.5\ndecay = 0", ".irregularity", "may cross itself",
                  "with these phases");
-  expect_refused(grain + "roughness = 0.2\ndecay = 0\nmodes = 40", ".roughness",
-                 "soon crosses itself", "with these phases");
+  expect_refused(grain + "roughness = 0.2\ndecay = 0\nmodes = 40", ".roughness", "may cross itself",
+                 "with these phases");
   expect_refused(grain + "irregularity = 0.6", ".irregularity", "0.6 is out of range", "<= 0.5");
   expect_refused(grain + "aspect_ratio = 0.5", ".aspect_ratio", "0.5 is out of range", ">= 1");
   expect_refused(grain + "roughness = 0.02\nmodes = 7", ".modes", "7 is out of range", ">= 8");
@@ -175,22 +175,24 @@ TEST_F(PointsFile, IsRefusedAtItsLine) {
     expect_refused(outline(more), ".file", reason, bound);
   };
   wrong(circle("x (mm), y (mm)\n", 7), "7 points", "at least 8");
-  wrong("x (mm), y (mm)\n1, 2\n3, four\n", ".csv:3: 'four' is no number", "x, y");
+  wrong("x (mm), y (mm)\n1, 2\n3, four\n", ".csv:3: 'four' is not a number", "x, y");
   wrong("x (mm), y (mm)\n1, 2, 3\n", ".csv:2: 3 columns", "two");
   wrong("x (mm), y (mm)\n1, 2\n1, 2\n", ".csv:3: the same point", "each once");
-  wrong(circle("x (mm), y (mm)\n10, 0\n10.000000001, 0\n"), ".csv:2: the next point is nearer",
+  wrong(circle("x (mm), y (mm)\n10, 0\n10.000000001, 0\n"), ".csv:2: the next point is closer",
         "1e-09 of the outline's diagonal");
   wrong("x (mm), y (mm)\n1e40, 2\n", ".csv:2: a point 1e+37 m away", "up to 1e+30 m");
   wrong("x (mm), y (um)\n1, 2\n", ".csv:1: x is in 'mm' and y in 'um'", "one unit");
   wrong("x (kg), y (kg)\n1, 2\n", ".csv:1: unit:", "a length");
   wrong(circle("x, y\n"), ".csv:1: no unit", "the key unit");
-  wrong(circle("x (mm), y (mm)\n"), ".csv:1: the unit is 'mm' already", "no key unit",
+  wrong(circle("x (mm), y (mm)\n"), ".csv:1: the unit is already 'mm'", "no key unit",
         "unit = \"mm\"");
   wrong("x (mm), y (mm)\n0,0\n4,4\n8,0\n8,8\n4,5\n4,3\n0,8\n-2,4\n", "crosses itself",
         "meet only at their ends");
   write(circle("x (mm), y (mm)\n"));
-  expect_refused(outline("smoothing = \"2 mm\""), ".smoothing", "would melt", "<= 0.0005 m");
-  expect_refused(outline("width = \"1 mm\"\narea = \"1 mm^2\""), ".width", "scaled once", "one of");
+  expect_refused(outline("smoothing = \"2 mm\""), ".smoothing", "would smooth the outline away",
+                 "<= 0.0005 m");
+  expect_refused(outline("width = \"1 mm\"\narea = \"1 mm^2\""), ".width", "scaled only once",
+                 "one of");
 }
 
 }  // namespace

@@ -209,7 +209,7 @@ const WrongTool cases[] = {
      "\"x\"\n"
      "[[friction]]\nbetween = [\"316L\", \"third\"]\ncoefficient = 0.1",
      "friction[1].between",
-     {"nothing touches the constraint 'third'"}},
+     {"the constraint 'third' has no contact"}},
     {"ShearWithoutMove",
      "shape = \"constraint\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = "
      "\"x\"\n"

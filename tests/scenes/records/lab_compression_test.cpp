@@ -151,7 +151,7 @@ TEST(LabCompression, ASimulationIsComparedWhereBothHaveBeen) {
   EXPECT_NEAR(misfit.rms_log_pressure, std::log(2.0), 0.01);
   EXPECT_GT(misfit.rms_density, 0.03);
   for (double& d : twice.density) d -= 0.5;
-  EXPECT_THAT(misfit_of(twice, measured).not_compared, HasSubstr("simulated at 0.25"));
+  EXPECT_THAT(misfit_of(twice, measured).not_compared, HasSubstr("simulated from 0.25"));
 }
 
 TEST(LabCompression, RefusesWhatIsNoSingleLoading) {
@@ -164,10 +164,11 @@ TEST(LabCompression, RefusesWhatIsNoSingleLoading) {
   PressRecord cycled = whole;
   for (std::size_t i = 400; i < 420; ++i) cycled.force[i] = 30e3;
   EXPECT_THAT(refusal(cycled, all.machine),
-              HasSubstr("no single loading, allowed: a fall of 0.03"));
+              HasSubstr("not a single loading, allowed: a drop of 0.03"));
   Compliance weak = all.machine;
   weak.largest_force = 60e3;
-  EXPECT_THAT(refusal(whole, weak), HasSubstr("beyond the record of the empty press, allowed: up"));
+  EXPECT_THAT(refusal(whole, weak),
+              HasSubstr("beyond the range of the record of the empty press, allowed: up"));
   Compliance none = all.machine;
   none.meeting = 20e-3;
   EXPECT_THAT(refusal(whole, none), HasSubstr("mm high, allowed: > 0"));
@@ -184,11 +185,11 @@ TEST(LabCompression, SettingsAreCheckedBeforeAnyRecord) {
   EXPECT_THAT(refusal(curve + "fill_height = \"12 mm\"\n"),
               HasSubstr("die.solid_density: is not given, allowed: > 0 kg/m^3"));
   EXPECT_THAT(refusal(die + curve + "fill_height = \"12 mm\"\nfinal_height = \"8 mm\"\n"),
-              HasSubstr("curve[0].final_height: stands beside fill_height"));
+              HasSubstr("curve[0].final_height: is given together with fill_height"));
   EXPECT_THAT(refusal(die + curve +
                       "fill_height = \"12 mm\"\n[compression]\nempty = \"e.csv\"\n"
                       "compliance = [1e-9]\n"),
-              HasSubstr("compression.compliance: stands beside compression.empty"));
+              HasSubstr("compression.compliance: is given together with compression.empty"));
   EXPECT_THAT(refusal(die + curve +
                       "fill_height = \"12 mm\"\n[[run]]\npress = \"p\"\nlogger = "
                       "\"l\"\n"),

@@ -176,8 +176,9 @@ TEST_F(LabRecords, RefusesAGap) {
   auto lines = lines_of(logger);
   lines.erase(lines.begin() + 100, lines.begin() + 130);  // lines 101 to 130 of the file
   logger = joined(lines);
-  EXPECT_THAT(logger_refusal(),
-              StartsWith("logger.csv:101:1: time: a gap of 3.1 s after line 100, allowed: 0.5 s"));
+  EXPECT_THAT(
+      logger_refusal(),
+      StartsWith("logger.csv:101:1: time: a gap of 3.1 s after line 100, allowed: at most 0.5 s"));
 }
 
 TEST_F(LabRecords, RefusesTimeThatGoesBackOrStandsStill) {
@@ -195,8 +196,8 @@ TEST_F(LabRecords, RefusesTimeThatGoesBackOrStandsStill) {
 TEST_F(LabRecords, RefusesMissingColumns) {
   replace_first(press, "Force", "Load");
   EXPECT_THAT(press_refusal(),
-              StartsWith("press.csv:2:1: force: there is no such column, allowed: the name of one "
-                         "that is here: 'Time', 'Load', 'Displacement'"));
+              StartsWith("press.csv:2:1: force: there is no such column, allowed: one of the "
+                         "columns of the file: 'Time', 'Load', 'Displacement'"));
   EXPECT_EQ(press_refusal({"press.force=Load"}), "");
 }
 

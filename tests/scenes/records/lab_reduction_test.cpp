@@ -199,7 +199,7 @@ TEST(LabReduction, RefusesATooShortDistance) {
   EXPECT_THAT(message_of([&] { reduced(truth); }),
               StartsWith("logger.csv:1:1: lvdt: the plate slides 9 mm, allowed: at least 15 mm"));
   EXPECT_THAT(message_of([&] { reduced(truth, {"analysis.shortest_sliding=5 mm"}); }),
-              HasSubstr("of which 0 samples are for the dynamic mean, allowed: at least 20"));
+              HasSubstr("with 0 samples for the dynamic mean, allowed: at least 20"));
 }
 
 TEST(LabReduction, RefusesRecordsOfDifferentTests) {
@@ -237,7 +237,7 @@ TEST(LabReduction, RefusesAShearForceThatNoCoefficientGives) {
 
 TEST(LabReduction, RefusesALoadCellOfTheOtherSign) {
   EXPECT_THAT(message_of([] { reduced({}, {"load_cell.gain=-0.7257 N/(um/m)"}); }),
-              HasSubstr("load_cell.gain of the other sign"));
+              HasSubstr("load_cell.gain of the opposite sign"));
 }
 
 }  // namespace

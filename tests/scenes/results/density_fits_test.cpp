@@ -132,7 +132,7 @@ TEST(DensityFits, BadCurvesAreRefusedWithTheReason) {
                  "changes by 0.0004");
   Curve cycles = curve_of(0.7, 400e6, law);
   cycles.density[100] = 0.7;
-  expect_refused(cycles, "no single loading");
+  expect_refused(cycles, "not a single loading");
   Curve constant = curve_of(0.7, 400e6, law);
   for (double& p : constant.pressure) p = 1e6;
   expect_refused(constant, "the pressure is constant");

@@ -48,7 +48,7 @@ TEST(RunQuality, TellsWhatToDoBeyondALimitAndNothingWithin) {
   EXPECT_GE(beyond, 2);
   const QualityFigure lost = figure(figures, "Force lost to penetration");
   EXPECT_THAT(lost.line(), StartsWith("force lost to penetration "));
-  EXPECT_THAT(lost.line(), HasSubstr("% (limit 5%): contact.stiffness = 10 would do"));
+  EXPECT_THAT(lost.line(), HasSubstr("% (limit 5%): use contact.stiffness = 10"));
   EXPECT_THAT(figure(figures, "Narrow contacts").line(), HasSubstr("edges of at most "));
   EXPECT_THAT(figure(figures, "Energy balance error").advice, IsEmpty());
 }
@@ -67,7 +67,7 @@ TEST(RunQuality, IsContentWithStiffContactsAFineMeshAndFourPoints) {
 TEST(RunQuality, AsksForSmallerFacesWithStifferContactsOfAPowder) {
   const auto figures = judged("extreme/space-box-rd-97.toml", {});
   EXPECT_THAT(figure(figures, "Force lost to penetration").advice,
-              StartsWith("contact.stiffness = 10 would do, with smaller faces "));
+              StartsWith("use contact.stiffness = 10, with smaller faces "));
 }
 
 // Kinetic energy is judged where the scene asks for it.

@@ -101,8 +101,8 @@ TEST(OverlapsInSpace, APlaneThatFacesAwayIsToldOnce) {
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].line, 3);
   EXPECT_THAT(problems[0].message,
-              HasSubstr("faces away from the powder: every particle lies behind it, allowed: "
-                        "the normal out of the tool into the powder, [1, 0, 0]"));
+              HasSubstr("faces away from the powder: every particle lies behind it, allowed: a "
+                        "normal that points from the tool into the powder, [1, 0, 0]"));
 }
 
 // Along y: a ball 24.5 mm off the axis of a die of 60 mm fits with half a millimetre, one 25.2 mm off reaches 0.2 mm behind.
@@ -211,7 +211,7 @@ TEST(OverlapsInSpace, AreListedTwentyAtMost) {
   for (int i = 0; i < 30; ++i) places.push_back({0, {i * 9.0, 0, 0}});
   const auto problems = problems_of(placed({SphereShape{10 * mm}}, places));
   ASSERT_EQ(problems.size(), 21u);
-  EXPECT_EQ(problems.back().message, "there are more overlaps, not listed");
+  EXPECT_EQ(problems.back().message, "there are more overlaps that are not listed");
 }
 
 }  // namespace

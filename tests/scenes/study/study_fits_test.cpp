@@ -100,7 +100,7 @@ TEST_F(StudyFits, WhatFailedOrIsNoStrengthIsTold) {
   EXPECT_TRUE(law.size_effect.empty());
   EXPECT_EQ(law.groups[0].not_fitted, "");
   forces[3] = -2;
-  EXPECT_THAT(fitted().groups[0].not_fitted, HasSubstr("of small3 is no strength"));
+  EXPECT_THAT(fitted().groups[0].not_fitted, HasSubstr("of small3 is not a strength"));
 }
 
 // Of a key's exact power law every exponent is that power, over all runs and at each; the unit is that of the key.

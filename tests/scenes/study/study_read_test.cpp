@@ -156,18 +156,18 @@ TEST_F(StudyRead, LawsOfStrengthAreChecked) {
       refusal(with_fit(weibull, "[1, 2, 3, 4]")),
       HasSubstr("fit[0].law: 4 runs of 'base' can be fitted, allowed: at least 5 (`seeds`)"));
   EXPECT_THAT(refusal(with_fit(weibull + "disc = \"ball\"\n")),
-              HasSubstr("6:8: fit[0].disc: 'ball' is no class of discs"));
+              HasSubstr("6:8: fit[0].disc: 'ball' is not a class of discs"));
   EXPECT_THAT(refusal(with_fit(weibull + "disc = \"disc\"\narea = \"1 mm^2\"\n")),
               HasSubstr("fit[0].disc: has no effect together with `area`"));
   EXPECT_THAT(refusal(with_fit("law = \"weibull\"\nseries = \"pressure/top\"\ndisc = \"disc\"\n")),
-              HasSubstr("fit[0].series: 'pressure/top' is no force"));
+              HasSubstr("fit[0].series: 'pressure/top' is not a force"));
   EXPECT_THAT(refusal(with_fit(weibull + "at = 0.8\nwhen = \"max\"\n")),
               HasSubstr("fit[0].when: has no effect together with `at`"));
   EXPECT_THAT(refusal(with_fit(weibull + "density = \"relative_density\"\n")),
               HasSubstr("fit[0].density:"));
   const std::string porous = "law = \"ryshkewitch_duckworth\"\nseries = \"pressure/top\"\n";
   EXPECT_THAT(refusal(with_fit(porous + "density = \"time\"\n")),
-              HasSubstr("6:11: fit[0].density: 'time' is no relative density"));
+              HasSubstr("6:11: fit[0].density: 'time' is not a relative density"));
   EXPECT_THAT(refusal(with_fit(porous + "density = \"denstiy\"\n")),
               HasSubstr("fit[0].density: a run of 'base' has no series 'denstiy'"));
   EXPECT_THAT(refusal(with_fit(porous + "by = [\"contact.friction\"]\n")),

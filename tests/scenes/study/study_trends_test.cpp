@@ -160,7 +160,7 @@ TEST_F(StudyVerdict, ARunThatFailedMeetsNothing) {
   EXPECT_FALSE(broken.met);
   EXPECT_EQ(broken.measured, "no result of b2: crashed");
   expect.at = StudyExpect::Bound{7, ""};
-  EXPECT_THAT(verdict(expect).measured, HasSubstr("does not get there"));
+  EXPECT_THAT(verdict(expect).measured, HasSubstr("does not reach it"));
 }
 
 TEST(StudySeries, TravelInSpaceIsAlongAllThreeAxes) {

@@ -131,16 +131,16 @@ TEST_F(DrawnFace, IsRefusedWithTheReason) {
               HasSubstr("tool[1].file: has no effect together with points"));
   EXPECT_THAT(fault("points = [[\"40 mm\", \"30 mm\"], [\"0 mm\", \"30 mm\"]]\nnormal = [0, -1]\n"),
               HasSubstr("tool[1].normal: has no effect"));
-  EXPECT_THAT(fault(drawn + "unit = \"mm\"\n"), HasSubstr("its width is in mm already"));
+  EXPECT_THAT(fault(drawn + "unit = \"mm\"\n"), HasSubstr("its width already has the unit mm"));
   EXPECT_THAT(fault("file = \"none.svg\"\nnormal = [0, -1]\n"), HasSubstr("none.svg: "));
   EXPECT_THAT(fault("file = \"face.csv\"\nnormal = [0, -1]\n"),
-              HasSubstr("no drawing by its ending, allowed: .svg, .dxf"));
+              HasSubstr("not a drawing by its file extension, allowed: .svg, .dxf"));
   draw("<path d='M0 0H40'/>", "");
   EXPECT_THAT(fault(drawn), HasSubstr("no unit, allowed: a width"));
   draw("<circle id='hole' r='9'/>");
   EXPECT_THAT(fault(drawn), HasSubstr("a closed outline (in 'hole'), allowed: one open line"));
   draw("");
-  EXPECT_THAT(fault(drawn), HasSubstr("no line is in it"));
+  EXPECT_THAT(fault(drawn), HasSubstr("it contains no line"));
   draw("<path d='M0 0L40 -40V0L0 -40'/>");
   EXPECT_THAT(fault(drawn), HasSubstr("tool[1].file: the straight part from point"));
 }

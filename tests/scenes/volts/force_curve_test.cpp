@@ -100,9 +100,10 @@ TEST(ForceCurve, WhatIsNoForceCurveIsRefused) {
   CurveTruth truth;
   ForceCurve turned = truth.curve(0.004);
   for (double& v : turned.normal) v = -v;
-  EXPECT_THAT(message(turned), HasSubstr("allowed: volts that grow where the probe is pressed on"));
+  EXPECT_THAT(message(turned),
+              HasSubstr("allowed: volts that increase where the probe is pressed on"));
   truth.touch = 500 * nm;  // never reached
-  EXPECT_THAT(message(truth.curve(0.004)), HasSubstr("no contact rises above the noise"));
+  EXPECT_THAT(message(truth.curve(0.004)), HasSubstr("no contact signal above the noise"));
   truth.touch = 220 * nm;
   truth.pull = 2.0;  // would let go at 60 nm, within the part that is taken for free
   EXPECT_THAT(message(truth.curve(0.004)), HasSubstr("allowed"));

@@ -263,15 +263,16 @@ TEST_F(WrongVolts, SettingsAreRefusedWithTheirKey) {
   EXPECT_THAT(message({"lever.k_n_error=0.5"}), HasSubstr("lever.k_n_error"));
   EXPECT_THAT(message({"lever.k_l=1 N"}), HasSubstr("lever.k_l"));
   EXPECT_THAT(message({"lever.calibration=volts-lever.json"}),
-              HasSubstr("stands beside `lever.calibration`"));
+              HasSubstr("is given together with `lever.calibration`"));
   EXPECT_THAT(message({"afm.draws=10"}), HasSubstr(">= 1000"));
   EXPECT_THAT(message({"afm.lateral=test_probe"}),
               HasSubstr("test_probe.contacts: is missing, allowed: a file"));
   EXPECT_THAT(message({"afm.lateral=test_probe"}), HasSubstr("lever.k_l: is missing"));
   EXPECT_THAT(message({"force_curves.from=0.9"}),
-              HasSubstr("force_curves.until: 0.95 leaves no line from 0.9 on, allowed: >= 1"));
+              HasSubstr("force_curves.until: 0.95 leaves no line above 0.9, allowed: >= 1"));
   EXPECT_THAT(message({"crosstalk.method=given"}), HasSubstr("crosstalk.coefficient"));
-  EXPECT_THAT(message({"wedge.slope_error=0.9 rad"}), HasSubstr("draws fit no friction, allowed"));
+  EXPECT_THAT(message({"wedge.slope_error=0.9 rad"}),
+              HasSubstr("draws give no valid friction, allowed"));
 }
 
 TEST_F(WrongVolts, MissingFilesAndTables) {
@@ -290,13 +291,13 @@ TEST_F(WrongVolts, RecordsAreRefusedWithTheirLine) {
   EXPECT_THAT(with_file("l.csv", "load [m],half_width [V],offset [V]\n1,1,1\n", key),
               HasSubstr("has the unit 'm', allowed: V"));
   EXPECT_THAT(with_file("l.csv", "slope [deg],load [V],half_width [V],offset [V]\n0,1,1,1\n", key),
-              HasSubstr("loops on slopes belong to wedge.loops"));
+              HasSubstr("loops on slopes belong in wedge.loops"));
   EXPECT_THAT(with_file("l.csv", "load [V],half_width [V],offset [V]\n1,1,1\n2,2,2\n", key),
               HasSubstr("half_width_error"));
   EXPECT_THAT(with_file("l.csv", "load [V],forth [V],back [V]\n1,1,0\n", key),
               HasSubstr("forth: is called 'trace' now, allowed: trace"));
   EXPECT_THAT(with_file("l.csv", "load [V],trace [V],retrace [V],normal_trace [V]\n1,1,1,1\n", key),
-              HasSubstr("normal_trace: stands alone"));
+              HasSubstr("normal_trace: is given alone"));
   EXPECT_THAT(with_file("l.csv", "load [V],trace [V],retrace [V]\n1,1,0\n1,1,0\n", key),
               HasSubstr("l.csv:3:"));
   const std::string hard = "force_curves.hard";
@@ -305,7 +306,7 @@ TEST_F(WrongVolts, RecordsAreRefusedWithTheirLine) {
   std::string stops = "displacement [nm],normal [V]\n";
   for (int i = 0; i < 40; ++i) stops += fmt::format("{},0\n", i == 20 ? 19 : i);
   EXPECT_THAT(with_file("h.csv", stops, hard),
-              HasSubstr("h.csv:22:1: displacement: 1.9e-08 m does not go on"));
+              HasSubstr("h.csv:22:1: displacement: 1.9e-08 m does not continue"));
   EXPECT_THAT(with_file("h.csv", "displacement [V],normal [V]\n0,0\n", hard),
               HasSubstr("displacement"));
 }
@@ -313,7 +314,7 @@ TEST_F(WrongVolts, RecordsAreRefusedWithTheirLine) {
 TEST_F(WrongVolts, ASummaryWithoutACalibrationIsRefused) {
   const char* settings = "volts-test-probe.toml";
   EXPECT_THAT(with_file("s.json", "{", "lever.calibration", settings),
-              HasSubstr("s.json:1:1: lever.calibration: is no JSON"));
+              HasSubstr("s.json:1:1: lever.calibration: is not JSON"));
   EXPECT_THAT(with_file("s.json", "{}", "lever.calibration", settings),
               HasSubstr("holds no calibration of a lever"));
   EXPECT_THAT(with_file("s.json", R"({"calibration": {"k_n": -1}})", "lever.calibration", settings),
@@ -326,7 +327,8 @@ TEST_F(WrongVolts, LoopsThatFitNoFrictionAreRefused) {
   for (const double slope : {14.0, -12.5})
     for (int i = 1; i < 5; ++i)
       text += fmt::format("{},{},{},{}\n", slope, i, 0.1 * i + 0.001 * (i % 2), 0.001 * i);
-  EXPECT_THAT(with_file("w.csv", text, "wedge.loops"), HasSubstr("no friction coefficient fits"));
+  EXPECT_THAT(with_file("w.csv", text, "wedge.loops"),
+              HasSubstr("there is no matching friction coefficient"));
 }
 
 }  // namespace

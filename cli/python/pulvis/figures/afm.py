@@ -42,7 +42,7 @@ def part_colours(run, faces):
 
 def progress_words(run):
     """What the times of a lever's frames count."""
-    return "actions done" if run.has("scanner/z") else "load case"
+    return "actions completed" if run.has("scanner/z") else "load case"
 
 
 def solid(run, options=None):

@@ -28,7 +28,7 @@ def writer_for(path, per_second=PER_SECOND):
     if path.suffix == ".gif":
         return animation.PillowWriter(fps=per_second)
     if path.suffix != ".mp4":
-        raise PulvisError(f"--animate {path}: allowed: a file .mp4 or .gif", key="--animate")
+        raise PulvisError(f"--animate {path}: allowed: a .mp4 or .gif file", key="--animate")
     if not shutil.which("ffmpeg"):
         raise NoEncoder(f"--animate {path}: MP4 needs the program ffmpeg (Debian: apt install ffmpeg); a GIF does not",
                         key="--animate")

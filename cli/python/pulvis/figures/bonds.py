@@ -80,7 +80,7 @@ def breaking(run, options=None):
     time = run.series("time")
     factor, unit = unit_for("s", time)
     groups = [("bonds/crack_length", "m", {"bonds/crack_length": "broken so far"}),
-              (("energy", "E"), "J", {"energy/fracture": "spent in breaking", "energy/bonds": "stored in bonds"}),
+              (("energy", "E"), "J", {"energy/fracture": "dissipated in breaking", "energy/bonds": "stored in bonds"}),
               ("bonds/fragments", "-", {"bonds/fragments": "fragments"})]
     figure, places = plt.subplots(len(groups), figsize=options.size(6.4, 6.6), sharex=True, constrained_layout=True)
     figure.table = [("time", "s", time)]
@@ -118,7 +118,7 @@ def fragment_sizes(run, options=None, axes=None):
     x = factor * np.concatenate([[0], diameter])
     for label, share in (("of the area", area), ("of the number", number)):
         axes.step(x, 100 * np.concatenate([[0], share]), where="post", label=label)
-    axes.set(xlabel=worded(("equivalent diameter", "d"), unit), ylabel="Share up to it / %",
+    axes.set(xlabel=worded(("equivalent diameter", "d"), unit), ylabel="Cumulative share / %",
              xlim=(0, 1.03 * x[-1]), ylim=(0, 102))
     options.head(axes, f"Sizes of {len(diameter)} fragments at {moment(frame)}", run)
     axes.legend(loc="upper left", bbox_to_anchor=(1, 1))

@@ -28,8 +28,8 @@ def colour_map(options, otherwise="viridis"):
     name = options.cmap or otherwise
     if name not in matplotlib.colormaps:
         near = difflib.get_close_matches(name, list(matplotlib.colormaps), 4) or ["viridis", "cividis", "magma", "coolwarm"]
-        raise PulvisError(f"--cmap {name}: no such colour map; allowed: those of matplotlib, as {', '.join(near)}; with _r at "
-                          "the end turned over", key="--cmap")
+        raise PulvisError(f"--cmap {name}: no such colour map; allowed: those of matplotlib, e.g. {', '.join(near)}; append _r "
+                          "to reverse one", key="--cmap")
     return matplotlib.colormaps[name].with_extremes(bad=NO_VALUE)
 
 
@@ -98,6 +98,6 @@ def colours_of(field, values, options):
     """field: fields.Field of one frame; values: those of all frames that are to have the same colours."""
     if field.whole and field.name not in COUNTS:
         if options.limits or options.cmap:
-            raise PulvisError(f"--range and --cmap are for fields on a scale; {field.name} has a colour for each number")
+            raise PulvisError(f"--range and --cmap are for fields with a continuous scale; {field.name} has a colour for each number")
         return Kinds(field.name, values, field.names)
     return Scale(field.key, field.unit, field.components, values, options)

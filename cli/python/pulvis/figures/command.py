@@ -76,7 +76,7 @@ class Place:
                 file.write(f"{number:06}{path.suffix} {path}\n")
             return
         if path.exists() or path.is_symlink():
-            raise PulvisError(f"{path} is there already; pulvis figure replaces what it drew itself")
+            raise PulvisError(f"{path} already exists; pulvis figure only replaces files it has drawn itself")
         write(figure, path, self.options)
         print(printable(path))
 
@@ -108,11 +108,11 @@ def save_all(run, asked, options, place):
 def save_group(figures, what, asked, options, place):
     """Of a probe or a study."""
     if options.series or options.field or asked.animate or asked.across or asked.at or asked.format in ("csv", "gsf"):
-        raise PulvisError(f"a {what} has its own figures: without --series, --field, --across, --at, --animate and csv")
+        raise PulvisError(f"a {what} has its own figures: use it without --series, --field, --across, --at, --animate and csv")
     for name, figure in figures(asked.folder, options):
         path = asked.to / f"{name}.{asked.format}"
         if figure is None:
-            print(f"figures: no run has what {path.name} shows")
+            print(f"figures: no run has the data shown in {path.name}")
         else:
             place.save(figure, path)
 
@@ -120,23 +120,23 @@ def save_group(figures, what, asked, options, place):
 def save_run(run, asked, options, place):
     file = asked.output if asked.output and asked.output.suffix in FORMATS else None
     if not run.in_space and (asked.across or asked.at):
-        raise PulvisError("--across and --at are of sections, which three dimensions have")
+        raise PulvisError("---across and --at are for sections, which only 3D runs have")
     if asked.animate:
         if options.series or file or asked.output:
-            raise PulvisError("--animate names its file: without --series and -o")
+            raise PulvisError("---animate names its output file: use it without --series and -o")
         writer_for(asked.animate)
         place.save(lambda path: animate(run, path, options), asked.animate)
         return
     if asked.format == "gsf":
         if options.series or options.field or file:
-            raise PulvisError("gsf is a format of images: without --series, --field and a file")
+            raise PulvisError("gsf is an image format: use it without --series, --field and an output file")
         save_images(run, asked, options, place)
         return
     if not options.series and not file:
         save_all(run, asked, options, place)
         return
     if run.is_solid and not options.series:
-        raise PulvisError("one figure of a lever is one of its series: say --series")
+        raise PulvisError("a single figure of a lever shows one of its series: give --series")
     figure = chosen_series(run, options) if options.series else picture_for(run)(run, options)
     if figure is None:
         raise PulvisError(f"no frame with {options.field or DEFAULT_FIELD}")
@@ -153,27 +153,27 @@ def resolution(text):
 def arguments(words=None):
     parser = argparse.ArgumentParser(prog="pulvis figure", description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--frame", type=int, help="number of a frame, from 0; the last if not said")
+    parser.add_argument("--frame", type=int, help="frame number, starting at 0 (default: the last frame)")
     parser.add_argument("--field",
-                        help=f"field of cells or particles, {DEFAULT_FIELD} if not said; NAME:k for component k")
+                        help=f"field of cells or particles (default: {DEFAULT_FIELD}); NAME:k for component k")
     parser.add_argument("--series", action="append", default=[], help="series of the history to draw")
-    parser.add_argument("--against", help="series of the other axis, time if not said")
+    parser.add_argument("--against", help="series on the horizontal axis (default: time)")
     parser.add_argument("--format", choices=["png", "svg", "pdf", "csv", "gsf"], default="png")
-    parser.add_argument("--level", choices=LEVELS, default="none", help="levelling of a raster's images")
-    parser.add_argument("--width", help="of every figure, as 85mm")
-    parser.add_argument("--height", help="of every figure, as 60mm")
+    parser.add_argument("--level", choices=LEVELS, default="none", help="levelling of raster images")
+    parser.add_argument("--width", help="width of every figure, e.g. 85mm")
+    parser.add_argument("--height", help="height of every figure, e.g. 60mm")
     parser.add_argument("--no-title", action="store_true")
-    parser.add_argument("--cmap", help="colour map of what is on a scale, by matplotlib's name")
-    parser.add_argument("--range", help="LOW:HIGH of the field's colours, as 0:400MPa")
+    parser.add_argument("--cmap", help="colour map for continuous values: a name of matplotlib")
+    parser.add_argument("--range", help="colour range of the field as LOW:HIGH, e.g. 0:400MPa")
     parser.add_argument("--dpi", default="200")
-    parser.add_argument("--across", choices=["x", "y", "z"], help="in three dimensions: axis of sections and density maps, y if not said")
-    parser.add_argument("--at", help="where along that axis, as 2mm; near the middle if not said")
-    parser.add_argument("--animate", type=Path, help="file .mp4 or .gif: all frames of the field, or of a lever")
-    parser.add_argument("-o", "--output", type=Path, help="a file, or a folder for all figures")
+    parser.add_argument("--across", choices=["x", "y", "z"], help="3D only: axis normal to sections and density maps (default: y)")
+    parser.add_argument("--at", help="position along that axis, e.g. 2mm (default: near the middle)")
+    parser.add_argument("--animate", type=Path, help="animate all frames of the field, or of a lever; .mp4 or .gif file")
+    parser.add_argument("-o", "--output", type=Path, help="output file, or a folder for all figures")
     parser.add_argument("--draw-into", type=Path, help=argparse.SUPPRESS)
     asked = parser.parse_args(words)
     if asked.against and not asked.series:
-        parser.error("--against says over what --series is drawn")
+        parser.error("---against gives the horizontal axis of --series")
     if asked.frame is not None and asked.frame < 0:
         parser.error(f"--frame {asked.frame}: allowed: from 0")
     if asked.output and asked.output.suffix not in ("", *FORMATS) and (asked.field or asked.series) and not asked.output.is_dir():

@@ -48,7 +48,7 @@ def field_of(run, frame, key):
     data = frame.dataset(name)
     count = int(data.attrs.get("components", 1))
     if data.ndim > 1 and not (component.isdigit() and 1 <= int(component) <= count):
-        raise PulvisError(f"{name} has {count} components: say {name}:1 to {name}:{count}")
+        raise PulvisError(f"{name} has {count} components: choose {name}:1 to {name}:{count}")
     values = data[()] if data.ndim == 1 else data[:, int(component) - 1]
     if data.attrs.get("place", "particle") == "particle":
         values = values[run.mesh.cell_particle]

@@ -64,7 +64,7 @@ def require_picture(run, key, into):
     if key not in there:
         raise PulvisError(f"--field {key}: a lever is animated as one of: {', '.join(there)}", key="--field")
     if into is not None:
-        raise PulvisError("a lever's film has two axes of its own; allowed: without ax")
+        raise PulvisError("the animation of a lever has two axes of its own; allowed: without ax")
 
 
 def sheet_of(run, options):

@@ -42,7 +42,7 @@ def inches(option, given):
     if isinstance(given, (int, float)):
         unit = "in"
     if not match or unit not in INCHES:
-        raise PulvisError(f"{option} {given}: allowed: a length from 10 mm to 2 m, in mm, cm, m, in or pt, as 85mm", key=option)
+        raise PulvisError(f"{option} {given}: allowed: a length from 10 mm to 2 m, in mm, cm, m, in or pt, e.g. 85mm", key=option)
     length = float(match[1]) * INCHES[unit]
     if not SHORTEST <= length <= LONGEST:
         raise PulvisError(f"{option} {given}: allowed: 10 mm to 2 m", key=option)
@@ -56,7 +56,7 @@ def length(option, given):
     match = re.fullmatch(rf"\s*({NUMBER})\s*(\S*)\s*", str(given))
     factor = factor_of(match[2], "m") if match and match[2] else None
     if factor is None:
-        raise PulvisError(f"{option} {given}: allowed: a length with its unit, as 2mm", key=option)
+        raise PulvisError(f"{option} {given}: allowed: a length with its unit, e.g. 2mm", key=option)
     return factor * float(match[1])
 
 
@@ -77,17 +77,17 @@ def limits_of(given, si):
     if given is None:
         return None, None
     ends = [str(end) if end is not None else "" for end in given] if isinstance(given, (tuple, list)) else str(given).split(":")
-    allowed = f"allowed: LOW:HIGH in {si}, as 0:400 M{si}" if si == "Pa" else f"allowed: LOW:HIGH in {si or '-'}, as 0:1"
+    allowed = f"allowed: LOW:HIGH in {si}, e.g. 0:400 M{si}" if si == "Pa" else f"allowed: LOW:HIGH in {si or '-'}, e.g. 0:1"
     shown = ":".join(ends)
     matches = [re.fullmatch(rf"\s*(?:({NUMBER})\s*([^\d\s]\S*)?)?\s*", end) for end in ends]
     if len(ends) != 2 or not all(matches):
-        raise PulvisError(f"--range {shown}: {allowed}; one of them may be missing", key="--range")
+        raise PulvisError(f"--range {shown}: {allowed}; either end may be omitted", key="--range")
     shared = matches[1][2] or ""  # 0:400 MPa: of both
     values = []
     for match in matches:
         factor = factor_of(match[2] or shared, si)
         if factor is None:
-            raise PulvisError(f"--range {shown}: {match[2] or shared} is no unit of what is drawn; {allowed}", key="--range")
+            raise PulvisError(f"--range {shown}: {match[2] or shared} is not a unit of the plotted quantity; {allowed}", key="--range")
         values.append(None if match[1] is None else factor * float(match[1]))
     if None not in values and not values[0] < values[1]:
         raise PulvisError(f"--range {shown}: allowed: LOW below HIGH", key="--range")

@@ -238,7 +238,7 @@ class PowderDrawing:
             column.line(f"{tool['name']}: {tool['shape']}, friction {friction}", swatch)
         if self.tools_move():
             column.line("Arrows: directions of moves and forces, by number of the stage"
-                        + ("" if self.setup.get("dimension") == 3 else "; dashed: how far faces get"))
+                        + ("" if self.setup.get("dimension") == 3 else "; dashed: final positions of faces"))
         if self.setup.get("density_cells") and self.setup["die"]:
             columns, rows = self.setup["density_cells"]
             column.line(f"Dotted: {columns} × {rows} cells of local density")
@@ -252,13 +252,13 @@ class PowderDrawing:
             return
         column.heading("Bonds")
         for law in bonds["laws"]:
-            kind = {"initial": "from the start", "pressed": "made by pressure", "adhesion": "adhesion"}[law["origin"]]
+            kind = {"initial": "from the start", "pressed": "formed by pressure", "adhesion": "adhesion"}[law["origin"]]
             text = f"{law['first']} – {law['second']}: {kind}"
             if "strength" in law:
                 text += f", strength {words.quantity(law['strength'], 'Pa')}"
             if "work" in law:
                 text += f", {words.quantity(law['work'], 'J/m²')}"
-            column.line(text + (", inside of particles" if law["inside"] else ""))
+            column.line(text + (", inside particles" if law["inside"] else ""))
         if bonds["edges"]:
             column.line(f"{len(bonds['edges']):,} edges bonded at the start", {"facecolor": BOND, "edgecolor": BOND})
 

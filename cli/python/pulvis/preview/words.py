@@ -74,7 +74,7 @@ def move_text(move):
                 f" at up to {quantity(move['speed'], 'm/s')}")
     text = (f"{move['tool']} {way(move['displacement'])} {quantity(math.hypot(*move['displacement']), 'm')}"
             f" at up to {quantity(move['speed'], 'm/s')}")
-    return text + (f" by a spring of {quantity(move['stiffness'], 'N/m')}" if "stiffness" in move else "")
+    return text + (f" through a spring of {quantity(move['stiffness'], 'N/m')}" if "stiffness" in move else "")
 
 
 def servo_text(servo):
@@ -112,8 +112,8 @@ def stage_text(stage):
     if "until" in stage:
         parts.append(until_text(stage["until"]))
     if stage.get("keep_state"):
-        parts.append("its end is kept as a state")
-    return "; ".join(parts) or "nothing is moved"
+        parts.append("saves its final state")
+    return "; ".join(parts) or "no motion"
 
 
 SIDEWAYS = {"lateral": "across the lever (y)", "along": "along the lever (x)"}
@@ -122,12 +122,12 @@ SIDEWAYS = {"lateral": "across the lever (y)", "along": "along the lever (x)"}
 def action_text(action):
     kind = action["kind"]
     if kind == "press" and "force" in action:
-        text = f"surface up until it pushes with {quantity(action['force'], 'N')}"
+        text = f"surface up to a force of {quantity(action['force'], 'N')}"
     elif kind in ("press", "retract"):
         up = (action["distance"] > 0) == (kind == "press")
         text = f"surface {'up' if up else 'down'} by {quantity(abs(action['distance']), 'm')}"
     elif kind == "hold":
-        text = "nothing is moved"
+        text = "no motion"
     else:
         text = f"tip by {quantity(action['distance'], 'm')} {SIDEWAYS[action['direction']]}"
         if kind == "raster":
@@ -135,5 +135,5 @@ def action_text(action):
         elif action["retrace"]:
             text += " and back"
     if action["servo"]:
-        text += ", its force kept"
+        text += ", at constant force"
     return text

@@ -17,8 +17,8 @@ addPanel({
     const {run} = report, grids = run.frames.map(frame => frame.grid), chosen = {axis: 1, share: 0.5};
     const count = () => grids[0]["xyz"[chosen.axis]].length - 1;
     const layer = () => Math.min(count() - 1, Math.floor(chosen.share * count()));
-    const across = element("select", {"aria-label": "Axis that the layer is across"});
-    [..."xyz"].forEach((name, k) => across.add(new Option(`across ${name}`, k)));
+    const across = element("select", {"aria-label": "Axis normal to the layer"});
+    [..."xyz"].forEach((name, k) => across.add(new Option(`normal to ${name}`, k)));
     across.value = chosen.axis;
     const place = element("input", {type: "range", min: 0, step: 1, "aria-label": "Layer of cells"});
     host.append(element("div", {className: "controls"}, element("label", {}, "Layer ", across), place));

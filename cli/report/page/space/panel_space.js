@@ -1,7 +1,7 @@
 // The density along z of particles in three dimensions, of the frame that is shown.
 "use strict";
 
-const PROFILE_ROOMS = {die: "the inside of the die", walls: "the inside of the walls", powder: "as wide as the powder"};
+const PROFILE_ROOMS = {die: "the inside of the die", walls: "the inside of the walls", powder: "bounded by the powder"};
 
 addPanel({
   title: "Relative density along z", order: 11, when: run => run.inSpace && run.frames.length > 0,
@@ -10,8 +10,8 @@ addPanel({
     report.figure(host, {
       title: "Relative density along z", shape: 0.75,
       draw: (ctx, width, height, {profile}, frames) => drawProfile(ctx, width, height, profile, ends(frames)),
-      note: ({profile: {profile, bound}, time}) => `Solid volume in ${profile.length} slices of equal thickness over that of ` +
-        `their room, ${PROFILE_ROOMS[bound]}, at ${withUnit(time, "s")}.`,
+      note: ({profile: {profile, bound}, time}) => `Solid volume in ${profile.length} slices of equal thickness over the volume of ` +
+        `the slice (${PROFILE_ROOMS[bound]}), at ${withUnit(time, "s")}.`,
       columns: ({profile: {profile, y}}) => [
         {label: "z", unit: "m", values: profile.map((_, j) => (y[j] + y[j + 1]) / 2)},
         {label: "relative density", unit: "-", values: profile}]});

@@ -130,13 +130,13 @@ class SpaceView extends FieldView {
     const plane = this.plane(), {low} = this.run.head;
     if (!plane) return "";
     const at = plane.side * (plane.offset * this.width + plane.normal.reduce((sum, part, k) => sum + part * low[k], 0));
-    return this.cut === "free" ? "plane as chosen" : `${this.cut} = ${withUnit(at, "m", 3)}`;
+    return this.cut === "free" ? "chosen plane" : `${this.cut} = ${withUnit(at, "m", 3)}`;
   }
 
   tell() {
     super.tell();
     const cut = this.cutInWords();
-    if (cut) this.note.textContent += ` Cut at ${cut}${this.slice ? ", the slice alone" : ""}.`;
+    if (cut) this.note.textContent += ` Cut at ${cut}${this.slice ? ", the slice only" : ""}.`;
     this.canvas.setAttribute("aria-label", `Picture of the particles in three dimensions. ${this.note.textContent} ${SPACE_KEYS}`);
   }
 
@@ -224,6 +224,6 @@ function spaceControls(view) {
     change({cut: value, ...value === "free" ? {cutNormal: view.direction[2].map(part => -part)} : {}});
   });
   const tools = view.run.toolQuads ? [tick("tools", "tools", "showTools")] : [];
-  return [element("label", {}, "View ", look), element("label", {}, "Cut ", cut), at, note, tick("slice", "slice alone", "slice"),
+  return [element("label", {}, "View ", look), element("label", {}, "Cut ", cut), at, note, tick("slice", "slice only", "slice"),
           tick("edges", "element edges", "edges"), ...tools];
 }

@@ -160,11 +160,11 @@ TEST(Stl, WhatIsNoClosedSurfaceIsRefused) {
   infinite[5][1].y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(problem_of(as_text(open)), HasSubstr("open"));
   EXPECT_THAT(problem_of(as_binary(inverted)), HasSubstr("face inwards"));
-  EXPECT_THAT(problem_of(as_text(turned)), HasSubstr("face different ways"));
+  EXPECT_THAT(problem_of(as_text(turned)), HasSubstr("have opposite orientation"));
   EXPECT_THAT(problem_of(as_binary(infinite)), HasSubstr("not finite"));
-  EXPECT_THAT(problem_of(as_binary(ball).substr(0, 500)), HasSubstr("cut short"));
-  EXPECT_THAT(problem_of("solid x\nvertex 1 2\n"), HasSubstr("where a coordinate is wanted"));
-  EXPECT_THAT(problem_of("solid x\nvertex 1 2 3\n"), HasSubstr("cut short"));
+  EXPECT_THAT(problem_of(as_binary(ball).substr(0, 500)), HasSubstr("truncated"));
+  EXPECT_THAT(problem_of("solid x\nvertex 1 2\n"), HasSubstr("where a coordinate is expected"));
+  EXPECT_THAT(problem_of("solid x\nvertex 1 2 3\n"), HasSubstr("truncated"));
   EXPECT_THAT(problem_of("hello"), HasSubstr("no triangle"));
   EXPECT_EQ(problem_of(as_text(ball)), "");
 }

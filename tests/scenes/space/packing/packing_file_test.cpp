@@ -94,7 +94,7 @@ TEST(PackingFileInSpace, WrongOnesAreRefused) {
   EXPECT_THAT(refusal_of(header + "c,0,0,0,1,0,0,0\n"),
               HasSubstr("wrong.csv:2:1: class: no particle is called 'c', allowed: a, b"));
   EXPECT_THAT(refusal_of(header + "a,0,0,0,0,0,0,0\n"),
-              HasSubstr("the quaternion is 0, allowed: one with a length"));
+              HasSubstr("the quaternion is 0, allowed: a non-zero one"));
   EXPECT_THAT(refusal_of("class,x [m],y [m],qw,qx,qy,qz\na,0,0,1,0,0,0\n"), HasSubstr("z"));
   EXPECT_THAT(refusal_of("# top: 3 kg\n" + header + "a,0,0,0,1,0,0,0\n"),
               HasSubstr("allowed: # top: and a quantity in m"));

@@ -232,7 +232,7 @@ TEST(RandomPackingInSpace, RefusesADensityThatIsNotReachedWithTheOneThatIs) {
     const SceneProblem& problem = error.errors()[0];
     EXPECT_EQ(problem.line, 8);
     EXPECT_EQ(problem.key, "packing[0].density");
-    EXPECT_THAT(problem.message, HasSubstr("a relative density of 0.7200 is not reached"));
+    EXPECT_THAT(problem.message, HasSubstr("a relative density of 0.7200 cannot be reached"));
     EXPECT_THAT(problem.message,
                 testing::ContainsRegex("ended at 0\\.5[0-9]+, allowed: at most 0\\.5"));
   }

@@ -151,7 +151,7 @@ const std::vector<WrongSpaceScene> wrong_in_space{
      {"stage.press.until.tool=top", "stage.press.until.displacement=2 mm"},
      as_it_is,
      "stage[0].until.displacement",
-     {"0.002 m is not reached", "0.001 m"}},
+     {"0.002 m cannot be reached", "0.001 m"}},
     {"UntilWhatStandsHasMoved",
      {"stage.press.until.tool=bottom", "stage.press.until.displacement=1 mm"},
      as_it_is,
