@@ -155,6 +155,10 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
 }
 
 std::string curve_text(const ForceCurveFigures& curve) {
+  if (!curve.released)
+    return fmt::format(
+        "force curve, retracting from action {}: still in contact at the end, no pull-off\n",
+        curve.action);
   std::string text =
       fmt::format("force curve, retracting from action {}: pull-off {:.5g} N, work {:.4g} J",
                   curve.action, curve.pull_off, curve.work);

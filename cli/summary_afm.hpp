@@ -19,6 +19,7 @@ struct AfmReport {
   std::optional<Calibration> calibration;  // none where it found no answer
   std::vector<FrictionLoop> loops;
   std::vector<ForceCurveFigures> curves;
+  std::vector<ForceCurveFigures> unreleased;  // that end in contact: without a pull-off
   std::optional<wedge::Calibration> wedge;
   std::map<std::string, double> figures;  // scenes/lever/afm_figures.hpp
   std::vector<Verdict> verdicts;

@@ -16,7 +16,7 @@ import sys
 from random_scenes import MATERIALS, log_uniform, metres, try_all
 
 # What a physical limit says when it stops a run (exit code 3); an energy balance is no such limit.
-LIMITS = re.compile(r"penetration|inverted|det F|closest point|not reach|over before")
+LIMITS = re.compile(r"penetration|inverted|det F|closest point|duration of stage")
 SHAPES = ["sphere", "sphere", "ellipsoid", "superquadric", "cylinder", "polyhedron"]
 
 
@@ -37,8 +37,8 @@ class Scene:
         self.damping = draw.choice([0, 0.1, draw.random()])
         self.mass_damping = draw.choice([0, 0, log_uniform(draw, 1e-3, 1e-1)])
         self.formulation = draw.choice(["one-point", "one-point", "one-point", "eight-point"])
-        self.speed = log_uniform(draw, 2e-3, 2e-2)  # of a bar's wave in the softest
-        self.packed = draw.uniform(0.3, 0.45)
+        self.speed = log_uniform(draw, 5e-3, 3e-2)  # of a bar's wave in the softest
+        self.packed = draw.uniform(0.1, 0.25) * (0.5 if "polyhedron" in self.shapes else 1)
         self.pressed = draw.uniform(0.7, 0.95 if self.plastic() else 0.8)
         self.action = draw.choice(["press", "press", "press and eject", "hold", "throw"])
         self.particles = "".join(self.particle(k) for k in range(len(self.materials)))
@@ -85,7 +85,7 @@ class Scene:
             self.cells = [draw.randint(1, 3) for _ in range(3)]
             self.width, self.depth = (n * self.size for n in self.cells[:2])
             return f'[[packing]]\nkind = "cubic"\nparticle = "p0"\ncells = {self.cells}\n'
-        self.width = self.size * draw.uniform(2.2, 3.5)
+        self.width = self.size * draw.uniform(2.5, 4)
         self.depth = self.width * draw.uniform(0.8, 1.2)
         wide = f'diameter = "{self.width:.9g} m"\n' if self.round_die else \
             f'width = "{self.width:.9g} m"\ndepth = "{self.depth:.9g} m"\n'
@@ -118,10 +118,12 @@ class Scene:
     def stage(self, name, kind, way, moves=(), more=""):
         duration = way / (self.speed * self.wave())
         return f'[[stage]]\nname = "{name}"\nkind = "{kind}"\nduration = "{duration:.9g} s"\n{more}' + "".join(
-            f'[[stage.move]]\ntool = "{tool}"\ndisplacement = {metres(0, 0, z)}\n' for tool, z in moves)
+            f'[[stage.move]]\ntool = "{tool}"\ndisplacement = {metres(0, 0, z)}\nramp = 0.03\n' for tool, z in moves)
 
     def stages(self):
-        height = self.cells[2] * self.size if self.lattice else 2 * self.count * self.size**3 / self.width / self.depth
+        # Of the powder, about: particles fill half of the cube of their size.
+        height = self.cells[2] * self.size if self.lattice else \
+            0.5 * self.count * len(self.materials) * self.size**3 / (self.width * self.depth * self.packed)
         if self.action == "throw":
             return self.stage("throw", "settle", height)
         if self.action == "hold":

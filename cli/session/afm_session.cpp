@@ -293,7 +293,9 @@ void AfmSession::finish() {
   report_.state_hash = state_hash_text(simulation_.world());
   if (!report_.calibration) return refuse_calibration();
   if (end_.done) report_.loops = friction_loops(loaded_.scene, history_);
-  if (end_.done) report_.curves = force_curves(loaded_.scene, history_);
+  if (end_.done)
+    for (const ForceCurveFigures& curve : force_curves(loaded_.scene, history_))
+      (curve.released ? report_.curves : report_.unreleased).push_back(curve);
   report_.wedge = calibrate_wedge(loaded_.scene, report_.loops);
   report_.increments = history_.rows.empty() ? 0 : history_.rows.size() - 1;
   report_.wall_seconds =

@@ -25,7 +25,8 @@ namespace {
 void print_afm_end(const AfmReport& report, const std::filesystem::path& folder) {
   tell("{}", calibration_text(*report.calibration));
   for (const FrictionLoop& loop : report.loops) tell("{}", loop_text(loop));
-  for (const ForceCurveFigures& curve : report.curves) tell("{}", curve_text(curve));
+  for (const auto* curves : {&report.curves, &report.unreleased})
+    for (const ForceCurveFigures& curve : *curves) tell("{}", curve_text(curve));
   if (report.wedge && report.loops.size() > 1) tell("{}", wedge_summary(*report.wedge));
   tell("{}, {}, {}, {:.2f} s\n", counted(report.elements, "element"), counted(report.nodes, "node"),
        counted(report.increments, "increment"), report.wall_seconds);

@@ -233,7 +233,6 @@ void Session::call_between_steps() {
   }
 }
 
-// From a sample on, to where a step is complete.
 void Session::move() {
   if (observed_) simulation_->move();
   observed_ = false;

@@ -87,6 +87,8 @@ class Session {
   bool open() const { return recorder_ != nullptr || !writes(); }
   // At a sample: forces and stresses belong to t_n; false between two steps.
   bool observed() const { return observed_; }
+  // From a sample on, to where the step is complete.
+  void move();
   void end_progress() { progress_->finish(); }
 
  private:
@@ -102,7 +104,6 @@ class Session {
   bool is_every_due() const;
   bool is_tick_due() const;
   void call_between_steps();
-  void move();
 
   LoadedScene loaded_;
   Options options_;

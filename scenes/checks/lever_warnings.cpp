@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "engine/portable_math.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis {
@@ -33,6 +37,24 @@ std::string unusual_stiffness(const Scene& scene) {
       k, softest, stiffest);
 }
 
+// A ball touches a slope beside its axis, where the load twists the lever.
+std::string ball_on_slope(const Scene& scene) {
+  const AfmScene& afm = *scene.afm;
+  const bool slope = afm.target && afm.target->shape == TargetSpec::Shape::plane &&
+                     afm.target->incline != 0 &&
+                     afm.target->direction == TargetSpec::Direction::lateral;
+  const bool loops = std::ranges::any_of(afm.actions, [](const ActionSpec& action) {
+    return action.kind == ActionSpec::Kind::scan && action.retrace &&
+           action.direction == TargetSpec::Direction::lateral;
+  });
+  if (!slope || !loops || afm.tip.shape != TipSpec::Shape::sphere) return "";
+  return fmt::format(
+      "tip.radius: on this slope the ball touches {:.3g} m beside its axis; the load twists the "
+      "lever there, and loop/friction and loop/sensitivity take that for a lateral force "
+      "(docs/afm.md); the forces on the tip are right",
+      afm.tip.radius * std::abs(portable::sin(afm.target->incline)));
+}
+
 }  // namespace
 
 std::optional<double> rough_stiffness(const Scene& scene) {
@@ -47,13 +69,14 @@ std::optional<double> rough_stiffness(const Scene& scene) {
 std::vector<std::string> lever_warnings(const Scene& scene) {
   const LeverSpec& lever = scene.afm->lever;
   const TipSpec& tip = scene.afm->tip;
-  if (lever.shape == LeverSpec::Shape::mesh) return {};
+  std::vector<std::string> lines;
+  if (const std::string line = ball_on_slope(scene); !line.empty()) lines.push_back(line);
+  if (lever.shape == LeverSpec::Shape::mesh) return lines;
   const bool v = lever.shape == LeverSpec::Shape::v;
   const char* width = v ? "lever.arm_width" : "lever.width";
   const double wide = v ? lever.arm_width : lever.width;
   const bool ball = tip.shape == TipSpec::Shape::sphere;
   const double high = ball ? 2 * tip.radius : tip.height;
-  std::vector<std::string> lines;
   for (const Ratio& ratio :
        {Ratio{"lever.length", lever.length, "lever.thickness", lever.thickness, 10,
               "a body this thick is not a beam: the closed forms for beams do not hold"},

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = ActionSpec::Kind;
 
-// Actions [begin, end) that retract, behind a press.
+// Actions [begin, end) that retract after a press, with holds between them.
 struct Withdrawal {
   std::size_t begin = 0, end = 0;
 };
@@ -24,7 +24,9 @@ std::vector<Withdrawal> withdrawals(const std::vector<ActionSpec>& actions) {
     if (actions[a].kind == Kind::scan || actions[a].kind == Kind::raster) pressed = false;
     if (actions[a].kind != Kind::retract || !pressed) continue;
     std::size_t end = a;
-    while (end < actions.size() && actions[end].kind == Kind::retract) ++end;
+    while (end < actions.size() &&
+           (actions[end].kind == Kind::retract || actions[end].kind == Kind::hold))
+      ++end;
     all.push_back({a, end});
     a = end - 1;
     pressed = false;
@@ -65,6 +67,7 @@ std::vector<ForceCurveFigures> force_curves(const Scene& scene, const AfmHistory
     if (last >= history.rows.size()) break;
     ForceCurveFigures curve;
     curve.action = static_cast<int>(away.begin);
+    curve.released = history.value(last, "contact/points") == 0;
     curve.greatest = history.value(row, "probe/force_z");
     for (std::size_t i = row + 1; i <= last; ++i) {
       const double from = history.value(i - 1, "probe/force_z"),

@@ -69,6 +69,7 @@ class RandomPacking {
     if (packing_.height) order_.min_height = *packing_.height / unit_;
     order_.time_to_shake = packing_.dense == PackingSpec::Dense::touching ? 0 : 1;
     const FilledDie die = fill_die(order_);
+    if (die.min_gap < 0) return refuse_die();
     if (order_.min_height > 0 && die.height > order_.min_height)
       return refuse_density(full / (order_.min_height * unit_), full / (die.height * unit_));
     place(die);
@@ -108,6 +109,13 @@ class RandomPacking {
       return false;
     }
     return true;
+  }
+
+  // However high the die, some overlapped.
+  void refuse_die() {
+    const std::string key = ".width";
+    problems_.add(origin(key), path_ + key,
+                  "the particles cannot be placed in this die without overlap, allowed: a wider one");
   }
 
   void refuse_density(double wanted, double reached) {

@@ -68,6 +68,8 @@ std::optional<double> ContactLoading::force_error() const {
   if (force_.empty()) return std::nullopt;
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(force_) - force_.begin());
   if (!(force_[peak] > 0) || peak == 0) return std::nullopt;
+  // Tools did not do this work: what was thrown against them did.
+  if (!(approach_[peak] > sunk_[peak])) return std::nullopt;
   std::vector<double> approaches, forces;
   for (std::size_t i = 0; i <= peak; ++i) {
     if (force_[i] < min_force * force_[peak]) continue;

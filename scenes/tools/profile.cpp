@@ -39,36 +39,72 @@ double farthest_point(const Outline& outline) {
   return farthest;
 }
 
-// Of the powder along x, and as far as it can be pressed aside: to walls that are there.
-Extent powder_extent(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  Extent extent{1e300, -1e300};
+bool is_wall(const ToolSpec& tool) {
+  return tool.shape == ToolSpec::Shape::plane && std::abs(tool.normal.x()) >= upright;
+}
+
+// How far a tool is from where it begins, along x, over all stages.
+Extent travel_of(const Scene& scene, int tool) {
+  double at = 0;
+  Extent travel{0, 0};
+  for (const StageSpec& stage : scene.stages)
+    for (const MoveSpec& move : stage.moves) {
+      if (move.tool != tool) continue;
+      at += move.displacement.x();
+      travel.low = std::min(travel.low, at);
+      travel.high = std::max(travel.high, at);
+    }
+  return travel;
+}
+
+// Of the powder along x.
+struct PowderSpan {
+  Extent at_rest{1e300, -1e300};  // and as far as it can be pressed aside: to walls that are there
+  Extent flown{0, 0};             // m, by its initial velocities
+  bool wall_left = false, wall_right = false;  // nothing carries it beyond
+};
+
+PowderSpan powder_span(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  PowderSpan powder;
+  Extent& extent = powder.at_rest;
+  double time = 0;
+  for (const StageSpec& stage : scene.stages) time += stage.duration;
   std::vector<double> reaches(scene.particles.size(), -1);  // of the classes that bodies have
   for (const BodySpec& body : bodies) {
     const auto particle = static_cast<std::size_t>(body.particle);
     double& reach = reaches[particle];
     if (reach < 0) reach = 1.1 * farthest_point(scene.particles[particle].outline);
+    const double flown = body.velocity.x() * time;
     extent.low = std::min(extent.low, body.position.x() - reach);
     extent.high = std::max(extent.high, body.position.x() + reach);
+    powder.flown.low = std::min(powder.flown.low, flown);
+    powder.flown.high = std::max(powder.flown.high, flown);
   }
-  for (const ToolSpec& tool : scene.tools) {
-    if (tool.shape != ToolSpec::Shape::plane || std::abs(tool.normal.x()) < upright) continue;
-    extent.low = std::min(extent.low, tool.point.x());
-    extent.high = std::max(extent.high, tool.point.x());
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const ToolSpec& tool = scene.tools[t];
+    if (!is_wall(tool)) continue;
+    const Extent travel = travel_of(scene, static_cast<int>(t));
+    (tool.normal.x() > 0 ? powder.wall_left : powder.wall_right) = true;
+    extent.low = std::min(extent.low, tool.point.x() + travel.low);
+    extent.high = std::max(extent.high, tool.point.x() + travel.high);
   }
-  return extent;
+  return powder;
 }
 
-// The tool's own frame goes the other way than the powder in it.
-Extent covered(const Scene& scene, int tool, Extent powder) {
-  double at = 0, minimum = 0, maximum = 0;
-  for (const StageSpec& stage : scene.stages)
-    for (const MoveSpec& move : stage.moves) {
-      if (move.tool != tool) continue;
-      at += move.displacement.x();
-      minimum = std::min(minimum, at);
-      maximum = std::max(maximum, at);
-    }
-  return {powder.low - maximum, powder.high - minimum};
+// Where the powder comes to be: carried by the other tools, in the tool's own frame, which goes the other way.
+Extent covered(const Scene& scene, int tool, const PowderSpan& powder) {
+  Extent carried = powder.flown;
+  if (powder.wall_left) carried.low = 0;
+  if (powder.wall_right) carried.high = 0;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (static_cast<int>(t) == tool || is_wall(scene.tools[t])) continue;
+    const Extent travel = travel_of(scene, static_cast<int>(t));
+    if (!powder.wall_left) carried.low = std::min(carried.low, travel.low);
+    if (!powder.wall_right) carried.high = std::max(carried.high, travel.high);
+  }
+  const Extent own = travel_of(scene, tool);
+  return {powder.at_rest.low + carried.low - own.high,
+          powder.at_rest.high + carried.high - own.low};
 }
 
 std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {
@@ -195,7 +231,7 @@ class ProfileChecks {
 // One tool's polyline, and what is wrong with it.
 class ProfileMaker {
  public:
-  ProfileMaker(Scene& scene, std::size_t tool, Extent powder, const schema::Origins& origins,
+  ProfileMaker(Scene& scene, std::size_t tool, const PowderSpan& powder, const schema::Origins& origins,
                Problems& problems)
       : scene_(scene),
         tool_(scene.tools[tool]),
@@ -274,7 +310,7 @@ void make_profiles(Scene& scene, const schema::Origins& origins, Problems& probl
   const bool any = std::ranges::any_of(
       scene.tools, [](const ToolSpec& t) { return t.shape == ToolSpec::Shape::profile; });
   if (!any) return;
-  const Extent powder = powder_extent(scene, place_bodies(scene));
+  const PowderSpan powder = powder_span(scene, place_bodies(scene));
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     if (scene.tools[t].shape == ToolSpec::Shape::profile)
       ProfileMaker(scene, t, powder, origins, problems).run();

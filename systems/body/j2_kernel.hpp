@@ -183,14 +183,16 @@ T unmet(T f, const Flow<T>& flow, T trial, T width, T eps) {
 }
 
 // Any other law: Newton's method for x, halving the bracket where a step leaves it. |S| falls with x and the flow
-// stress does not, so there is one root. It starts from perfect plasticity.
+// stress does not, so there is one root. It starts from perfect plasticity, or from the rate that alone bears the excess.
 template <class T, class Hardening, class Coupled, class Mask>
 Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const Hardening& law,
                          Coupled& coupled) {
   const auto remaining = [&](T x) { return coupled.keep(fma(-t.two_mu_bar, x, 1.0), t); };
   const T excess = fma(-sqrt_2_3, law.flow_stress(t.eps), t.norm);
   T low{}, high = coupled.farthest(t.two_mu_bar), residual{};
-  T x = select(flows, min(excess / -remaining(low).slope, high), T{});
+  const T perfect = min(excess / -remaining(low).slope, high);
+  const T by_rate = max_growth(law, excess / (sqrt_2_3 * law.flow_stress(t.eps)));
+  T x = select(flows, min(perfect, by_rate / (sqrt_2_3 * t.norm)), T{});
   Mask open = flows;
   for (int i = 0; i < max_iterations; ++i) {
     const Remaining<T> left = remaining(x);
@@ -202,7 +204,7 @@ Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const Hardening& 
     residual = f / flow.stress;
     low = select(f > 0.0, x, low);
     high = select(f > 0.0, high, x);
-    const T newton = x + f / fma((2.0 / 3.0) * t.norm, flow.modulus, -left.slope);
+    const T newton = newton_step(law, x, f, fma((2.0 / 3.0) * t.norm, flow.modulus, -left.slope));
     const auto inside = (newton > low) & (newton < high);
     x = select(open, select(inside, newton, 0.5 * (low + high)), x);
   }

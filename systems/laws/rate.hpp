@@ -5,6 +5,7 @@
 // Source   Cowper & Symonds (1957)
 #pragma once
 
+#include <limits>
 #include <variant>
 
 #include "systems/laws/elementary.hpp"
@@ -77,6 +78,29 @@ template <class T, class Hardening, class Rate>
 T rate_work(const RatedHardening<Hardening, Rate>& law, T eps, T grown) {
   const T slow = law.hardening.flow_stress(eps + grown);
   return slow * (law.rate.factor(grown * law.over_dt) - 1.0) * grown;
+}
+
+// Plastic strain that a step at most adds where the stress is `excess` times the flow stress of hardening beyond it.
+template <class T, class Law>
+T max_growth(const Law&, T) {
+  return T{} + std::numeric_limits<double>::infinity();
+}
+template <class T, class Hardening>
+T max_growth(const RatedHardening<Hardening, CowperSymonds>& law, T excess) {
+  return (law.rate.C / law.over_dt) * power(max(excess, T{}), law.rate.p);
+}
+
+// A step of Newton's method for x, of which f falls by `steep`.
+template <class T, class Law>
+T newton_step(const Law&, T x, T f, T steep) {
+  return x + f / steep;
+}
+// The flow stress goes with the p-th root of the rate, upright at rest. In x^(1/p) it is a line: from above the root the
+// steps go down to it and do not pass it.
+template <class T, class Hardening>
+T newton_step(const RatedHardening<Hardening, CowperSymonds>& law, T x, T f, T steep) {
+  const double p = law.rate.p;
+  return x * power(max(1.0 + f / (p * (x * steep)), T{}), p);
 }
 
 // Plastic work of a step beyond the area under the hardening curve, J/m^3 of undeformed volume: that of the rate, and what comes

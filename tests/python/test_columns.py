@@ -122,6 +122,16 @@ def test_a_softer_yield_stress_bears_less(cell, make_cell):
     assert of_soft[-1] == pytest.approx(0.5 * of_hard[-1], rel=0.05)  # all of it flows, without hardening
 
 
+def test_what_is_not_finite_is_not_kept(cell):
+    sim = cell.simulation().step(3)
+    before = np.array(sim.column("velocity"))
+    with pytest.raises(pulvis.RunError, match="not finite"):
+        with sim.writable("velocity") as velocity:
+            velocity[0][0, 0] = np.nan
+    assert np.array_equal(np.array(sim.column("velocity")), before)
+    assert sim.step(1).steps == 4
+
+
 def test_what_is_not_safe_is_refused(cell):
     sim = cell.simulation()
     with pytest.raises(pulvis.RunError, match="allowed: node.velocity"):

@@ -100,6 +100,25 @@ def test_an_error_in_a_callback_leaves_the_files_whole_and_the_run_goes_on(cell,
         assert len((folder / "history.csv").read_text().splitlines()) == 22
 
 
+def test_after_an_error_at_a_sample_columns_can_be_written(cell):
+    """And it changes no bit that the run was left there."""
+    broken, whole = cell.simulation(), cell.simulation()
+
+    def fail(sim):
+        if 0 < sim.time < sim.end:
+            raise ValueError("at a sample")
+    broken.on_sample(fail)
+    with pytest.raises(ValueError, match="at a sample"):
+        broken.run()
+    for sim in (broken, whole):
+        with sim.writable("velocity") as velocity:
+            velocity[0][:, 0] += 1.0
+        if sim is broken:
+            whole.step(broken.steps)
+    assert broken.step(1).steps == whole.step(1).steps
+    assert broken.hash == whole.hash
+
+
 def test_what_python_left_is_resumed_by_both(cell, program, read_summary, tmp_path):
     whole = cell.simulation().run().hash
     for name in ("python", "program"):

@@ -125,6 +125,7 @@ Session& PythonRun::session() {
 
 Session& PythonRun::session_between_steps(const char* what) {
   Session& run = session();
+  if (!is_going_) run.move();  // a callback's error left it at a sample
   if (run.observed())
     throw NotNow(
         fmt::format("{} cannot be changed at a sample, in the middle of a step; allowed: "
@@ -188,6 +189,7 @@ bool PythonRun::go(const Session::Target& target) {
   Session& run = session();
   if (is_going_) throw NotNow("a callback cannot take steps of its own simulation");
   if (is_closed_) throw NotNow("the simulation is closed");
+  if (outcome_.starts_with("failed: ")) throw RunFailure(outcome_.substr(8));
   if (!outcome_.empty()) return true;
   Interruptible interruptible;
   stop_ = false;

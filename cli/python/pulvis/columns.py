@@ -44,7 +44,7 @@ class Column:
     def __init__(self, run: _core.Run, name: str, writable: bool = False) -> None:
         self.info = ColumnInfo(**run.column_info(name))
         self._run, self._writable = run, writable
-        self._given: list[np.ndarray] = []
+        self._given: list[tuple[np.ndarray, np.ndarray]] = []
 
     name = property(lambda self: self.info.name)
     unit = property(lambda self: self.info.unit)
@@ -87,7 +87,7 @@ class Column:
 
     def _kept(self, array: np.ndarray) -> np.ndarray:
         if self._writable:
-            self._given.append(array)
+            self._given.append((array, array.copy()))
         return array
 
     def __enter__(self) -> Column:
@@ -97,12 +97,14 @@ class Column:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for array in self._given:
+        bad = self.info.entity == "node" and any(not np.isfinite(array).all() for array, _ in self._given)
+        for array, before in self._given:
+            if bad:
+                array[...] = before
             array.flags.writeable = False
-        self._run.written(self.name)
-        bad = any(not np.isfinite(array).all() for array in self._given)
         self._given.clear()
-        if bad and self.info.entity == "node":
+        self._run.written(self.name)
+        if bad:
             from pulvis.errors import RunError
 
             raise RunError(f"column '{self.name}': what was written is not finite")

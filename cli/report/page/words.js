@@ -3,7 +3,14 @@
 
 const countOf = value => Math.round(value).toLocaleString("en");
 
-function did({family, head, summary}) {
+// The largest that was reached: at the end the compact may be unloaded and ejected.
+function pressedDensity(run) {
+  const reached = run.values("relative_density").filter(Number.isFinite);
+  return reached.length ? Math.max(...reached) : run.summary.relative_density;
+}
+
+function did(run) {
+  const {family, head, summary} = run;
   if (family === "afm") return "A lever was calibrated" + (summary.loops ? " and scanned over a surface" :
                                (head.frames || []).length && summary.increments ? " and moved against a surface" : "");
   const particles = counted(head.mesh.particles, "particle");
@@ -11,7 +18,7 @@ function did({family, head, summary}) {
   const were = head.mesh.particles === 1 ? "was" : "were";
   return summary.relative_density === undefined ? `${titled(particles)} ${were} moved and deformed`
     : `${titled(particles)} ${were} pressed to a relative density of ` +
-      digits(summary.relative_density, 3);
+      digits(pressedDensity(run), 3);
 }
 
 // What was done, how it ended, and whether to believe it, in words.

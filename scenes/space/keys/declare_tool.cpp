@@ -14,7 +14,7 @@ std::vector<Key<ToolSpec>> keys_of_place() {
       {{.name = "shape",
         .kind = Kind::choice,
         .choices = {{"plane", "fills the half-space behind its surface"},
-                    {"die", "a round hole: fills everything outside a cylinder"},
+                    {"die", "a round hole without an end: fills everything outside a cylinder"},
                     {"punch", "a body of revolution about its axis, whose face has a profile"},
                     {"stl", "a closed surface from a file"}},
         .required = true,

@@ -34,11 +34,32 @@ TEST(ForceCurve, TheTipLeavesWhereTheLeverDrawsWithTheAdhesion) {
   EXPECT_NEAR(last(h, "clamp/force_z"), -last(h, "probe/force_z"), 1e-12);
   const std::vector<ForceCurveFigures> curves = force_curves(scene, h);
   ASSERT_EQ(curves.size(), 1u);
+  EXPECT_TRUE(curves[0].released);
   EXPECT_EQ(curves[0].action, 4);  // the first action draws off what has not touched yet
   EXPECT_NEAR(curves[0].pull_off / 20e-9, 1, 0.005);
   EXPECT_NEAR(curves[0].work / stored, 1, 0.005);
   EXPECT_NEAR(*curves[0].work_of_adhesion, curves[0].pull_off / (2 * std::numbers::pi * 20e-9),
               1e-12);
+}
+
+// The same curve with a pause in the middle is one curve; one that stops in contact has no pull-off.
+TEST(ForceCurve, GoesOnAfterAHoldAndEndsReleased) {
+  const auto curves_of = [](const std::string& retractions) {
+    const Scene scene =
+        shipped_afm("force-curve.toml",
+                    {"action=[{ kind = \"press\", distance = \"30 nm\", increments = 10 }, " +
+                     retractions + "]"});
+    return force_curves(scene, history_of(scene));
+  };
+  const auto paused = curves_of(
+      "{ kind = \"retract\", distance = \"60 nm\", increments = 20 }, { kind = \"hold\" }, "
+      "{ kind = \"retract\", distance = \"340 nm\", increments = 100 }");
+  ASSERT_EQ(paused.size(), 1u);
+  EXPECT_TRUE(paused[0].released);
+  EXPECT_NEAR(paused[0].pull_off / 20e-9, 1, 0.02);
+  const auto stopped = curves_of("{ kind = \"retract\", distance = \"60 nm\", increments = 20 }");
+  ASSERT_EQ(stopped.size(), 1u);
+  EXPECT_FALSE(stopped[0].released);
 }
 
 TEST(ForceCurve, AProgrammeWithoutAPressHasNone) {

@@ -91,7 +91,7 @@ const WrongExpect wrongs[] = {
     {"ValueWithoutNearness", "series = \"dt\"\nequals = 1", ".within", "required key"},
     {"BoundWithNearness", "series = \"dt\"\nbelow = 1\nwithin = 0.1", ".within", "no effect"},
     {"WrongUnit", "series = \"dt\"\nbelow = \"1 N\"", ".below", "a quantity of that dimension"},
-    {"UnitWhereNoneIs", "series = \"penetration\"\nbelow = \"1 m\"", ".below", "has no unit"},
+    {"UnitWhereNoneIs", "series = \"penetration\"\nbelow = \"1 m\"", ".below", "dimensionless"},
     {"ShareOfTheEnd", "series = \"dt\"\nbelow = 1\nfrom = 0.5", ".from", "another `when`"},
     {"EmptyShare", "series = \"dt\"\nwhen = \"max\"\nbelow = 1\nfrom = 0.5\nuntil = 0.5", ".from",
      "from < until"},

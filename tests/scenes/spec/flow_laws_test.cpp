@@ -92,7 +92,7 @@ TEST_F(FlowLawKeys, RefuseWhatDoesNotFit) {
   EXPECT_THAT(refused(with("[material.hardening]\nlaw = \"voce\"\nsaturation = \"-1 MPa\"\n"
                            "saturation_rate = 2\n")),
               HasSubstr("saturation"));
-  EXPECT_THAT(refused(with(table_)), HasSubstr("material[0].yield_stress: the table of"));
+  EXPECT_THAT(refused(with(table_)), HasSubstr("material[0].yield_stress: it is given by the table of"));
   EXPECT_THAT(refused(with("[material.rate]\nlaw = \"cowper-symonds\"\nreference_rate = \"1 1/s\"\n"
                            "exponent = 0.5\n")),
               HasSubstr("exponent"));

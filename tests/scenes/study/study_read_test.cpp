@@ -279,7 +279,7 @@ TEST_F(StudyRead, ExpectationsThatSayNothingOrTooMuchAreRefused) {
               HasSubstr("expect[0].exceeds"));
   EXPECT_THAT(refusal(with_expect(series + "ratio = [\"friction=0.1\", \"friction=0.3\"]\n"
                                            "above = \"1 N\"\n")),
-              HasSubstr("no unit"));
+              HasSubstr("dimensionless"));
   EXPECT_THAT(refusal(with_expect(series + "of = \"friction=0.1\"\nat = 0.8\nwhen = \"max\"\n"
                                            "above = 1\n")),
               HasSubstr("no effect together with `at`"));

@@ -105,6 +105,24 @@ TEST(RoughProfile, IsTheSameSurfaceForALongerWay) {
     EXPECT_NEAR(height_at(more, x) - height_at(one, x), lift, 1e-15) << x;
 }
 
+// Powder that a holder carries over a target at rest comes as far as the holder goes.
+TEST(GroovedProfile, GoesAsFarAsThePowderIsCarried) {
+  const auto end_of = [](const char* way) {
+    const Scene scene = own_scene(R"(extends = "shear/groove-law.toml"
+remove = ["expect", "stage.slide.move"]
+[[stage]]
+name = "slide"
+[[stage.move]]
+tool = "holder"
+displacement = [")" + std::string(way) +
+                                  "\", \"0 mm\"]\n");
+    for (const ToolSpec& tool : scene.tools)
+      if (tool.name == "target") return tool.points.back().x();
+    return std::nan("");
+  };
+  EXPECT_NEAR(end_of("120 mm") - end_of("40 mm"), 80e-3, 8.1e-3);  // whole pitches
+}
+
 TEST(RoughProfile, ComesFromTheScenesSeed) {
   const auto points = [](const char* seed) { return flat_with(rough, {seed}).tools.at(2).points; };
   EXPECT_EQ(points("seed=7"), points("seed=7"));
