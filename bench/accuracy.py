@@ -1,6 +1,6 @@
-"""Error of the compaction scenes against run time, mesh and mesh phase; prints the tables of bench/results/unit-cell.md.
+"""Error of the compaction scenes against run time, mesh and mesh phase; prints the tables in bench/results/unit-cell.md.
 
-  /usr/bin/python3 bench/accuracy.py [cells] [phases] [matrix] [formulations]      (all: some six minutes)
+  /usr/bin/python3 bench/accuracy.py [cells] [phases] [matrix] [formulations]      (all: about six minutes)
 
 The reference is the exact unit cell of the frictionless square packing (quarter disc between rigid
 planes, plane strain, perfectly plastic; axial +-3 %, lateral +-10 %).
@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/cli/pulvis"
 REFERENCE = {0.80: (0.45, 0.10), 0.82: (0.62, 0.30), 0.85: (0.78, 0.47), 0.90: (1.10, 0.73),
              0.95: (1.44, 1.00)}
-DENSITIES = [0.80 + 0.001 * i for i in range(61)]  # over which mesh phases are compared
+DENSITIES = [0.80 + 0.001 * i for i in range(61)]  # at which mesh phases are compared
 
 
 def run(scene, overrides=(), threads=1):
@@ -43,7 +43,7 @@ def at(xs, ys, x):
 
 
 def errors(curve):
-    """Against the exact cell: axial, then lateral."""
+    """Errors relative to the exact unit cell: axial, then lateral."""
     return [f"{100 * (at(curve[0], curve[1 + k], d) / REFERENCE[d][k] - 1):+.1f}%" for k in (0, 1) for d in REFERENCE]
 
 
@@ -68,7 +68,7 @@ def cells():
 
 
 def formulations():
-    """The unit cell with every element formulation: errors, and the least wall time of three runs."""
+    """The unit cell with every element formulation: errors, and the minimum wall time of three runs."""
     print("| formulation | quads | wall s | " +
           " | ".join(f"axial {d:.2f}" for d in REFERENCE) + " | " +
           " | ".join(f"lateral {d:.2f}" for d in REFERENCE) + " |")
@@ -76,7 +76,7 @@ def formulations():
     for edges, rings in ((20, 1), (40, 1), (80, 2)):
         names = ("four-point", "one-point", "standard")
         runs = {name: [] for name in names}
-        for _ in range(3):  # in turn: the machine's mood is the same for all
+        for _ in range(3):  # interleaved: machine load affects all equally
             for name in names:
                 runs[name].append(run("unit-cell.toml", (
                     f"particle.disc.mesh.boundary_edges={edges}",

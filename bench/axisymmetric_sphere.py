@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""A sphere flattened between two rigid frictionless planes, in axisymmetric finite elements: the reference for 3D runs.
+"""A sphere flattened between two rigid frictionless planes, with axisymmetric finite elements: the reference for 3D runs.
 
 usage: axisymmetric_sphere.py [--edges N] [--approach SHARE] [--young E] [--poisson NU] [--yield-stress S]
                               [--hardening H] [--csv FILE]
 
-Independent of Pulvis: four-node quads with one dilatation an element (mean dilatation), multiplicative J2 plasticity, a
-quarter of the section, explicit steps with mass scaled so that inertia is small, nodes that the plane holds exactly.
+Independent of Pulvis: four-node quads with one dilatation per element (mean dilatation), multiplicative J2 plasticity, a
+quarter of the cross-section, explicit steps with mass scaling so that inertia is small, exact contact with the plane.
 Prints approach of plane and centre over the radius, force over pi R^2 sigma_y, contact radius over R (area of the nodes
-that touch). Literature for comparison: Mesarovic and Fleck, Int. J. Solids Struct. 37 (2000) 7071.
+in contact). Literature for comparison: Mesarovic and Fleck, Int. J. Solids Struct. 37 (2000) 7071.
 """
 import argparse
 
@@ -78,7 +78,7 @@ class Sphere:
         e = len(self.quads)
         self.inv_cp = np.tile(np.array([1.0, 1, 1, 0]), (e, 4, 1))  # rr zz tt rz
         self.eps = np.zeros((e, 4))
-        # Every node has the mass that gives it the same stable step: inertia serves to find rest only.
+        # Nodal masses are scaled to a uniform stable step: inertia only serves to reach equilibrium.
         size = np.sqrt(np.linalg.det(J).min(1))
         modulus = self.bulk + 4 / 3 * self.mu
         self.mass = np.zeros(len(self.X))
@@ -147,11 +147,11 @@ class Sphere:
 
 
 def flatten(n, approach, young, poisson, yield_stress, hardening, steps):
-    """Rows of approach/R, force/(pi R^2 sigma_y), contact radius/R. Steps in which the plane goes the whole way."""
+    """Rows of approach/R, force/(pi R^2 sigma_y), contact radius/R. steps: number of steps for the whole approach."""
     body = Sphere(n, young, poisson, yield_stress, hardening)
     axis, equator = body.X[:, 0] < 1e-9, body.X[:, 1] < 1e-9
     dt, rows = 0.35, []
-    # The force's lag: a hundred steps. The drag of the damping on the whole body stays far below the force.
+    # Time lag of the force: a hundred steps. The damping force on the whole body stays far below the contact force.
     damping, smoothing, force = 5e-4, 0.01, 0.0
     for step in range(steps):
         share = (step + 1) / steps
@@ -163,7 +163,7 @@ def flatten(n, approach, young, poisson, yield_stress, hardening, steps):
         body.v[equator, 1] = 0
         x = body.x + dt * body.v
         above = x[:, 1] > plane
-        held = (x[above, 1] - plane) * body.mass[above] / dt**2  # what the plane takes away of the momentum
+        held = (x[above, 1] - plane) * body.mass[above] / dt**2  # momentum removed by the plane
         x[above, 1] = plane
         body.v[above, 1] = (plane - body.x[above, 1]) / dt
         body.x = x

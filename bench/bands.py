@@ -1,12 +1,12 @@
-"""What the seeds of a study make of one number: of every variation the median, the smallest and the largest.
+"""Scatter of one result over the seeds of a study: for every variation the median, minimum and maximum.
 
   ./pulvis study scenes/studies/wall-friction-seeds.toml -o runs/wall-friction-seeds
   /usr/bin/python3 bench/bands.py runs/wall-friction-seeds tool/bottom/force_y --from 0.84 --until 0.87
 
-The number is the mean of a series of history.csv between two values of another, or with --at its value there. --ratio A B
-divides A by B of the same seed, as often as it is given; --relative divides by the last value before --from, so that
-a force is a share of what it was when shear began. --largest-rise H: the largest rise of the series in steps H of the other
-between --from and --until, as a share of its value there: 1 over the number of steps if it grows evenly.
+The result is the mean of a series in history.csv between two values of another series, or with --at its value there.
+--ratio A B divides A by B for the same seed and may be repeated; --relative divides by the last value before --from,
+so that a force is relative to its value at the start of shear. --largest-rise H: the largest rise of the series over steps
+H of the other between --from and --until, relative to its value there: 1 over the number of steps if it grows uniformly.
 """
 import argparse
 import csv
@@ -17,7 +17,7 @@ from pathlib import Path
 
 
 def history_of(run):
-    """Samples, by the names of their series."""
+    """Samples by series name."""
     with open(run / "history.csv", encoding="utf-8") as file:
         rows = csv.reader(file)
         names = [name.split(" [")[0] for name in next(rows)]
@@ -25,7 +25,7 @@ def history_of(run):
 
 
 def crossing(samples, series, against, value):
-    """The series where `against` first passes the value, by linear interpolation."""
+    """The value of the series where `against` first crosses the value, by linear interpolation."""
     for a, b in zip(samples, samples[1:]):
         if a[against] < value <= b[against]:
             share = (value - a[against]) / (b[against] - a[against])
@@ -40,7 +40,7 @@ def largest_rise(samples, args):
 
 
 def number_of(samples, args):
-    """The number asked for, or none where the run does not come as far."""
+    """The requested result, or None if the run does not get that far."""
     if args.largest_rise:
         return largest_rise(samples, args)
     if args.per:
@@ -58,7 +58,7 @@ def number_of(samples, args):
 
 
 def read(folder, args):
-    """Variation: seed: number."""
+    """{variation: {seed: result}}."""
     found = {}
     for run in sorted(folder.iterdir()):
         if not (run / "summary.json").exists() or not (run / "history.csv").exists():

@@ -1,11 +1,11 @@
-"""What a bonded row of contact costs beside one that only touches.
+"""Cost of a bonded contact row compared with an unbonded one.
 
   /usr/bin/python3 bench/bonds.py [--rounds 7] [--program build/release/cli/pulvis]
 
-A matrix of elastic blocks is pressed in a die, free or glued, on one thread: the same bodies and the same rows, all of
-which touch. Times are those of the systems that answer for the rows (edge_contact, bond_forces), from summary.json, of
-runs that take turns; a slower hour falls on all alike. Instructions are counted by callgrind inside these systems
-alone, over the same steps (needs valgrind). A row is a boundary edge against one neighbour: four points.
+A matrix of elastic blocks is pressed in a die, unbonded or bonded, on one thread: the same bodies and the same rows,
+all in contact. Times are those of the systems that process the rows (edge_contact, bond_forces), from summary.json.
+Runs are interleaved, so that machine load affects all equally. Instructions are counted by callgrind inside these
+systems only, over the same steps (needs valgrind). A row is a boundary edge against one neighbour: four points.
 """
 import argparse
 import json
@@ -17,8 +17,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-BLOCKS, EDGES = 12, 10  # along a side of the matrix, of a block
-ROWS = 2 * 2 * BLOCKS * (BLOCKS - 1) * EDGES  # two sides of every edge between two blocks
+BLOCKS, EDGES = 12, 10  # per side of the matrix, per side of a block
+ROWS = 2 * 2 * BLOCKS * (BLOCKS - 1) * EDGES  # both sides of every edge between two blocks
 SYSTEMS = ("edge_contact", "bond_forces")
 STEPS, COUNTED_STEPS = 3000, 150
 
@@ -112,7 +112,7 @@ def instructions(program, folder, case):
             "valgrind", "--tool=callgrind", f"--callgrind-out-file={out}",
             *(f"--toggle-collect=pulvis::{system}::operator()*" for system in SYSTEMS)))
         return int(re.search(r"^(?:totals|summary): (\d+)", out.read_text(), re.M)[1])
-    first = COUNTED_STEPS // 3  # they bring the blocks together
+    first = COUNTED_STEPS // 3  # these steps bring the blocks into contact
     return (within(COUNTED_STEPS) - within(first)) / (COUNTED_STEPS - first) / ROWS
 
 

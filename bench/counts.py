@@ -1,12 +1,12 @@
-"""Instructions and floating-point operations of an element-update, counted by callgrind.
+"""Instructions and floating-point operations per element update, counted by callgrind.
 
   /usr/bin/python3 bench/counts.py [--case 100] [--steps 40]
 
 Runs build/release/bench/throughput twice on one thread, for N and for 2N steps after the same preparation,
-and takes the difference: start-up and preparation fall out. Callgrind counts how often every instruction
-was executed, objdump says what it is. An addition, subtraction, multiplication, division or square root of
-doubles is one operation a lane, a fused multiply-add two; comparisons, minima and moves are none. Lanes
-whose result is thrown away count: they were computed. Needs valgrind (Debian: valgrind) and objdump.
+and takes the difference, which eliminates start-up and preparation. Callgrind counts how often each
+instruction was executed, objdump identifies it. An addition, subtraction, multiplication, division or
+square root of doubles is one operation per lane, a fused multiply-add two; comparisons, minima and moves
+are none. Masked lanes count, since they are computed. Needs valgrind (Debian: valgrind) and objdump.
 """
 import argparse
 import collections
@@ -55,7 +55,7 @@ def operations_by_address(program):
 
 
 def callgrind(program, case, steps, folder):
-    """Executions by (object, function, address), the elements, and how many steps there were in all."""
+    """Execution counts by (object, function, address), number of elements, and total number of steps."""
     out = pathlib.Path(folder) / f"{steps}.out"
     done = subprocess.run(["valgrind", "--tool=callgrind", "--dump-instr=yes", "--compress-pos=no",
                            "--compress-strings=no", f"--callgrind-out-file={out}", program,
@@ -74,7 +74,7 @@ def executions(file):
         elif line.startswith("fn="):
             function = line[3:-1]
         elif line.startswith("calls="):
-            inclusive = True  # the next line is what the callee cost
+            inclusive = True  # the next line is the cost of the callee
         elif line.startswith("0x"):
             if not inclusive:
                 address, _, cost = line.split()
@@ -84,7 +84,7 @@ def executions(file):
 
 
 def count(program, case, steps):
-    """{"instructions": ..., "flops": ..., and both of "kernels/"}, each of one element-update."""
+    """{"instructions": ..., "flops": ..., and both for "kernels/"}, each per element update."""
     require_tools()
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
         runs = [pool.submit(callgrind, program, case, n, folder) for n in (steps, 2 * steps)]
@@ -94,7 +94,7 @@ def count(program, case, steps):
 
 
 def figures(executed, updates):
-    built = str(ROOT)  # only what is built here computes
+    built = str(ROOT)  # only code built here does the computation
     known = {where: operations_by_address(where)
              for where in {key[0] for key in executed} if where.startswith(built)}
     sums = collections.Counter()

@@ -1,14 +1,14 @@
-"""Error against run time: every benchmark problem with families of settings.
+"""Error against run time for every benchmark problem, with families of settings.
 
-  /usr/bin/python3 bench/fronts.py                    every standard problem, some ten minutes
+  /usr/bin/python3 bench/fronts.py                    every standard problem, about ten minutes
   /usr/bin/python3 bench/fronts.py --all              all of them, an hour and a half
-  /usr/bin/python3 bench/fronts.py unit-cell hertz    these only
-  /usr/bin/python3 bench/fronts.py --list             what there is
+  /usr/bin/python3 bench/fronts.py unit-cell hertz    only these
+  /usr/bin/python3 bench/fronts.py --list             list all problems
 
 Writes <problem>.csv (every run), <problem>.png (error against CPU time, with the Pareto front) and
-summary.md into build/fronts, with --record into bench/results/fronts, which belongs to the source. A run that is in
-the csv already, of the same program, scene and overrides, is not run again. Problems are declared in
-bench/problems/; this file knows none of them.
+summary.md into build/fronts, or with --record into bench/results/fronts, which is part of the source. A run
+already in the csv, with the same program, scene and overrides, is not repeated. Problems are declared in
+bench/problems/; this file does not depend on them.
 """
 import argparse
 import concurrent.futures
@@ -37,11 +37,11 @@ PROBLEM_FILES = ("unit_cell", "crushed_disc", "taylor_bar", "hertz", "matrix", "
                  "shear_contact", "bar_wave", "thick_cylinder")
 COLUMNS = ("family", "setting", "overrides", "cpu_s", "wall_s", "steps", "elements", "dt_s",
            "energy_balance", "errors", "note", "observed", "key")
-REPEAT_BELOW = 0.5  # s of CPU time: shorter runs are repeated, the least time counts
+REPEAT_BELOW = 0.5  # s of CPU time: shorter runs are repeated, the minimum time counts
 
 
 class Run:
-    """A finished run, as the problem's `observe` sees it."""
+    """A finished run, passed to the `observe` function of the problem."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -55,7 +55,7 @@ class Run:
         return self.columns[name]
 
     def frame(self, field, which=-1):
-        """Field of one frame: (time, values)."""
+        """A field in one frame: (time, values)."""
         with h5py.File(self.folder / "run.h5") as file:
             frame = file["frames"][sorted(file["frames"])[which]]
             return float(frame.attrs["time"]), frame[field][:]
@@ -66,13 +66,13 @@ class Run:
 
 
 class Program:
-    """The built program: runs a scene with overrides and measures what it costs."""
+    """The built program: runs a scene with overrides and measures its cost."""
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
         self.only_cached = False
         self.commit = self._commit()
-        # What runs, not which commit it was built at: the commit's name and the linker's build id go.
+        # Identifies the code, not the commit it was built from: commit name and linker build id are removed.
         data = re.sub(rb"GNU\0.{20}", b"", self.path.read_bytes(), count=1, flags=re.S)
         self.hash = hashlib.sha256(data.replace(self.commit.encode(), b"")).hexdigest()[:12]
 
@@ -81,7 +81,7 @@ class Program:
         return re.search(r"\((.+)\)", text.stdout)[1]
 
     def key(self, scene, overrides):
-        command = [self.path, "check", "--print", ROOT / "scenes" / scene]  # with what it extends
+        command = [self.path, "check", "--print", ROOT / "scenes" / scene]  # includes the base scenes
         whole = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         text = whole + json.dumps(overrides, sort_keys=True)
         return hashlib.sha256((self.hash + text).encode()).hexdigest()[:16]
@@ -99,7 +99,7 @@ class Program:
             return process.returncode, usage.ru_utime + usage.ru_stime, log.read()
 
     def run(self, scene, overrides, observe):
-        """A row of the csv without its names and errors."""
+        """A csv row without its names and errors."""
         row = {"overrides": json.dumps(overrides), "key": self.key(scene, overrides), "note": ""}
         with tempfile.TemporaryDirectory() as folder:
             code, cpu, log = self.once(scene, overrides, folder + "/run")
@@ -119,7 +119,7 @@ class Program:
 
 
 def missed_only_expectations(code, folder):
-    """The run came to its end: how far it is off what the scene expects is what is measured here."""
+    """Whether the run finished and only missed its expectations: that deviation is what is measured here."""
     return code == 3 and json.loads((pathlib.Path(folder) / "summary.json").read_text())["outcome"] == "done"
 
 
@@ -130,7 +130,7 @@ def last_line(log):
 
 
 class Series:
-    """One problem's runs: made once, kept in its csv."""
+    """The runs of one problem: run once, kept in its csv."""
 
     def __init__(self, problem, program, folder, jobs):
         self.problem, self.program, self.jobs = problem, program, jobs
@@ -143,7 +143,7 @@ class Series:
             self.known = {row["key"]: row for row in csv.DictReader(lines)}
 
     def rows(self, settings):
-        """Rows of [(family, Setting)]; runs what is missing, `jobs` at a time."""
+        """Rows for [(family, Setting)]; runs those missing, `jobs` at a time."""
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             rows = list(pool.map(lambda s: self._row(*s), settings))
         return rows

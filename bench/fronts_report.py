@@ -1,4 +1,4 @@
-"""Pictures and tables of bench/fronts.py: error against CPU time, and which settings are on the front."""
+"""Plots and tables of bench/fronts.py: error against CPU time, and the settings on the Pareto front."""
 import json
 
 import matplotlib
@@ -10,14 +10,14 @@ MARKERS = "osD^vP*Xdh<>"
 
 
 def usable(rows):
-    """[(row, errors, cpu)] without the reference, be it a run of its own or of a family."""
+    """[(row, errors, cpu)] without the reference run, whether separate or in a family."""
     runs = [(row, json.loads(row["errors"]), float(row["cpu_s"])) for row in rows
             if not row["note"] and row["family"] != "reference"]
     return [run for run in runs if any(run[1].values())]
 
 
 def front(points):
-    """Of [(cpu, error, row)]: those that none beats in both."""
+    """The Pareto-optimal points of [(cpu, error, row)]."""
     best, chosen = float("inf"), []
     for point in sorted(points, key=lambda p: p[:2]):
         if point[1] < best:
@@ -72,7 +72,7 @@ def table(rows, measures):
 
 
 def section(problem, rows, reference, provenance, folder):
-    """Writes <problem>.md: the front of each measure, every run, and what was left out."""
+    """Writes <problem>.md: the front for each measure, every run, and the runs left out."""
     runs = usable(rows)
     measures = list(runs[0][1])
     lines = [f"## {problem.name}: {problem.title}", "", f"![front]({problem.name}.png)", "",

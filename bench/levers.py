@@ -1,7 +1,7 @@
-"""Levers: stiffness against mesh, element, thickness and run time; prints the tables of docs/accuracy.md and of
+"""Levers: stiffness against mesh, element, thickness and run time; prints the tables in docs/accuracy.md and
 bench/results/levers.md.
 
-  /usr/bin/python3 bench/levers.py [table-4.2] [table-4.3] [thickness] [fronts] [feet]      (all: a quarter of an hour)
+  /usr/bin/python3 bench/levers.py [table-4.2] [table-4.3] [thickness] [fronts] [feet]      (all: about 15 minutes)
 
 Fronts are printed as tables and drawn (--draw FILE.png).
 """
@@ -14,12 +14,12 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/cli/pulvis"
 THESIS = {(2, 2, 2.2): 0.466, (1, 2, 2.2): 0.457, (2, 2, 0.7): 0.430, (1.3, 2, 0.7): 0.427,
-          (1, 1.1, 1.1): 0.353}  # Table 4.2: width, length, thickness of a division in um: N/m
+          (1, 1.1, 1.1): 0.353}  # Table 4.2: element width, length, thickness in um: N/m
 L, W, T = 440, 50, 2.2
 
 
 def calibrate(scene, overrides=(), runs=2):
-    """Runs a scene; returns its calibration, the least wall time of two runs in s, and its elements."""
+    """Runs a scene; returns its calibration, the minimum wall time of two runs in s, and its element count."""
     best = None
     for _ in range(runs):
         with tempfile.TemporaryDirectory() as folder:
@@ -42,7 +42,7 @@ def divided(width, length, thickness):
 
 
 def converged():
-    """Plate elements of 2 x 2 x 1.1 um: as fine as most rows below, and ten times finer than it needs."""
+    """Plate elements of 2 x 2 x 1.1 um: as fine as most rows below, and ten times finer than needed."""
     return calibrate("tipless-beam.toml", divided(2, 2, 1.1), 1)[0]["k_n"]
 
 
@@ -88,7 +88,7 @@ def thickness():
               f"| {seconds:.2f} |")
 
 
-# Coarse to fine: largest edge, that at the sides, that at the foot's rim; the last one is the reference.
+# Coarse to fine: edge length in general, at the sides, at the rim of the foot; the last one is the reference.
 MESHES = {"half": (9, 1, 0.06), "default": (6, 0.5, 0.03), "twice": (3, 0.25, 0.015),
           "reference": (2, 0.2, 0.01)}
 FRONTS = ("tipless-beam.toml", "calibration-beam.toml", "calibration-v.toml")
@@ -123,7 +123,7 @@ def fronts(picture):
         draw(curves, picture)
 
 
-SOLIDS = {  # graded meshes of solid elements alone, of another program: k_l, N/m
+SOLIDS = {  # graded meshes of solid elements only, from another program: k_l, N/m
     "beam, 2 um, 1 um from its end": ("calibration-beam.toml", [], 76.46),
     "beam, 4 um at its end, tip 13.7 um high": (
         "calibration-beam.toml", ["tip.height=13.7 um", "tip.foot=4 um", "tip.set_back=2 um"], 73.9),

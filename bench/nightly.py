@@ -1,15 +1,15 @@
-"""Every shipped study and scene, one after the other, with what it expects: for a machine that is free at night.
+"""Runs every shipped study and scene in sequence and checks its expectations: for overnight runs.
 
   /usr/bin/python3 bench/nightly.py                      (all of scenes/studies, then the scenes, into runs/nightly; hours)
   /usr/bin/python3 bench/nightly.py time-step wall-friction --jobs 1
   /usr/bin/python3 bench/nightly.py brittle/crushed-bed
 
-Scenes are run whole, of which the tests run only the beginning where they take long, and of those of the AFM one of each
-kind; each is expected to keep its balance of energy besides what it says itself. What is finished in the output folder is
-kept, as `pulvis study` does, so a night that was broken off goes on where it was: give the same command again. After each the
-log is written anew: OUTPUT/nightly.md has one line a study or scene (runs, expectations met, seconds of its runs, exit code)
-and below them every expectation, met or not; what it said besides is in OUTPUT/NAME.log. Exit code: 0 if all ended with 0, 1
-if one did not, 2 for one that does not exist, 130 if interrupted.
+Scenes are run to the end (the tests run only the beginning of long ones, and of the AFM scenes one of each kind).
+Besides its own expectations, each must conserve energy. Finished runs in the output folder are
+kept, as in `pulvis study`, so an interrupted night can be continued: give the same command again. After each run the
+log is rewritten: OUTPUT/nightly.md has one line per study or scene (runs, expectations met, run time in seconds, exit code),
+followed by every expectation, met or not; all other output is in OUTPUT/NAME.log. Exit code: 0 if all returned 0, 1
+if one did not, 2 if a name does not exist, 130 if interrupted.
 """
 import argparse
 import csv
@@ -22,19 +22,19 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT / "scenes"
 STUDIES = SCENES / "studies"
-# All but these, so new ones are found by themselves.
+# All folders except these, so that new ones are found automatically.
 ELSEWHERE = {"studies", "probes", "lab", "parts", "materials", "extreme"}  # bench/stability.py; the tests run all
 LIMITS = {"energy_balance_error": 0.01, "penetration": 0.1}
 MEANING = {0: "good", 2: "refused", 3: "a run failed, or an expectation is not met", 4: "disk or memory"}
 
 
 def expectations(text):
-    """Lines of the report on expectations, as `pulvis study` prints them."""
+    """The expectation lines, as printed by `pulvis study`."""
     return [line.strip() for line in text.splitlines() if line.startswith(("  met ", "  NOT met"))]
 
 
 def seconds_of_runs(folder):
-    """Number of runs that ended well, and their time, of earlier nights too."""
+    """Number of successful runs and their total time, including earlier nights."""
     table = folder / "study.csv"
     if not table.exists():
         return 0, 0.0
@@ -62,7 +62,7 @@ def summary_of(folder):
 
 
 def run_scene(program, scene, output):
-    """From its beginning, or from its checkpoint; what has ended is not run again."""
+    """Starts a run or resumes it from its checkpoint; finished runs are not repeated."""
     name = f"{scene.parent.name}/{scene.stem}"
     folder, log = output / "scenes" / name, output / f"{name.replace('/', '-')}.log"
     folder.parent.mkdir(parents=True, exist_ok=True)

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""What a run from Python costs more than the same run from the command line, without and with a callback every 100 steps.
+"""Overhead of a run from Python over the same run from the command line, without and with a callback every 100 steps.
 
 usage: PYTHONPATH=build/release/python bench/python_cost.py [--program PATH] [--rounds N] [--scene FILE] [--json FILE]
 
-All kinds of run take turns, each in a process of its own, on one thread. Where `perf` counts instructions, those of the
-user are compared, which other work on the machine does not disturb; else processor seconds, the least of all rounds. The
-start of the interpreter and the import of the package are counted and told apart: a run of a second cannot hide them.
-Exit code 1 where Python costs 1% more or the callback 5%.
+All kinds of run are interleaved, each in a separate process, on one thread. If `perf` can count instructions, user
+instructions are compared, which are insensitive to machine load; otherwise the minimum CPU time of all rounds.
+Interpreter start-up and package import are measured separately, since they are not negligible for a run of one second.
+Exit code 1 if Python costs 1% more or the callback 5%.
 """
 import argparse
 import json
@@ -35,7 +35,7 @@ def has_perf():
     if shutil.which("perf") is None:
         return False
     done = subprocess.run(["perf", "stat", "-x,", "-e", "instructions:u", "true"], capture_output=True, text=True)
-    return done.returncode == 0 and "<not " not in done.stderr  # a virtual machine may have no counters
+    return done.returncode == 0 and "<not " not in done.stderr  # a virtual machine may lack hardware counters
 
 
 def instructions(command):

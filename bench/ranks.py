@@ -1,17 +1,17 @@
 #!/usr/bin/python3
-"""Runs over several ranks: what they cost beside threads, what they tell each other, and a model of many nodes from it.
+"""Runs on several ranks: cost compared with threads, communication volume, and a scaling model for many nodes.
 
 usage: ranks.py [--pulvis PROGRAM] [--folder DIR] [--repeats N] WHAT...
 
-WHAT  strong   a square packing on 1 and 2 threads and on 1 and 2 ranks, in turns: wall seconds, least and median; and two
-               processes with half of it each that tell each other nothing, side by side: how uneven the cores are
+WHAT  strong   a square packing on 1 and 2 threads and on 1 and 2 ranks, interleaved: wall seconds, minimum and median; and
+               two independent processes with half of it each, run concurrently: measures how uneven the cores are
       weak     N discs on one rank, 2 N on two
-      bytes    what ranks tell each other in a step, by the number of ranks and of discs
-      model    seconds a step on 1 to 1,024 nodes for 10^4 to 10^7 discs, from the cost of a disc and of the bytes that
-               `strong` and `bytes` measure, with the stated latency and bandwidth
-      many     100,000 discs for 500 steps on two ranks: memory of each
-      balance  a loose powder that a fast punch gathers before itself, on two and four ranks, rebalanced and not (by the
-               tests' rebalanced_run): costs of the ranks, wall seconds
+      bytes    data exchanged between ranks per step, by number of ranks and of discs
+      model    seconds per step on 1 to 1,024 nodes for 10^4 to 10^7 discs, from the cost per disc and the bytes measured
+               by `strong` and `bytes`, with the stated latency and bandwidth
+      many     100,000 discs for 500 steps on two ranks: memory per rank
+      balance  a loose powder pushed together by a fast punch, on two and four ranks, with and without rebalancing (by the
+               tests' rebalanced_run): cost per rank, wall seconds
 """
 import argparse
 import json
@@ -22,9 +22,9 @@ import statistics
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-LATENCY, BANDWIDTH = 2e-6, 10e9  # s, byte/s: a usual interconnect of clusters, stated and not measured
-CORES = 64  # of a node of the model, one rank
-COLLECTIVES = 5  # in a step: contact sums, depth, tool forces, time step, whether the root goes on
+LATENCY, BANDWIDTH = 2e-6, 10e9  # s, byte/s: a typical cluster interconnect, assumed and not measured
+CORES = 64  # per node of the model, one rank each
+COLLECTIVES = 5  # per step: contact sums, depth, tool forces, time step, whether the root continues
 
 SCENE = """extends = "{base}"
 title = "{title}"
@@ -51,7 +51,7 @@ samples = 1
 
 
 def write_scene(options, name, title, packing, move, width, height, duration, edges=40):
-    """Discs of regular-25.toml in a die of another size; packing and move as inline tables."""
+    """Discs of regular-25.toml in a die of another size; packing and move are inline tables."""
     options.folder.mkdir(parents=True, exist_ok=True)
     file = options.folder / f"{name}.toml"
     file.write_text(SCENE.format(base=ROOT / "scenes/compaction/regular-25.toml", title=title, packing=packing, move=move,
@@ -74,7 +74,7 @@ def run(options, name, words):
 
 
 def block(options, columns, rows, edges=40):
-    """Discs of regular-25.toml, pressed as fast as there."""
+    """Discs of regular-25.toml, pressed at the same speed."""
     return write_scene(
         options, f"discs-{columns * rows}", f"{columns} x {rows} discs, 316L",
         f'{{ kind = "square", particle = "disc", rows = {rows}, columns = {columns}, corner = ["0 mm", "0 mm"] }}',
@@ -82,13 +82,13 @@ def block(options, columns, rows, edges=40):
 
 
 def scene_of(options, discs, edges=40):
-    """A square of about so many."""
+    """A square packing of about this many discs."""
     side = max(2, round(math.sqrt(discs)))
     return block(options, side, side, edges), side * side
 
 
 def side_by_side(options, scene, steps, ways, also=dict):
-    """Wall seconds of every way, run in turns; and of what `also` runs then."""
+    """Wall seconds of each configuration, run interleaved; and those of `also`."""
     seconds = {name: [] for name in ways}
     summaries = {}
     for _ in range(options.repeats):
@@ -101,7 +101,7 @@ def side_by_side(options, scene, steps, ways, also=dict):
 
 
 def halves(options, discs):
-    """Two processes with half of the discs each, and no word between them: wall seconds of the slower and of the faster."""
+    """Two independent processes with half of the discs each: wall seconds of the slower and of the faster."""
     side = round(math.sqrt(discs))
     half = block(options, side, side // 2)
     names = ("lower", "upper")
@@ -157,7 +157,7 @@ def bytes_told(options):
 
 
 def model(options):
-    """t = a N/(64 P) + 4 messages + collectives log2 P, with the bytes of a border as long as a square share's side."""
+    """t = a N/(64 P) + 4 messages + collectives log2 P, with the bytes for a border of the length of a square subdomain."""
     scene, discs = scene_of(options, options.discs)
     seconds, _ = side_by_side(options, scene, options.steps, {"1 thread": ["--threads", 1]})
     a_disc = min(seconds["1 thread"]) / options.steps / discs
@@ -171,7 +171,7 @@ def model(options):
         cells = []
         for nodes in (1, 4, 16, 64, 256, 1024):
             ranks = nodes * CORES
-            bodies = a_disc * max(size / ranks, 8)  # a chunk has eight
+            bodies = a_disc * max(size / ranks, 8)  # a chunk holds eight
             border = 4 * of_border * math.sqrt(size / ranks) / BANDWIDTH + 2 * 4 * LATENCY
             cells.append(f"{(bodies + border + COLLECTIVES * math.log2(ranks) * LATENCY) * 1e6:.0f}")
         print(f"| 10^{round(math.log10(size))} | " + " | ".join(cells) + " |")
@@ -198,12 +198,12 @@ def loose_scene(options, columns=16, rows=64, speed=100):
 
 
 def longer(seconds):
-    """By how much the slowest rank takes longer than the mean."""
+    """Load imbalance: by how much the slowest rank exceeds the mean."""
     return f"{100 * (max(seconds) / statistics.mean(seconds) - 1):.0f}%"
 
 
 def loose_run(options, name, ranks, every):
-    """By the tests' program, whose ranks are never rebalanced where `every` is beyond the run's steps."""
+    """Runs the test program; it never rebalances if `every` exceeds the number of steps."""
     folder = options.folder / name
     shutil.rmtree(folder, ignore_errors=True)
     subprocess.run(["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--allow-run-as-root", "-np", str(ranks),

@@ -1,8 +1,8 @@
-"""Dynamic relaxation against steady pressing: a matrix of 25 discs of 316L is pressed in increments, after each of which
-mass damping brings it to rest, or in one stage, as shipped. Prints the error of the punch force at the increments' ends
-and the steps that it took: the table of docs/accuracy.md.
+"""Dynamic relaxation against steady pressing: a matrix of 25 discs of 316L is pressed in increments, each followed by
+relaxation with mass damping, or in one stage, as shipped. Prints the error of the punch force at the end of the
+increments and the number of steps: the table in docs/accuracy.md.
 
-  /usr/bin/python3 bench/relaxation.py      (some minutes)
+  /usr/bin/python3 bench/relaxation.py      (a few minutes)
 
 The reference is the same mesh, pressed steadily at a quarter of the shipped speed.
 """
@@ -61,7 +61,7 @@ def run(text, samples):
 
 
 def at_way(curve, way):
-    """Linear between samples."""
+    """Linear interpolation between samples."""
     xs, ys = curve
     i = next(i for i, x in enumerate(xs) if x >= way - 1e-9)
     if i == 0 or xs[i] == xs[i - 1]:
@@ -70,7 +70,7 @@ def at_way(curve, way):
 
 
 def last_at(curve, way):
-    """What is left when the tool has come to rest there."""
+    """The residual value after the tool has come to rest there."""
     return [y for x, y in zip(*curve) if abs(x - way) < 1e-6][-1]
 
 
@@ -85,7 +85,7 @@ def main():
 
     tries = [(10, m, r, a) for m, r in ((0.05, 0.05), (0.05, 0.1), (0.05, 0.2), (0.1, 0.1)) for a in (5e4, 2e5)]
     tries += [(20, m, r, a) for m, r in ((0.025, 0.025), (0.05, 0.05)) for a in (5e4, 2e5)]
-    tries += [(10, m, 0.1, 2e5) for m in (0.28, 1.12)]  # slowly: must come to the reference
+    tries += [(10, m, 0.1, 2e5) for m in (0.28, 1.12)]  # slow: must approach the reference
     factors = [0.25, 0.5, 1]
     jobs = [(timed(4), 400)] + [(timed(f), 400) for f in factors] + [(relaxed(*t), 40 * t[0]) for t in tries]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:

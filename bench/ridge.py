@@ -1,5 +1,5 @@
-"""Force of a block that is pressed on a ridge, against where the ridge stands between two boundary nodes:
-what the points at which an edge is sampled see of a tool's corner. Prints docs/accuracy.md's table.
+"""Force on a block pressed onto a ridge, against the position of the ridge between two boundary nodes:
+how well the sampling points of an edge resolve a corner of a tool. Prints the table in docs/accuracy.md.
 
   /usr/bin/python3 bench/ridge.py      (about a minute)
 
@@ -14,7 +14,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/cli/pulvis"
 EDGE = 0.5  # mm
-SHIFTS = [0, 0.125, 0.25, 0.375, 0.5]  # edges
+SHIFTS = [0, 0.125, 0.25, 0.375, 0.5]  # in edge lengths
 ROUNDINGS = [0, 0.1, 0.2, 0.5, 1]
 DEPTHS = [0.02, 0.1]
 
@@ -69,7 +69,7 @@ samples = 100
 
 
 def force(shift, rounding, depth):
-    """N, mean of the last samples."""
+    """Mean force of the last samples, N."""
     middle = EDGE * shift
     scene = SCENE.format(left=middle - 5, middle=middle, right=middle + 5, rounding=EDGE * rounding,
                          travel=EDGE * (depth + rounding * (math.sqrt(2) - 1)))

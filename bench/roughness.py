@@ -1,10 +1,10 @@
-"""What irregular particles meet over surfaces of different roughness: prints the figures of docs/thesis.md and draws its picture.
+"""Friction of irregular particles on surfaces of different roughness: prints the values in docs/thesis.md and draws its figure.
 
   ./pulvis study scenes/studies/irregular-roughness.toml -o runs/irregular-roughness
   /usr/bin/python3 bench/roughness.py runs/irregular-roughness [PICTURE.png]
 
-Of every variation the median over its seeds, and the smallest and largest. Friction is the mean from 4 mm of sliding on,
-over the distance; the others are those at the end. Needs python3-numpy and python3-matplotlib.
+For every variation the median, minimum and maximum over its seeds. Friction is averaged over the sliding distance
+from 4 mm on; the others are final values. Needs python3-numpy and python3-matplotlib.
 """
 import csv
 import re
@@ -12,11 +12,11 @@ import statistics
 import sys
 from pathlib import Path
 
-STEADY = 4e-3  # m, from where friction is averaged
+STEADY = 4e-3  # m, distance from which friction is averaged
 
 
 def history_of(run):
-    """Rows of the shear stage, by the names of their series."""
+    """Rows of the shear stage by series name."""
     with open(run / "history.csv", encoding="utf-8") as file:
         rows = csv.reader(file)
         names = [name.split(" [")[0] for name in next(rows)]
@@ -56,7 +56,7 @@ def figures_of(run):
 
 
 def read(folder):
-    """Ra/D: figures of its runs."""
+    """{Ra/D: results of its runs}."""
     found = {}
     for run in sorted(folder.glob("ra-*D,seed=*")):
         if (run / "summary.json").exists():

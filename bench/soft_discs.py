@@ -1,13 +1,13 @@
-"""How the coordination of soft particles grows with density: fits Z = Z0 + xi (phi - phi0)^beta to every run of the study
-scenes/studies/soft-discs.toml and prints the table of docs/results.md.
+"""Coordination number of soft particles against density: fits Z = Z0 + xi (phi - phi0)^beta to every run of the study
+scenes/studies/soft-discs.toml and prints the table in docs/results.md.
 
   build/release/cli/pulvis study scenes/studies/soft-discs.toml -o runs/soft-discs
   /usr/bin/python3 bench/soft_discs.py runs/soft-discs
 
-phi is the area of the deformed particles over that of the cell, what overlaps counted once. Z is the mean number of
-neighbours, without rattlers: particles with fewer contacts than hold one (3, with friction 2) are taken out until none is
-left. phi0 is where the pressure sets in: a straight line through it from 0.1% to 1% of Young's modulus meets zero there.
-Z0, xi and beta are a least squares fit from 0.01 beyond phi0 on; then Z0 and xi again with beta = 1/2.
+phi is the area of the deformed particles over that of the cell, with overlaps counted once. Z is the mean number of
+neighbours without rattlers: particles with too few contacts for stability (3, with friction 2) are removed repeatedly until
+none is left. phi0 is the onset of pressure: a straight line fitted from 0.1% to 1% of Young's modulus is zero there.
+Z0, xi and beta are a least-squares fit from 0.01 above phi0 on; then Z0 and xi again with beta = 1/2.
 """
 import argparse
 import pathlib
@@ -17,12 +17,12 @@ import h5py
 import numpy as np
 
 YOUNGS_MODULUS = 10e6  # Pa, of scenes/periodic/soft-discs.toml
-BEYOND = 0.01          # of phi0: closer to it contacts still open and close
+BEYOND = 0.01          # above phi0: closer to it, contacts still open and close
 BETAS = np.arange(0.20, 1.201, 0.01)
 
 
 def neighbours(ids, particles, needed):
-    """Mean number of contacts of the particles that are held."""
+    """Mean number of contacts of the particles that are not rattlers."""
     held = np.ones(particles, bool)
     while True:
         pairs = ids[held[ids].all(axis=1)] if len(ids) else ids
@@ -34,7 +34,7 @@ def neighbours(ids, particles, needed):
 
 
 def curve_of(folder, friction):
-    """phi, Z and the pressure of every frame."""
+    """phi, Z and pressure of every frame."""
     rows = []
     with h5py.File(folder / "run.h5") as file:
         quads = file["mesh/quads"][:]

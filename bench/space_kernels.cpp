@@ -1,5 +1,5 @@
-// What the systems of the bodies do in a second in three dimensions, on one core: stress, return and forces of
-// hexahedra, and the motion of their nodes. Items are hexahedra; `flowing`: all of them flow in every step.
+// Throughput of the 3D body systems on one core: stress, return mapping and forces of hexahedra, and the
+// motion of their nodes. Items are hexahedra; `flowing`: all of them yield in every step.
 //
 //   ./build/release/bench/space_kernels
 #include <benchmark/benchmark.h>
@@ -64,7 +64,7 @@ std::unique_ptr<World> cubes(const Scene& scene, Formulation formulation, int n,
   return world;
 }
 
-// Every node moves its own way in x, y and z: strains of rate / (1/n) in every element, bent and twisted.
+// Every node moves differently in x, y and z: strains of rate / (1/n) in every element, bent and twisted.
 void set_off(World& world, double speed) {
   auto& v = world.column<Velocity>();
   std::uint32_t random = 1;
@@ -85,7 +85,7 @@ std::vector<double> plastic_strains(World& world) {
   return {eps.values(), eps.values() + eps.bytes() / sizeof(double)};
 }
 
-// Share of the points of the first chunk whose plastic strain grows, a mean over twenty steps there and back.
+// Fraction of points in the first chunk that yield, averaged over twenty steps back and forth.
 double flowing_share(World& world, Formulation formulation, const auto& force) {
   const auto move = open<integrate>(world);
   const auto strains = [&] {
@@ -115,7 +115,7 @@ void step(benchmark::State& state, Formulation formulation, bool plastic, double
   const auto force = open<ForceSystem>(*world);
   const auto move = open<integrate>(*world);
   set_off(*world, speed);
-  // There and back, so that the mesh stays what it is.
+  // Back and forth, so that the mesh does not drift.
   int at = 0;
   for (auto unused : state) {
     (void)unused;
@@ -130,7 +130,7 @@ void step(benchmark::State& state, Formulation formulation, bool plastic, double
   if (plastic) state.counters["flowing"] = flowing_share(*world, formulation, force);
 }
 
-constexpr double flowing = 1e6, resting = 1;  // m/s: strains of 1e-2 a step, and of 1e-8
+constexpr double flowing = 1e6, resting = 1;  // m/s: strains of 1e-2 and of 1e-8 per step
 
 void one_point_elastic(benchmark::State& state) {
   step<elastic_force<OnePoint>>(state, Formulation::one_point, false, flowing);
@@ -145,7 +145,7 @@ void eight_point_flowing(benchmark::State& state) {
   step<plastic_force<EightPoint>>(state, Formulation::four_point, true, flowing);
 }
 
-// Particles of 64 and 512 hexahedra in the caches; 512 in chunks beyond them.
+// Particles of 64 and 512 hexahedra that fit in cache; 512 in chunks that do not.
 #define SIZES Args({4, 1})->Args({8, 1})->Args({8, 20})
 BENCHMARK(one_point_elastic)->SIZES;
 BENCHMARK(one_point_below_yield)->SIZES;

@@ -1,20 +1,20 @@
 #!/usr/bin/python3
-"""Runs in three dimensions held against laws and independent solutions, and what they cost: a table for each.
+"""3D runs compared with analytical laws and independent solutions, and their cost: one table each.
 
 usage: space_laws.py [--pulvis PROGRAM] [--folder DIR] LAW...
 
 LAW  hertz      an elastic sphere between frictionless planes, and two spheres: F = 4/3 E* sqrt(R) d^(3/2) (Hertz 1882)
      flatten    a plastic sphere between frictionless planes against axisymmetric elements (axisymmetric_sphere.py)
      perfect    the same without hardening against a fit to finite elements (Jackson & Green 2005)
-     cell       a sphere in a cubic box at four meshes: observed order, wall stress against the mean stress of the particle
-     turns      force of a sphere between planes for random turns of its mesh: rms over the mean
-     taylor     copper rod against a rigid wall at 227 m/s: length, radius of the foot
-     mindlin    a sphere pressed and rubbed between planes: compliance, friction work of a cycle (Mindlin & Deresiewicz 1953);
-               the last mesh takes some 40 minutes
+     cell       a sphere in a cubic box on four meshes: observed order, wall stress against the mean stress of the particle
+     turns      force of a sphere between planes for random rotations of its mesh: rms over the mean
+     taylor     copper rod against a rigid wall at 227 m/s: length, radius of the mushroomed end
+     mindlin    a sphere pressed and sheared between planes: compliance, friction work per cycle (Mindlin & Deresiewicz 1953);
+               the last mesh takes about 40 minutes
      dense      27 plastic spheres pressed to a relative density of 0.94: meshes and contact stiffnesses
-     shapes     how far the smooth surfaces of coarse meshes are off their shapes
-     sharp      how far sharp grains are pressed before a run stops itself
-     cost       time of an element and step, memory of an element: 27 to 1,000 spheres
+     shapes     deviation of the smooth surfaces of coarse meshes from the exact shapes
+     sharp      how far sharp grains can be compacted before a run aborts
+     cost       time per element and step, memory per element: 27 to 1,000 spheres
 """
 import argparse
 import math
@@ -29,8 +29,8 @@ from space_shapes import shapes, sharp
 
 
 def finite_hertz(approach, radius, young, poisson):
-    """Force of a sphere pressed between two planes, `approach` of each and the centre: Hertz's, with what the other contact moves
-    the surface by in a half space (Tatara 1991, eq. 13)."""
+    """Force of a sphere pressed between two planes, `approach` of each to the centre: Hertz, with the surface displacement caused by
+    the opposite contact in a half space (Tatara 1991, eq. 13)."""
     star = young / (1 - poisson**2)
     force = 0.0
     for _ in range(100):
@@ -41,15 +41,15 @@ def finite_hertz(approach, radius, young, poisson):
 
 
 def huber(r, z, a):
-    """-sigma_zz over the greatest pressure below Hertz's contact of radius a (Huber 1904; Johnson 1985, eq. 3.46)."""
+    """-sigma_zz over the maximum pressure below a Hertz contact of radius a (Huber 1904; Johnson 1985, eq. 3.46)."""
     q = r * r + z * z - a * a
     u = 0.5 * (q + np.sqrt(q * q + 4 * a * a * z * z))
     return (z / np.sqrt(u)) ** 3 * a * a * u / (u * u + a * a * z * z)
 
 
 def profile(bench, name, h, radius, star):
-    """Stress of the elements below the top contact, less than 0.6 a deep, against Huber's mean over each: number of elements,
-    root mean square and largest difference over the greatest pressure."""
+    """Element stresses below the top contact, less than 0.6 a deep, against Huber's solution averaged over each: number of elements,
+    root mean square and largest difference over the maximum pressure."""
     import h5py
     corner = np.array([[i, j, k] for k in (-1, 1) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
     with h5py.File(bench.folder / name / "run.h5") as file:
@@ -126,8 +126,8 @@ def flatten(bench):
 
 def jackson_green(approach, sigma_y, young, poisson):
     """Force of an elastic, perfectly plastic sphere on a rigid flat over pi R^2 sigma_y, approach over R: fit of their finite elements
-    by Jackson & Green, J. Tribol. 127 (2005) 343, up to a contact radius of 0.41 R. Its hardness falls with the contact's width, as
-    Mesarovic & Fleck, Int. J. Solids Struct. 37 (2000) 7071, found."""
+    by Jackson & Green, J. Tribol. 127 (2005) 343, up to a contact radius of 0.41 R. The hardness decreases with contact radius, as
+    found by Mesarovic & Fleck, Int. J. Solids Struct. 37 (2000) 7071."""
     star, c = young / (1 - poisson**2), 1.295 * math.exp(0.736 * poisson)
     critical = (math.pi * c * sigma_y / (2 * star)) ** 2
     w = approach / critical
@@ -203,7 +203,7 @@ def cell(bench):
         if "stress/mean" in h:
             mean = f"{stress[-1] * 240e6 / abs(h['stress/mean'][-1]):.4f}"
         print(f"{divisions:9d} {divisions**3 + 6 * divisions**2 * rings:9d}  " + "  ".join(f"{v:8.4f}" for v in values) + f"   {mean}", flush=True)
-    # Single values oscillate as faces come into contact one after the other: differences of the whole curves fall evenly.
+    # Single values oscillate as faces come into contact one by one: differences of whole curves decrease steadily.
     one, two = (np.sqrt(np.mean((a - b) ** 2)) for a, b in zip(found, found[1:]))
     print(f"  root mean square of the differences from density 0.55 to 0.72, 4 to 8 and 8 to 16 divisions: {one:.4f}, {two:.4f}; "
           f"observed order {math.log2(one / two):.2f}")
@@ -221,7 +221,7 @@ def turns(bench):
                 text += body(3 * radius * i, 0, radius)
             text += plane("bottom", (0, 0, 0), (0, 0, 1))
             for i in range(count):
-                # A punch of its own for each: its force is what is compared.
+                # A separate punch for each: the punch forces are compared.
                 text += (f'\n[[tool]]\nname = "p{i}"\nshape = "punch"\npoint = ["{3 * radius * i} m", "0 m", "{2 * radius} m"]\n'
                          f'normal = [0, 0, -1]\ndiameter = "{2.6 * radius} m"\n')
             text += stage(1.2e-3, {f"p{i}": (0, 0, -0.2 * radius) for i in range(count)}) + contact(damping=0.1) + OUTPUT
@@ -296,7 +296,7 @@ def mindlin(bench):
         forth = (time > 1.55e-4) & (time < 2e-4)
         load = np.clip(-h["tool/top/force_x"][forth] / (mu * normal), 0, 1)
         found = np.linalg.lstsq(np.stack([1 - (1 - load) ** (2 / 3), load], 1), h["tool/top/position_x"][forth], rcond=None)[0][0]
-        # Johnson (1985), Sec. 7.2 and 7.4, one of the bodies rigid: displacement, and the area of its loop with the force.
+        # Johnson (1985), Sec. 7.2 and 7.4, one of the bodies rigid: displacement, and the area of its hysteresis loop with the force.
         k = 3 * mu * normal / (16 * a) * (2 - nu) / shear
         law = 4 * 4.8 * k * mu * normal * (1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3)))
         of_cycle = spent[-1] - np.interp(2e-4, time, spent)

@@ -1,4 +1,4 @@
-"""Powders in three dimensions, for space_laws.py: what a dense one bears, and what many particles cost."""
+"""3D powders for space_laws.py: stress of a dense powder, and cost of many particles."""
 import csv
 import json
 import math
@@ -12,7 +12,7 @@ from space_scenes import PLASTIC, ball, body, contact, head, plane, stage
 
 
 def packed(bench, name, count, mesh, side, density):
-    """Scene of that many spheres in a box, packed at random, each with the velocity `rate` times its place from the middle."""
+    """Scene of `count` randomly packed spheres in a box, each with velocity `rate` times its position from the centre."""
     rate = 4000.0  # 1/s
     folder = bench.folder
     text = head("Cost", PLASTIC) + mesh
@@ -35,12 +35,12 @@ def packed(bench, name, count, mesh, side, density):
         at = np.array([float(row[f"{c} [m]"]) for c in "xyz"])
         v = ", ".join(f'"{c} m/s"' for c in -rate * (at - side / 2))
         text += body(*at, more=f"velocity = [{v}]\n")
-    # The speed of the walls: rate times half the side.
+    # Wall speed: rate times half the side length.
     return text + walls + stage(0.1 / (rate / 2), moves, ramp=1e-3) + contact(friction=0.1, damping=0.1)
 
 
 def dense(bench):
-    """What coarse meshes add to the stress of a dense powder, and what soft contacts take from it."""
+    """How coarse meshes increase the stress of a dense powder, and soft contacts reduce it."""
     count, start, at = 27, 0.5, (0.7, 0.8, 0.85, 0.88, 0.9, 0.92, 0.93, 0.94)
     side = (count * math.pi / 6 * 1e-6 / start) ** (1 / 3)
     print("law dense: 27 spheres of 316L in a box that closes on all sides, friction 0.1: axial stress over sigma_y at relative densities")
@@ -60,8 +60,8 @@ def dense(bench):
 
 
 def cost(bench):
-    """A box closes on all sides alike, and its spheres move with it from the start: all of the powder deforms at once, however large
-    it is. The cost at a density is the difference between a run to just before and one to just behind it, in processor time."""
+    """A box shrinks uniformly, and its spheres move with it from the start, so that the whole powder deforms at once, whatever its
+    size. The cost at a density is the difference in CPU time between runs to just below and just above it."""
     before, after, start, rounds = 0.62, 0.72, 0.5, bench.rounds
     print(f"law cost: random packings of 316L, plastic, friction and damping 0.1, relative density from {before} to {after}, one thread;")
     print(f"ns an element and step, least and median of {rounds} rounds in turns; share of the bodies; bytes an element of the program")

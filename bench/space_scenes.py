@@ -1,4 +1,4 @@
-"""Texts of scenes in three dimensions, and their runs: for space_laws.py and space_powders.py."""
+"""Generates and runs 3D scenes for space_laws.py and space_powders.py."""
 import csv
 import math
 import pathlib
@@ -58,7 +58,7 @@ class Bench:
         folder.mkdir(parents=True, exist_ok=True)
 
     def run(self, name, text, *options):
-        """History of the scene as arrays by the names of its series, without their units."""
+        """History of the scene as arrays by series name, without units."""
         scene = self.folder / f"{name}.toml"
         scene.write_text(text, encoding="utf-8")
         result = subprocess.run([self.program, "run", scene, "-o", self.folder / name, "--overwrite", *options],

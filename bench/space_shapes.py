@@ -1,4 +1,4 @@
-"""Sharp grains in three dimensions, for space_laws.py: how far coarse surfaces are off their shapes, and how far they are pressed."""
+"""Sharp 3D grains for space_laws.py: deviation of coarse surfaces from the exact shapes, and how far they can be compacted."""
 import csv
 import itertools
 import json
@@ -38,7 +38,7 @@ def particle(shape, divisions):
 
 
 def shapes(bench):
-    """How far the surface that contacts see is off the shape that it stands for."""
+    """Deviation of the contact surface from the shape it represents."""
     divisions = (2, 3, 4, 6, 8)
     print("law shapes: greatest distance of the smooth surface from the shape, over the mean radius, by divisions (`pulvis check`)")
     print(" " * 42 + "  ".join(f"{n:>7}" for n in divisions))
@@ -53,7 +53,7 @@ def shapes(bench):
         print(f"{name:42}" + "  ".join(f"{share:>7}" for share in told), flush=True)
 
 
-GRAINS = {  # and their volume in m^3, edges as if they were sharp; relative densities of packings
+GRAINS = {  # with volume in m^3, computed with sharp edges; relative densities of packings
     "cubes, rounded by 7% of their length": (cube(3e-4, 2e-5), 2.7e-11, (0.4, 0.5)),
     "cubes, rounded by 13% of their length": (cube(3e-4, 4e-5), 2.7e-11, (0.4,)),
     "octahedra, rounded by 5% of their height": (octahedron(4e-4, 2e-5), 4 / 3 * 8e-12, (0.3,)),
@@ -62,7 +62,7 @@ COUNT, SIDE, END = 12, 1e-3, 0.9
 
 
 def pressed(shape, volume, divisions, start):
-    """Scene of grains in a box, pressed from above up to the relative density END."""
+    """Scene of grains in a box, pressed from above to the relative density END."""
     height = COUNT * volume / SIDE**2 / start
     text = head("Sharp", PLASTIC) + particle(shape, divisions)
     text += (f'\n[[packing]]\nkind = "random"\nwidth = "{SIDE} m"\ndepth = "{SIDE} m"\ndensity = {start}\n'
@@ -78,7 +78,7 @@ def pressed(shape, volume, divisions, start):
 
 
 def sharp(bench):
-    """How far sharp grains are pressed before a run stops itself, and the balance of its energies there."""
+    """How far sharp grains can be compacted before a run aborts, and the energy balance at that point."""
     print(f"law sharp: {COUNT} grains of 316L in a box, random, friction 1: to a relative density of {END}, or until the run is stopped")
     print(f"{'grains':42} {'mesh':>4} {'from':>5} {'to':>6} {'balance':>8}  ended by")
     for (name, (shape, volume, densities)), n in itertools.product(GRAINS.items(), (4, 6)):

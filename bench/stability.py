@@ -1,9 +1,9 @@
-"""Runs scenes/extreme and prints the table of bench/results/stability.csv (docs/stability.md); exit code 1 if an expectation is not met.
+"""Runs scenes/extreme and prints the table in bench/results/stability.csv (docs/stability.md); exit code 1 if an expectation is not met.
 
   /usr/bin/python3 bench/stability.py [--fast] [part of a name ...]
 
---fast leaves out the scenes with `slow` in their name. What each scene asks stands in its own [[expect]]
-tables, with the law behind it in its first comment; an expectation that is not met is named with its value.
+--fast skips the scenes with `slow` in their name. The criteria of each scene are in its [[expect]]
+tables, with the underlying law in its first comment; an unmet expectation is reported with its value.
 """
 import json
 import pathlib
@@ -27,7 +27,7 @@ def run(scene):
 
 
 def missed(summary):
-    """The expectations that did not hold, with what came out."""
+    """The unmet expectations with the measured values."""
     return [f"{e['what']}: {e['measured']}, not {e['expected']}" for e in summary["expectations"] if not e["met"]]
 
 

@@ -1,14 +1,14 @@
-"""Throughput: measures every case several times, keeps the results, and holds them against the aims.
+"""Throughput: measures every case several times, saves the results, and compares them with the targets.
 
-  /usr/bin/python3 bench/throughput.py                      everything, a quarter of an hour: leave it alone
-  /usr/bin/python3 bench/throughput.py --cases 100,1683     these cases, and the run of the thesis
-  /usr/bin/python3 bench/throughput.py --quick              does it work? seconds; times mean nothing
-  /usr/bin/python3 bench/throughput.py --cases= --runs run-1683,run-10000 --rounds 1    half an hour: the long runs
+  /usr/bin/python3 bench/throughput.py                      everything, 15 minutes: keep the machine idle
+  /usr/bin/python3 bench/throughput.py --cases 100,1683     these cases, and the thesis run
+  /usr/bin/python3 bench/throughput.py --quick              smoke test, a few seconds; times are meaningless
+  /usr/bin/python3 bench/throughput.py --cases= --runs run-1683,run-10000 --rounds 1    the long runs, half an hour
 
-Adds rows to build/throughput/<machine>.csv, with --record to bench/results/throughput/<machine>.csv, which belongs to the
-source. A case whose final state is not, bit by bit, the one in bench/results/throughput/hashes.csv was not the same
-computation: its times are refused and the exit code is 1, unless --accept-hash says that the physics has changed on
-purpose. docs/performance.md says what the lines mean.
+Adds rows to build/throughput/<machine>.csv, or with --record to bench/results/throughput/<machine>.csv, which is part of
+the source. If the final state of a case is not bitwise identical to the one in bench/results/throughput/hashes.csv, its
+times are rejected and the exit code is 1, unless --accept-hash confirms an intended change of the
+physics. docs/performance.md explains the lines.
 """
 import argparse
 import csv
@@ -32,17 +32,17 @@ CASES = ("100", "1683", "10000", "100-dense", "100-four-point")
 COLUMNS = ("case", "threads", "line", "unit", "best", "median", "rounds", "updates_per_s", "share",
            "steps", "hash", "version", "commit", "compiler", "instruction_set", "date")
 HASH_COLUMNS = ("case", "steps", "version", "hash", "commit", "date")
-# Whole runs of the program, from the command line to the report: scene and what is changed in it.
+# Complete runs of the program, from command line to report: scene and overrides.
 RUNS = {
-    "thesis": ("regular-100.toml", ("stage.press.duration=7.45 ms",)),  # some 94,000 steps
+    "thesis": ("regular-100.toml", ("stage.press.duration=7.45 ms",)),  # about 94,000 steps
     "run-1683": ("hexagonal-1683.toml", ()),  # to a relative density of 0.95
-    "run-10000": ("regular-100.toml", (  # pressed 2.9% in some 20,000 steps: 18 heights a second, as the others
+    "run-10000": ("regular-100.toml", (  # pressed 2.9% in about 20,000 steps: 18 heights per second, as the others
         "packing[0].rows=100", "packing[0].columns=100",
         'tool.right.point=["1000 mm", "0 mm"]', 'tool.top.point=["0 mm", "1000 mm"]',
         "stage.press.duration=1.65 ms", 'stage.press.move[0].displacement=["0 mm", "-29.5 mm"]')),
 }
 QUICK_CHANGES = ("stage.press.duration=20 us", 'stage.press.move[0].displacement=["0 mm", "-0.1 mm"]')
-RATES = ("GFLOP/s", "GB/s")  # where more is better
+RATES = ("GFLOP/s", "GB/s")  # higher is better
 
 
 class Refused(Exception):
@@ -62,7 +62,7 @@ def run(command):
 
 # ---- measuring ------------------------------------------------------------------------------------
 class Line:
-    """Every value that a line had, in its unit."""
+    """All values of a line, in its unit."""
 
     def __init__(self, unit):
         self.unit, self.values, self.shares = unit, [], []
@@ -83,7 +83,7 @@ class Line:
 
 
 class Measured:
-    """What was measured: lines by (case, name, threads), final states by case, the program's context."""
+    """The measurements: lines by (case, name, threads), final states by case, and the program context."""
 
     def __init__(self):
         self.lines, self.states, self.context = {}, {}, {}
@@ -150,7 +150,7 @@ def read_rows(file):
 
 
 def checked_states(measured, file, accept, stamp):
-    """Rows for hashes.csv; refuses a state other than the recorded one."""
+    """Rows for hashes.csv; rejects states that differ from the recorded ones."""
     known = {(r["case"], r["steps"], r["version"]): r for r in read_rows(file)}
     for case, (steps, state) in measured.states.items():
         key = (case, str(steps), measured.context["version"])
@@ -164,9 +164,9 @@ def checked_states(measured, file, accept, stamp):
     return list(known.values())
 
 
-# ---- keeping --------------------------------------------------------------------------------------
+# ---- saving ---------------------------------------------------------------------------------------
 def machine():
-    """Name of the results' file: processor and how many of them."""
+    """Name of the results file: processor and core count."""
     info = pathlib.Path("/proc/cpuinfo").read_text()
     value = {name: re.search(rf"^{name}\s*: (.*)$", info, re.M) for name in
              ("model name", "cpu family", "model")}
@@ -198,7 +198,7 @@ def write_rows(file, columns, rows):
 
 
 def keep(measured, folder, hashes, accept):
-    """Checks before it writes anything. Hashes of another folder are only read."""
+    """Checks everything before writing. Hashes in another folder are only read."""
     stamp = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%MZ")
     states = checked_states(measured, hashes, accept, stamp)
     folder.mkdir(parents=True, exist_ok=True)
@@ -232,7 +232,7 @@ def parsed(arguments):
 
 def measure(options):
     if not options.no_counts:
-        counts.require_tools()  # before minutes are spent
+        counts.require_tools()  # fail early, before minutes of measuring
     measured = Measured()
     for case in filter(None, options.cases.split(",")):
         print(f"{case}: {options.rounds} rounds, load {os.getloadavg()[0]:.2f}", file=sys.stderr)

@@ -1,13 +1,13 @@
-"""What bench/throughput.py prints, and the figures that follow from several of its lines."""
+"""The output of bench/throughput.py, and quantities derived from several of its lines."""
 import re
 
 CONTACT = re.compile(r"^system/.*(contact|bin|tool_reaction)")
-LARGER = ("1683", "10000")  # than 100 particles, else alike
-UPDATES = ("step", "kernels", "limit", "run/step")  # whole element-updates, or the bodies' part of them
-COUNTED = "100"  # whose instructions and operations are counted: those of the larger cases too
+LARGER = ("1683", "10000")  # than 100 particles, otherwise equal
+UPDATES = ("step", "kernels", "limit", "run/step")  # whole element updates, or the part of the bodies
+COUNTED = "100"  # the case with counted instructions and operations; also used for the larger cases
 THESIS_STEPS = 94_000
 
-# what, case, line, threads, must, aim; at least where the first is "M/s" or "x", at most elsewhere.
+# what, case, line, threads, must, target; a minimum if the first is "M/s" or "x", otherwise a maximum.
 AIMS = (
     ("M/s", "element-updates, 100 particles, 2 threads", "100", "step", 2, 80, 130),
     ("M/s", "element-updates, 1,683 particles, 2 threads", "1683", "step", 2, 80, 120),
@@ -35,9 +35,9 @@ AIMS = (
 )
 
 
-# ---- figures from several lines -----------------------------------------------------------------
+# ---- derived from several lines -----------------------------------------------------------------
 def derive(measured):
-    """Adds lines that are ratios and sums of others, from their medians."""
+    """Adds lines that are ratios and sums of the medians of others."""
     cases = [case for case, name, threads in measured.lines if name == "step" and threads == 1]
     for case in cases:
         derive_times(measured, case)
@@ -49,7 +49,7 @@ def derive(measured):
 
 
 def derive_thesis(measured):
-    """A run of about as many steps stands for the thesis's; a shorter one does not."""
+    """A run with about as many steps is comparable with that of the thesis; a shorter one is not."""
     if "thesis" not in measured.states:
         return
     run, (steps, _) = measured.lines["thesis", "run", 2], measured.states["thesis"]
@@ -86,7 +86,7 @@ def derive_memory(measured, case):
 
 
 def derive_fractions(measured, case, threads):
-    """Of the measured peaks; of arithmetic only where the counted operations are the case's own."""
+    """Fractions of the measured peaks; arithmetic only if the operations were counted for this case."""
     per_ns = {name: 1 / value(measured, case, name, threads) for name in ("step", "kernels")}
     peak = measured.lines["machine", "fma", threads].best
     for name, prefix in (("step", ""), ("kernels", "kernels/")):
@@ -99,7 +99,7 @@ def derive_fractions(measured, case, threads):
 
 
 def derive_ratios(measured, case, threads):
-    """Of the medians, to the bare loop of the same rounds."""
+    """Ratios of the medians to the bare loop of the same rounds."""
     limit = measured.lines.get((case, "limit", threads))
     for name in ("step", "kernels") if limit else ():
         line = measured.lines[case, name, threads]

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int run_over_cost = 100;  // a checkpoint costs at most a hundredth of the run
+constexpr int run_over_cost = 100;  // a checkpoint may cost at most a hundredth of the run
 
 std::string hash_text(const LoadedScene& scene) { return fmt::format("{:016x}", scene.hash); }
 
@@ -133,7 +133,7 @@ void clear_other_checkpoints(const fs::path& folder, const std::string& run) {
   for (const fs::path& file : checkpoints_in(folder)) {
     try {
       if (Checkpoint(file).info().run != run) remove_own(file, role::run);
-    } catch (const DamagedCheckpoint&) {  // was told already
+    } catch (const DamagedCheckpoint&) {  // has been reported already
     }
   }
 }
@@ -144,7 +144,7 @@ bool can_go_on(const fs::path& folder, std::uint64_t scene_hash) {
     return find_stopped_run(folder).scene.hash == scene_hash;
   } catch (const CannotResume&) {
   } catch (const OutputError&) {  // there is no intact checkpoint
-  } catch (const SceneError&) {   // somebody changed scene.toml
+  } catch (const SceneError&) {   // scene.toml has been changed
   }
   return false;
 }

@@ -1,4 +1,4 @@
-// When a run writes its checkpoints, and from which one `pulvis resume` goes on.
+// When a run writes checkpoints, and from which one `pulvis resume` continues.
 #pragma once
 
 #include <chrono>
@@ -13,9 +13,9 @@ namespace pulvis {
 
 struct CheckpointOptions {
   double every = 60;            // s of wall time
-  double time = 0;              // and every so much simulated time, s; 0: no
-  std::int64_t steps = 0;       // and every so many steps (increments of an AFM scene); 0: no
-  std::int64_t stop_after = 0;  // this step the run stops as if it were interrupted; 0: it does not
+  double time = 0;              // s, interval of simulated time between checkpoints; 0: none
+  std::int64_t steps = 0;       // interval in steps (increments of an AFM scene); 0: none
+  std::int64_t stop_after = 0;  // step at which the run stops as if interrupted; 0: never
 };
 
 class Checkpoints {
@@ -23,8 +23,8 @@ class Checkpoints {
   Checkpoints(const LoadedScene& scene, std::filesystem::path folder,
               const CheckpointOptions& options);
 
-  // Cheap: asked after every step. The first one is due at once, so that whatever is killed can go on. The
-  // wall time's are put off while they would cost more than a hundredth of the run.
+  // Cheap: called after every step. The first checkpoint is due at once, so that a killed run can resume.
+  // Those due by wall time are postponed while they would cost more than a hundredth of the run.
   bool due(std::int64_t step, double time) const;
   bool stops(std::int64_t step) const {
     return options_.stop_after > 0 && step >= options_.stop_after;
@@ -34,14 +34,14 @@ class Checkpoints {
     info_.time = time;
   }
   void of_run(const std::string& id) { info_.run = id; }
-  // `world`: the parts that were kept of one, or one that holds a column when `visit` has fetched it.
+  // `world`: its stored parts, or one whose columns are available once `visit` has fetched them.
   void write(std::int64_t step, double time, const StateParts& world, const StateParts& run);
   void write(std::int64_t step, double time, const World& world, const StateParts& run,
              const ColumnVisit& visit = {});
-  // As a state that other runs may begin with.
+  // As a state from which other runs can start.
   void keep_state(const std::string& name, std::int64_t step, double time,
                   const World& world, const ColumnVisit& visit) const;
-  // Nothing is left to go on with.
+  // Nothing is left to resume.
   void remove() const { remove_checkpoints(folder_); }
 
  private:
@@ -57,23 +57,23 @@ class Checkpoints {
   Time::duration cost_{};
 };
 
-// The folder has no run that can go on; says why.
+// The folder has no run that can be resumed; what() says why.
 class CannotResume : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// A run that stopped: its newest whole checkpoint and its scene. Damaged ones are named on the terminal.
+// A stopped run: its newest intact checkpoint and its scene. Damaged ones are reported on the terminal.
 struct StoppedRun {
   std::unique_ptr<Checkpoint> checkpoint;
   LoadedScene scene;
 };
 void require_stopped_run(
-    const std::filesystem::path& folder);  // one that could be: throws CannotResume
+    const std::filesystem::path& folder);  // a folder that may hold one; throws CannotResume
 StoppedRun find_stopped_run(const std::filesystem::path& folder);
-// Takes away what nobody can go on from here: checkpoints of other runs than `run`, and halves of some.
+// Removes what can no longer be resumed: checkpoints of runs other than `run`, and incomplete ones.
 void clear_other_checkpoints(const std::filesystem::path& folder, const std::string& run);
-// Whether `resume` would take up what stopped there, and that is a run of the scene of this hash.
+// Whether `resume` could continue the run stopped there, and that run has a scene with this hash.
 bool can_go_on(const std::filesystem::path& folder, std::uint64_t scene_hash);
 
 }  // namespace pulvis

@@ -8,7 +8,7 @@
 namespace pulvis {
 namespace {
 
-// "-0.4 mm", "+1e-3 kg m^-2": a number, alone or before a unit, which no formula can be.
+// "-0.4 mm", "+1e-3 kg m^-2": a number with or without a unit, which cannot be a formula.
 bool is_quantity(std::string_view text) {
   text.remove_prefix(1);
   double number = 0;

@@ -1,4 +1,4 @@
-// Text as a cell of a CSV file, and numbers as columns of one.
+// Text as a cell of a CSV file, and numbers as its columns.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace pulvis {
 
-// As RFC 4180 has it: in quotes where it holds a separator, a quote or a line end.
+// As in RFC 4180: quoted if it contains a separator, a quote or a line end.
 std::string csv_cell(std::string_view text);
-// The same of words that a user chose: behind an apostrophe where a spreadsheet would take them for a formula
-// (= + - @ first), but not numbers and quantities.
+// The same for text chosen by the user: prefixed with an apostrophe where a spreadsheet would read a formula
+// (= + - @ first), except for numbers and quantities.
 std::string csv_word(std::string_view text);
 
 struct CsvColumn {
@@ -18,7 +18,7 @@ struct CsvColumn {
   const std::vector<double>* values;
 };
 
-// A table of numbers; columns of different length end in empty cells.
+// A table of numbers; shorter columns are padded with empty cells.
 std::string csv_columns(const std::vector<CsvColumn>& columns);
 
 }  // namespace pulvis

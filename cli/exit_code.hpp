@@ -1,4 +1,4 @@
-// What the program tells the shell.
+// Exit codes of the program.
 #pragma once
 
 namespace pulvis {
@@ -6,7 +6,7 @@ namespace pulvis {
 enum class ExitCode {
   done = 0,
   usage = 2,       // bad command line or scene
-  run_failed = 3,  // the physics went bad (systems/body/element_health), or not as expected
+  run_failed = 3,  // simulation failed (systems/body/element_health), or unexpected result
   machine = 4,     // disk, memory
   interrupted = 130,
 };

@@ -7,7 +7,7 @@
 namespace pulvis {
 namespace {
 
-// What is given, as the scripts have it: they know which values are allowed.
+// The given options, in the scripts' form: the scripts know which values are allowed.
 std::vector<std::string> arguments(const ScriptFolder& scripts, const FigureOptions& options) {
   std::vector<std::string> all{"python3",
                                "-B",
@@ -32,7 +32,7 @@ std::vector<std::string> arguments(const ScriptFolder& scripts, const FigureOpti
   add("across", options.across);
   add("at", options.at);
   if (options.no_title) all.push_back("--no-title");
-  all.insert(all.end(), {"--", options.folder.string()});  // its name may begin with a '-'
+  all.insert(all.end(), {"--", options.folder.string()});  // the folder's name may begin with a '-'
   return all;
 }
 

@@ -1,5 +1,5 @@
 // `pulvis figure`: pictures and tables of a run for papers, drawn by the package pulvis.figures
-// (cli/python), which the program carries. It needs python3 with h5py and matplotlib.
+// (cli/python), which is embedded in the program. It needs python3 with h5py and matplotlib.
 #pragma once
 
 #include <filesystem>
@@ -19,11 +19,11 @@ struct FigureOptions {
   std::vector<std::string> series;
   std::string against;
   std::string format = "png";       // of all figures
-  std::string level = "none";       // of a raster's images
+  std::string level = "none";       // for raster images
   std::filesystem::path animation;  // .mp4 or .gif of all frames; empty: none
-  // As given; empty: not given.
+  // As given on the command line; empty: not given.
   std::string width, height, colours, range, dpi;
-  std::string across, at;  // in three dimensions: axis and place of sections
+  std::string across, at;  // in three dimensions: axis and position of sections
   bool no_title = false;
 };
 

@@ -1,5 +1,5 @@
 # Writes the version, and the commit with a hash of the sources, of this build: cmake -D GIT= -D SOURCE= -D FILES=
-# -D VERSION= -D OUTPUT= -P identity.cmake. FILES lists the sources, a line each.
+# -D VERSION= -D OUTPUT= -P identity.cmake. FILES lists the sources, one per line.
 set(commit "unknown")
 if(GIT)
   execute_process(COMMAND ${GIT} rev-parse --short=12 HEAD WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE head

@@ -1,4 +1,4 @@
-// Which program this is: version and commit, as results carry them.
+// Identity of the program: version and commit, as stored in results.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@ namespace {
 
 void ask(int) { ask_to_stop(); }
 
-// Only what is safe in a signal handler.
+// Only async-signal-safe calls.
 void leave(int) {
   constexpr std::string_view told =
       "pulvis: interrupted before the first step; nothing was written\n";
@@ -24,8 +24,8 @@ void leave(int) {
 void answer_interrupts(void (*handler)(int)) {
   std::signal(SIGINT, handler);
   std::signal(SIGTERM, handler);
-  std::signal(SIGUSR1, handler);  // what mpirun and Slurm hand on without killing soon after
-  std::signal(SIGXFSZ, SIG_IGN);  // a full quota is an error, not a death
+  std::signal(SIGUSR1, handler);  // mpirun and Slurm forward it without killing soon after
+  std::signal(SIGXFSZ, SIG_IGN);  // a full quota is an error, and must not kill the process
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The command line: options in, exit code out. What the commands do is in run, study, plan, pack, reduce
-// and report.
+// The command line: options in, exit code out. The commands themselves are in run, study, plan, pack,
+// reduce and report.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -62,8 +62,8 @@ struct Options {
   FitOptions fit;
   PreviewOptions preview;
   bool dot = false;
-  std::string reference;  // scene language: "text", "schema", "materials"
-  bool print = false;     // the scene, whole
+  std::string reference;  // print the scene language: "text", "schema", "materials"
+  bool print = false;     // print the complete scene
   FigureOptions figure;
   std::vector<std::filesystem::path> folders;  // of runs to report on
   std::filesystem::path comparison;
@@ -119,7 +119,7 @@ void add_report(CLI::App& app, Options& options, ExitCode& code) {
   command->callback([&] { code = report(options); });
 }
 
-// What of a figure is a matter of taste; the scripts refuse values that are not allowed.
+// Options that change the look of a figure; the scripts refuse values that are not allowed.
 void add_look(CLI::App& command, FigureOptions& options) {
   command.add_option(
       "--width", options.width,
@@ -187,7 +187,7 @@ void add_scene(CLI::App& command, Options& options, bool required = true) {
   add_overrides(command, options.run.overrides, "this run");
 }
 
-// CLI11's own check lets "nan" and "inf" pass, and its message has a bound of 309 digits.
+// CLI11's own check accepts "nan" and "inf", and its message prints a bound with 309 digits.
 template <class Number>
 CLI::Validator positive(const char* what) {
   return {[what](const std::string& text) {
@@ -200,7 +200,7 @@ CLI::Validator positive(const char* what) {
           "POSITIVE", "positive"};
 }
 
-// What is refused here is told once, not by every rank.
+// Errors found here are reported once, not by every rank.
 ExitCode in_ranks(const Options& options, const std::filesystem::path& folder) {
   if (started_as_rank()) {
     tell(stderr, "pulvis: --ranks: this process was itself started as one of several ranks\n");
@@ -300,7 +300,7 @@ void add_resume(CLI::App& app, Options& options, ExitCode& code) {
   });
 }
 
-// A first word that is no command: `pulvis rnu`.
+// A first word that is not a command: `pulvis rnu`.
 bool refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
   std::vector<std::string> commands;
@@ -312,7 +312,7 @@ bool refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
-// Where a command refuses a TOML file of another kind, its errors would mislead.
+// If a command refuses a TOML file of another kind, its own errors would mislead.
 std::string explained(const SceneError& error, int argc, char** argv) {
   for (int i = 2; i < argc; ++i)
     if (std::filesystem::path(argv[i]).extension() == ".toml")
@@ -320,7 +320,7 @@ std::string explained(const SceneError& error, int argc, char** argv) {
   return error.what();
 }
 
-// Help, or what is wrong with the words on the command line.
+// Prints help, or the errors on the command line.
 int tell_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
@@ -380,7 +380,7 @@ int parse_and_run(int argc, char** argv) {
 }
 
 int fail(const char* what, ExitCode code) {
-  if (*what != '\0') tell(stderr, "{}\n", what);  // of several ranks one speaks
+  if (*what != '\0') tell(stderr, "{}\n", what);  // only one of several ranks reports
   return static_cast<int>(code);
 }
 
@@ -393,7 +393,7 @@ int main(int argc, char** argv) {
     return fail("pulvis: this build needs a processor with AVX2", ExitCode::machine);
   try {
     const int code = parse_and_run(argc, argv);
-    // What was told may still be on its way: into a full disk, too.
+    // Messages may still be buffered, and the disk may be full.
     errno = 0;
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw OutputError("standard output", "write", std::strerror(errno));

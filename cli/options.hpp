@@ -1,4 +1,4 @@
-// Options that several commands have.
+// Options shared by several commands.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace pulvis {
 
-// "sub/../x" is x, whether there is a folder sub or not; links on the way are followed.
+// "sub/../x" becomes x, whether or not a folder sub exists; symbolic links on the way are followed.
 inline const CLI::Validator without_detours(
     [](std::string& text) {
       std::error_code unknown;

@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-// A line for each random packing: what came out.
+// One line for each random packing: its result.
 std::string packing_summary(const Scene& scene);
 
 ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file);

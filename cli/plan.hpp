@@ -1,4 +1,4 @@
-// pulvis plan: what a scene will run, without running it: systems in order, edges, columns with bytes.
+// pulvis plan: what a scene would run, without running it: systems in order, edges, columns and bytes.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The progress line of a run: simulated time, steps and element-updates a second, time left.
+// The progress line of a run: simulated time, steps and element updates per second, time left.
 #pragma once
 
 #include <chrono>
@@ -8,17 +8,17 @@ namespace pulvis {
 
 class Progress {
  public:
-  // Of a run that goes on: how long it had run before, and to which step.
+  // For a resumed run: how long it had run before, and up to which step.
   struct Before {
     double seconds = 0;
     std::int64_t step = 0;
   };
   Progress(double end, std::int64_t elements, bool shown, const Before& before);
   Progress(double end, std::int64_t elements, bool shown);
-  // Cheap; prints a few times a second on a terminal, every ten seconds into a log.
+  // Cheap; prints a few times per second on a terminal, every ten seconds into a log.
   void show(double time, std::int64_t step);
   void finish();
-  double seconds() const;  // of the run, with those before
+  double seconds() const;  // of the run, including earlier sessions
 
  private:
   using Time = std::chrono::steady_clock;

@@ -1,4 +1,4 @@
-// What a reduction leaves in its folder: reduced-<run>.csv, curves.csv, summary.json, report.html.
+// Output files of a reduction: reduced-<run>.csv, curves.csv, summary.json, report.html.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace pulvis {
 
 struct Reduction {
   lab::LoadedSettings loaded;
-  std::vector<lab::PressRecord> presses;  // one a run, as loggers and runs
+  std::vector<lab::PressRecord> presses;  // one per run, in the order of loggers and runs
   std::vector<lab::LoggerRecord> loggers;
   std::vector<lab::ReducedRun> runs;
   std::vector<lab::RunSpec> specs;
@@ -23,11 +23,11 @@ struct Reduction {
 // Replaces the files of an earlier reduction; others in the folder stay.
 void write_reduction(const std::filesystem::path& folder, const Reduction& reduction);
 
-// One run's curve, as reduced-<run>.csv has it, and what summary.json says of it.
+// One run's curve, as written to reduced-<run>.csv, and its entry in summary.json.
 std::string run_csv(const lab::Curve& curve);
 nlohmann::ordered_json run_json(const lab::ReducedRun& run);
 
-// What summary.json holds, all in SI units.
+// Content of summary.json, all in SI units.
 nlohmann::ordered_json reduction_json(const Reduction& reduction);
 
 }  // namespace pulvis

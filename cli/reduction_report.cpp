@@ -1,5 +1,5 @@
-// report.html of a reduction: the curves on one grid of distances, and every run's records on one
-// clock. cli/report/page/reduction.js draws them.
+// report.html of a reduction: the curves on a common grid of distances, and each run's records on a
+// common clock. cli/report/page/reduction.js draws them.
 #include "cli/reduction_report.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t max_samples = 4000;  // of a curve
+constexpr std::size_t max_samples = 4000;  // per curve
 
 class ReportMaker {
  public:
@@ -41,7 +41,7 @@ class ReportMaker {
  private:
   using Columns = std::vector<std::vector<double>>;
 
-  // Columns of one table, padded to one length: what a section of the page carries.
+  // Columns of one table, padded to equal length: one section of the page.
   void add_table(const std::string& name, Json columns, const Columns& values) {
     std::size_t rows = 0;
     for (const auto& column : values) rows = std::max(rows, column.size());
@@ -97,7 +97,7 @@ class ReportMaker {
     for (std::size_t i = 0; i < rows; ++i) columns[0].push_back(static_cast<double>(i) * step_);
   }
 
-  // All samples of the logger that the press's record covers, the press's values between its own.
+  // All logger samples covered by the press record, with press values interpolated between them.
   void add_record(std::size_t index) {
     const lab::PressRecord& press = all_.presses[index];
     const lab::LoggerRecord& logger = all_.loggers[index];

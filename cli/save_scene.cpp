@@ -18,13 +18,13 @@ bool holds(const fs::path& file, const InputFile& input) {
   return content.view() == *input.text;
 }
 
-// A broken copy never has the copy's name.
+// An incomplete copy never gets the final name.
 void make_copy(const InputFile& input, const fs::path& target) {
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
   const fs::path draft = fresh_beside(target);
   if (input.text)
-    std::ofstream(draft, std::ios::binary) << *input.text;  // what came of it is looked at below
+    std::ofstream(draft, std::ios::binary) << *input.text;  // the result is checked below
   else if (!error)
     fs::copy_file(input.source, draft, fs::copy_options::overwrite_existing, error);
   if (!error && !holds(draft, input))

@@ -1,4 +1,4 @@
-// scene.toml of a run's folder, and the copies of the files that it names.
+// scene.toml in a run's folder, and copies of the files it refers to.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@ namespace pulvis {
 
 void save_scene(const std::filesystem::path& folder, const LoadedScene& loaded);
 
-// OutputError where somebody has taken scene.toml away: without it nobody knows what was run, and nothing goes on.
+// OutputError if scene.toml was removed: without it, nobody knows what was run, and nothing can be resumed.
 void require_saved_scene(const std::filesystem::path& folder);
 
-// The scene as a resumed run has it: it is compared with the copies of other scenes, whatever has become of
-// the originals when it ends.
+// The scene as a resumed run reads it: it is compared with the copies in other scenes, whatever has happened to
+// the originals by the time it ends.
 LoadedScene as_saved(const std::filesystem::path& folder, LoadedScene loaded);
 
-// Into `folder`. A copy that is there already stays; another file of its name is never replaced:
+// Into `folder`. An existing copy stays; a different file of the same name is never replaced:
 // RunFolderTaken.
 void save_inputs(const std::filesystem::path& folder, const std::vector<InputFile>& inputs);
 

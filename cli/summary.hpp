@@ -20,31 +20,31 @@ namespace pulvis {
 struct RunCost {
   double wall_seconds = 0;
   std::int64_t steps = 0;
-  int threads = 1;  // of each rank
+  int threads = 1;  // per rank
   std::string scene_hash, outcome;
   std::vector<SystemCost> systems;
-  double bytes_a_step = 0;             // that all ranks together told each other
-  std::vector<double> rank_memory{};   // bytes, the most that each rank held; empty of one process
-  std::vector<double> rank_seconds{};  // s, cost of each in a step, by now; empty where not known
+  double bytes_a_step = 0;             // that all ranks together sent per step
+  std::vector<double> rank_memory{};   // bytes, peak of each rank; empty for a single process
+  std::vector<double> rank_seconds{};  // s, current cost of each rank per step; empty if not known
   std::vector<Rebalancing> rebalancings{};
   std::string state_hash{};
 };
 
-// What its user should know of a run's figures.
+// What the user should know about a run's figures.
 struct RunQuality {
   ContactFindings contacts;
   std::vector<QualityFigure> figures;
   std::vector<std::string> warnings;  // one line each
 
   std::vector<std::string> lines()
-      const;  // warnings, and what to do about figures beyond their limits
+      const;  // warnings, and advice for figures beyond their limits
 };
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
                    const Results& results, const CompactionCurve& curve, const RunQuality& quality,
                    const RunCost& cost, const std::vector<Verdict>& verdicts);
 
-// The file as it was written, on the standard output.
+// Prints the file as written to standard output.
 void print_summary(const std::filesystem::path& folder);
 
 }  // namespace pulvis

@@ -16,10 +16,10 @@
 namespace pulvis {
 
 struct AfmReport {
-  std::optional<Calibration> calibration;  // none where it found no answer
+  std::optional<Calibration> calibration;  // none if it found no solution
   std::vector<FrictionLoop> loops;
   std::vector<ForceCurveFigures> curves;
-  std::vector<ForceCurveFigures> unreleased;  // that end in contact: without a pull-off
+  std::vector<ForceCurveFigures> unreleased;  // those that end in contact, without a pull-off
   std::optional<wedge::Calibration> wedge;
   std::map<std::string, double> figures;  // scenes/lever/afm_figures.hpp
   std::vector<Verdict> verdicts;

@@ -1,4 +1,4 @@
-// The part of summary.json that a compaction in a die adds:
+// The part of summary.json that a die compaction adds:
 //   fits          {samples, pressure: [low, high], relative_density: [low, high],
 //                  laws: [{law, parameters: [{name, value, unit}], rms, rms_unit, r_squared, rms_density}
 //                         or {law, not_fitted: why}],

@@ -1,5 +1,5 @@
-// What the program says on its terminal. Names, paths and messages may hold anything: control characters are
-// spelt out.
+// Messages on the terminal. Names, paths and messages may contain anything: control characters are
+// escaped.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What the wedge calibration of measured friction loops leaves in its folder and prints.
+// Output files and messages of the wedge calibration of measured friction loops.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,10 @@ struct WedgeReduction {
   wedge::Calibration calibration;
 };
 
-// Of the loops that the settings name; throws SceneError where they fit no friction.
+// From the loops that the settings name; throws SceneError if they do not fit any friction.
 WedgeReduction wedge_reduction(const lab::LoadedSettings& loaded);
 
-// What summary.json holds, all in SI units.
+// Content of summary.json, all in SI units.
 nlohmann::ordered_json wedge_json(const WedgeReduction& reduction);
 
 // summary.json, facets.csv and the settings.

@@ -1,4 +1,4 @@
-// report.html of a wedge calibration: its loops, and what they gave. cli/report/page/wedge.js draws them.
+// report.html of a wedge calibration: its loops, and their results. cli/report/page/wedge.js draws them.
 #include "cli/wedge_report.hpp"
 
 #include <nlohmann/json.hpp>

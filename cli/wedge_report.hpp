@@ -1,4 +1,4 @@
-// The page of a calibration on a wedge.
+// The report page of a wedge calibration.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Columns of the deformable bodies: nodes, elements and particles. An element has as many points as its
-// formulation says (components/formulation.hpp): four at (xi, eta) = (-,-) (+,-) (+,+) (-,+) / sqrt 3,
+// Columns of the deformable bodies: nodes, elements and particles. The formulation of an element sets
+// its points (components/formulation.hpp): four at (xi, eta) = (-,-) (+,-) (+,+) (-,+) / sqrt 3,
 // or one at its centre.
 #pragma once
 
@@ -53,7 +53,7 @@ struct PlasticStrain : Component<Element, double, Points> {
   static constexpr ComponentInfo info{"plastic_strain", "-", "accumulated; never decreases"};
 };
 
-// ---- only where elements have one point ---------------------------------------------------------
+// ---- only for one-point elements -----------------------------------------------------------------
 struct HourglassStress : Component<Element, double, 2> {
   static constexpr ComponentInfo info{"hourglass_stress", "Pa",
                                       "of bending: at the edge of the fibres along xi, along eta"};
@@ -64,7 +64,7 @@ struct PlasticHourglass : Component<Element, double, 2> {
                                       "plastic bending strain of the fibres along xi, along eta"};
 };
 
-// ---- only where a material has bulk damping ------------------------------------------------------
+// ---- only if a material has bulk damping ---------------------------------------------------------
 struct DampingForce : Component<Node, double, 2> {
   static constexpr ComponentInfo info{"damping_force", "N",
                                       "of bulk damping, on the node; part of the internal force"};

@@ -1,5 +1,5 @@
-// Columns of bonds: contact points that hold together until they break. A bonded point is anchored to a material point
-// of the other surface; while it is bonded, `bonds` answers for it and the narrow phase passes over it.
+// Columns of bonds: contact points that stick together until they break. A bonded point is anchored to a material point
+// of the other surface; while it is bonded, the `bonds` system handles it and the narrow phase skips it.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace pulvis {
 
-// ---- candidates, only where the scene has bonds ----------------------------------------------------
+// ---- contact rows, only if the scene has bonds -----------------------------------------------------
 template <class At>
 struct BondLawNumber : Component<At, std::uint8_t, 2> {
   static constexpr ComponentInfo info{"bond_law", "-",
@@ -39,12 +39,12 @@ template <class At>
 struct BondStrength : Component<At, double, edge_points> {
   static constexpr ComponentInfo info{"bond_strength", "-", "share of the law's strengths"};
 };
-// Only where pressure makes bonds.
+// Only if bonds form under pressure.
 template <class At>
 struct WeldPressure : Component<At, double, 2 * edge_points> {
   static constexpr ComponentInfo info{
       "weld_pressure", "Pa", "contact pressure of every point now, then its largest so far"};
-  static constexpr int largest = edge_points;  // the first of those
+  static constexpr int largest = edge_points;  // index of the first maximum
 };
 
 struct CurveAnchor : Component<Contact, PackedCurvePoint, edge_points> {
@@ -57,34 +57,34 @@ struct ToolAnchor : Component<ToolContact, double, 4 * edge_points> {
 };
 
 // ---- rules ---------------------------------------------------------------------------------------
-// What the scene says of bonds; laws are numbered from 1, 0 is none.
+// Bond settings of the scene; laws are numbered from 1, 0 means none.
 struct BondRules {
   static constexpr const char* resource_name = "bond_rules";
   static constexpr bool fixed = true;
   struct Law {
-    double stiffness = 0;        // -, of the bond over that of the contact spring
+    double stiffness = 0;        // -, ratio of bond stiffness to contact stiffness
     double strength = 0;         // Pa, sigma_c
     double shear_strength = 0;   // Pa, tau_c
     double energy = 0;           // J/m^2, G_I
     double shear_energy = 0;     // J/m^2, G_II
     double mixed_exponent = 2;   // -, eta of Benzeggagh and Kenane
-    double largest_share = 1;    // -, of the strength that a draw may give
-    double reach = 0;            // -, of the edge length: nearer surfaces are bonded at the start
-    double weibull_modulus = 0;  // -, of the strengths of neighbours; 0: all alike
+    double largest_share = 1;    // -, upper limit of a random strength, over `strength`
+    double reach = 0;            // -, of the edge length: closer surfaces are bonded at the start
+    double weibull_modulus = 0;  // -, of the strengths of particle pairs; 0: all alike
     std::uint64_t seed = 0;
-    double threshold = 0;  // Pa, pressure from which on it welds
-    double growth = 0;     // -, strength gained a pressure beyond that; 0: it is made at the start
+    double threshold = 0;  // Pa, pressure above which a weld forms
+    double growth = 0;     // -, strength gained per pressure above that; 0: bonded at the start
     bool pressed() const { return growth > 0; }
   };
   std::vector<Law> laws;
   int materials = 0;
   std::vector<std::uint8_t> initial, pressed;  // [materials * materials]
-  std::vector<std::uint8_t> inside;            // likewise, initial between grains of one particle
+  std::vector<std::uint8_t> inside;            // likewise, initial, for grains of one particle
   std::vector<std::uint8_t> tool_initial, tool_pressed;  // [tools * materials]
 
   const Law& law(int number) const { return entry(laws, number - 1); }
-  // -, of the contact spring of surfaces that may have been bonded at the start: as stiff as the bond, so that one which
-  // breaks under pressure leaves its load to the contact.
+  // -, contact stiffness of surfaces that may be bonded initially: as stiff as the bond, so that a bond breaking under
+  // pressure hands its load over to the contact.
   double contact_stiffness(int initial_law) const {
     return initial_law == 0 ? 1 : law(initial_law).stiffness;
   }
@@ -96,19 +96,19 @@ struct BondRules {
   }
 };
 
-// ---- what came of them -------------------------------------------------------------------------------
-// A point that broke.
+// ---- results -----------------------------------------------------------------------------------------
+// A broken point.
 struct Crack {
   double time = 0;        // s
-  std::int32_t slot = 0;  // that samples, its edge, and which Gauss point of it
+  std::int32_t slot = 0;  // of the sampled particle; then its edge and Gauss point
   std::int32_t edge = 0;
   std::int32_t point = 0;
-  std::int32_t other = 0;  // slot; of a tool -1 - its number
-  std::int32_t law = 0;    // as BondRules counts
-  double x = 0, y = 0;     // m, where
-  double length = 0;       // m, half of what the point stands for: the other side samples too
-  double shear = 0;        // -, share of shear in the energy when it broke: 0 mode I, 1 mode II
-  double energy = 0;       // J, spent in breaking it, from its first damage on
+  std::int32_t other = 0;  // slot; for a tool -1 - its number
+  std::int32_t law = 0;    // numbered as in BondRules
+  double x = 0, y = 0;     // m, location
+  double length = 0;       // m, half the length of the point: the other side is sampled too
+  double shear = 0;        // -, shear share of the energy at failure: 0 mode I, 1 mode II
+  double energy = 0;       // J, dissipated by breaking it, from damage initiation on
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -116,15 +116,15 @@ struct Crack {
   }
 };
 
-// Of a block of rows, as of the narrow phase.
+// Sums over a block of rows, as in the narrow phase.
 struct alignas(64) BondBlock {
   double energy = 0;          // J, stored in bonds
   double contact_energy = 0;  // J, stored in contact springs of bonded points
-  double fracture = 0;        // J, spent by damage in the last step
-  double friction_work = 0;   // J, in the last step, at points partly damaged or welded
+  double fracture = 0;        // J, dissipated by damage in the last step
+  double friction_work = 0;   // J, in the last step, at partly damaged or welded points
   double damping_work = 0;    // J
-  double area = 0;            // m^2, bonded, of its own side
-  std::int32_t rows = 0;      // with nothing but bonded points
+  double area = 0;            // m^2, bonded, on the sampled side
+  std::int32_t rows = 0;      // with bonded points only
   std::vector<Crack> cracks;
 
   template <class Bytes>
@@ -147,21 +147,21 @@ struct BondSums {
 struct BondTotals {
   static constexpr const char* resource_name = "bond_totals";
   double energy = 0;               // J, stored now
-  double fracture = 0;             // J, spent by damage
-  double area = 0;                 // m^2, bonded now, the mean of both sides
+  double fracture = 0;             // J, dissipated by damage
+  double area = 0;                 // m^2, bonded now, mean of both sides
   double crack_length = 0;         // m, broken
   std::vector<std::int32_t> made;  // [laws] points bonded at the start
   struct Gap {
     double width = std::numeric_limits<double>::infinity();  // m
     double share = std::numeric_limits<double>::infinity();  // -, of the boundary edge
-    // The same of any order.
+    // Independent of the order of calls.
     void take(double gap, double length) { take({gap, gap / length}); }
     void take(const Gap& other) {
       if (other.share < share || (other.share == share && other.width < width)) *this = other;
     }
   };
-  std::vector<Gap> nearest;   // [laws] surfaces that face each other; found anew at every start
-  std::vector<Crack> cracks;  // in the order in which they came
+  std::vector<Gap> nearest;   // [laws] between facing surfaces; searched anew at every start
+  std::vector<Crack> cracks;  // in order of occurrence
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -169,15 +169,15 @@ struct BondTotals {
   }
 };
 
-// What holds together, as last observed: particles joined by at least one bonded point make a fragment.
+// Fragments as last observed: particles joined by at least one bonded point form one fragment.
 struct Fragments {
   static constexpr const char* resource_name = "fragments";
-  // [particles], by number: the lowest number of a particle of the same fragment. It outlives what breaks off.
+  // [particles], by number: the lowest particle number in the same fragment. Kept even after parts have broken off.
   std::vector<std::int32_t> of_particle;
   std::vector<std::int64_t> points;  // [laws], bonded now
-  // m, [particles], of the bonds made at the start: what holds, and what broke. Both sides sample: half each.
+  // m, [particles], length of the bonds made at the start: intact, and broken. Both sides are sampled: half each.
   std::vector<double> bonded, broken;
-  std::int64_t counted = 0;  // cracks that `broken` holds
+  std::int64_t counted = 0;  // cracks already included in `broken`
 
   template <class Bytes>
   void state(Bytes& bytes) {

@@ -1,5 +1,5 @@
-// Columns that always go together, as bundles of accesses (engine/bundle.hpp): what the systems of several rooms declare
-// as one. Mode: Read or Write.
+// Columns that always go together, as bundles of accesses (engine/bundle.hpp), for systems in several directories.
+// Mode: Read or Write.
 #pragma once
 
 #include "components/cell.hpp"
@@ -27,7 +27,7 @@ struct Motion {  // of the nodes
   Read<Position> position;
   Read<Velocity> velocity;
 };
-// Forces on the nodes. Those of contact are apart, and only where anything can touch.
+// Nodal forces. Contact forces are kept separately, and exist only if the scene has contact.
 template <template <class> class Mode>
 struct NodalForces {
   Mode<InternalForce> internal;
@@ -39,13 +39,13 @@ struct ElementStress {
   Mode<DeviatoricStress<F::points>> deviator;
   Mode<MeanStress<F::volumes>> mean;
 };
-// Only of elements with one point: the stress of the hourglass modes.
+// Only for one-point elements: the stress of the hourglass modes.
 template <template <class> class Mode>
 struct BendingModes {
   Mode<HourglassStress> stress;
   Mode<MinCorner> min_corner;
 };
-// The element of each particle that is nearest to turning inside out.
+// For each particle, its element that is closest to inversion.
 template <template <class> class Mode>
 struct WorstJacobian {
   Mode<MinJacobian> value;
@@ -55,9 +55,9 @@ struct WorstJacobian {
 // ---- contact ------------------------------------------------------------------------------------
 struct ContactCurves {
   Read<CurvePosition> position;
-  Optional<Read<CurveVelocity>> velocity;  // with friction or damping
+  Optional<Read<CurveVelocity>> velocity;  // only with friction or damping
 };
-// The surfaces of the tools; of polylines, more than a normal.
+// The surfaces of the tools; polylines need more than a normal.
 struct ToolSurfaces {
   Read<ToolNormal> normal;
   Read<ToolPosition> position;
@@ -67,14 +67,14 @@ struct ToolSurfaces {
     return shapes ? (*shapes)->is(tool, kind) : kind == ToolShapes::Kind::plane;
   }
 };
-// What the narrow phases leave for those who look at the rows that touch.
+// Output of the narrow phases for systems that look at touching rows.
 template <class At>
 struct TouchingRows {
   Read<ContactPair<At>> pair;
   Read<ContactTouches<At>> touches;
   Read<PointForce<At>> force;
 };
-// In a periodic cell: against which image of its other particle a row stands.
+// In a periodic cell: the periodic image of the other particle that a row refers to.
 struct CellImages {
   Read<ContactImage> image;
   Read<PeriodicCell> cell;
@@ -86,7 +86,7 @@ struct TouchingPairs {
   Read<ClosestPoint> closest;
   Optional<CellImages> images;
 
-  // As it stands against the other particle, not its image.
+  // Relative to the other particle itself instead of its image.
   Point from_image(Row<Contact> row, const Point& at) const {
     if (!images) return at;
     const Point shift = images->shift(row);
@@ -96,7 +96,7 @@ struct TouchingPairs {
 struct TouchingTools {
   TouchingRows<ToolContact> rows;
   ToolSurfaces surfaces;
-  Optional<Read<SurfaceRange>> range;  // with polylines
+  Optional<Read<SurfaceRange>> range;  // only with polylines
 };
 
 }  // namespace pulvis

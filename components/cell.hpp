@@ -1,6 +1,6 @@
-// The periodic cell: a powder that goes on in all directions, of which one period is stored. Particles are stored once and
-// whole, and stay where they are when they pass a border; a contact row says against which image of its other particle
-// it stands.
+// The periodic cell: a powder that extends infinitely in all directions, of which one period is stored. Particles are
+// stored once and unsplit, and are not wrapped when they cross a border; a contact row records which periodic image of
+// the other particle it refers to.
 #pragma once
 
 #include <array>
@@ -60,54 +60,54 @@ struct Tensor2 {
   }
 };
 
-// How a powder deforms as a whole, by strains or by stresses that are kept: what its stages ask for, and how far they have
-// come. Of a periodic cell, or of the four planes of a die.
+// Mixed strain and stress control of the whole powder: the targets of its stages, and the progress so
+// far. Used for a periodic cell, or for the four planes of a die.
 struct MixedControl {
-  enum Part { xx, yy, xy, parts };  // of a symmetric tensor: what strain or stress drives
+  enum Part { xx, yy, xy, parts };  // tensor components, each strain- or stress-controlled
   enum class Law {
-    strain,  // follows it
-    stress,  // keeps it
-    ratio,   // xx: keeps that share of the stress yy
-    mean     // xx: keeps the mean of xx and yy
+    strain,  // strain-controlled
+    stress,  // stress-controlled
+    ratio,   // xx: kept at this ratio to the stress yy
+    mean     // xx: the mean of xx and yy is kept
   };
   struct Stage {
     double duration = 0;                 // s, planned
     double ramp = 0.1;                   // -, share of the duration
-    double rise = 0;                     // s, until a stress is asked for in full
-    double tolerance = 0.05;             // -, of the largest stress
+    double rise = 0;                     // s, until the full target stress is reached
+    double tolerance = 0.05;             // -, relative to the largest stress
     std::array<Law, parts> law{};        //
     std::array<double, parts> strain{};  // -, over the stage: integral of the rate of deformation
-    std::array<double, parts> stress{};  // Pa, tension > 0; of a ratio: -
+    std::array<double, parts> stress{};  // Pa, tension > 0; for a ratio: -
     double rotation = 0;                 // rad, over the stage
-    double mass = 0;                     // kg m^2, least of a servo
-    double damping = 0;                  // N m s, of its dashpot, with that mass
+    double mass = 0;                     // kg m^2, minimum for a servo
+    double damping = 0;                  // N m s, of its dashpot at that mass
 
     bool holds_stress() const {
       return law[xx] != Law::strain || law[yy] != Law::strain || law[xy] != Law::strain;
     }
   };
-  struct Servo {          // of one part that a stress drives (systems/tools/servo_kernel.hpp)
+  struct Servo {          // of one stress-controlled component (systems/tools/servo_kernel.hpp)
     double mass = 0;      // kg m^2
     double speed = 0;     // 1/s
-    double dragged = 0;   // 1/s
-    double at_begin = 0;  // Pa, when the stage began
+    double dragged = 0;   // 1/s, of the mass coupled through the dashpot
+    double at_begin = 0;  // Pa, at the start of the stage
     template <class Bytes>
     void state(Bytes& bytes) {
       bytes(mass, speed, dragged, at_begin);
     }
   };
 
-  // The scene's
+  // From the scene
   std::vector<Stage> stages;
 
-  // The run's
+  // State of the run
   std::array<double, parts> strain{};  // integral of the rate of deformation so far
-  double rotation = 0;                 // rad, of the spin
+  double rotation = 0;                 // rad, integral of the spin
   std::array<double, parts> stress{};  // Pa
-  std::array<double, parts> asked{};   // Pa
+  std::array<double, parts> asked{};   // Pa, target
   std::array<Servo, parts> servos{};
-  std::size_t stage = static_cast<std::size_t>(-1);      // in which the last step was
-  double cut = std::numeric_limits<double>::infinity();  // s: from then on its strains come to rest
+  std::size_t stage = static_cast<std::size_t>(-1);      // stage of the last step
+  double cut = std::numeric_limits<double>::infinity();  // s: when its strain rates start to fall
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -118,23 +118,23 @@ struct MixedControl {
 struct PeriodicCell {
   static constexpr const char* resource_name = "periodic_cell";
 
-  // The scene's
-  Point centre{};        // m, of all mass: the point about which the powder is moved
-  Point corner{};        // -, of the scene's cell, from the centre, in vectors of the cell
+  // From the scene
+  Point centre{};        // m, centre of mass of the powder: the centre of the homogeneous motion
+  Point corner{};        // -, corner of the initial cell relative to the centre, in cell vectors
   double thickness = 0;  // m
 
-  // The run's
+  // State of the run
   MixedControl control;
-  Tensor2 vectors;  // m, in columns
+  Tensor2 vectors;  // m, cell vectors as columns
   Tensor2
-      rate;  // m/s, of the vectors, over the last step; over the next one once the forces are known
+      rate;  // m/s, of the cell vectors, over the last step; the next one once forces are known
   Tensor2 gradient;      // 1/s, velocity gradient over the same step
-  Tensor2 next;          // m, the vectors at the end of the step
+  Tensor2 next;          // m, cell vectors at the end of the step
   Tensor2 change;        // 1/s, of the homogeneous velocity field, from the last step to the next
-  Tensor2 border_force;  // N: sum over the contacts of force on the sampled side times image
+  Tensor2 border_force;  // N: sum over the contacts of force on the sampled side times image vector
 
   double area() const { return std::abs(vectors.determinant()); }
-  // m: it follows the homogeneous motion about the centre, as the particles do on average. In a periodic powder any corner
+  // m: follows the homogeneous motion about the centre, as the particles do on average. In a periodic powder any corner
   // would do; with this one few particles leave the cell.
   Point corner_now() const {
     const Point way = vectors * corner;
@@ -147,10 +147,10 @@ struct PeriodicCell {
   }
 };
 
-// The four planes of a die, moved as the borders of a cell are: by strains or stresses, about the middle between them.
+// The four planes of a die, driven like the borders of a cell: by strains or stresses, about the centre between them.
 struct DrivenWalls {
   static constexpr const char* resource_name = "driven_walls";
-  int left = 0, right = 0, bottom = 0, top = 0;  // tools
+  int left = 0, right = 0, bottom = 0, top = 0;  // tool numbers
   double thickness = 0;                          // m
   MixedControl control;
 

@@ -1,5 +1,5 @@
-// Columns of contact: the smooth curves of the outlines, tools, and the candidates, where they may touch.
-// A candidate is one boundary edge of a particle (the sampled side, four Gauss points) against one
+// Columns of contact: the smooth curves of the outlines, the tools, and the candidate pairs that may touch.
+// A candidate is one boundary edge of a particle (the sampled side, four Gauss points) paired with one
 // other particle or tool. Both particles of a pair sample each other: the contact is unbiased.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace pulvis {
 
 inline constexpr int edge_points =
-    4;  // Gauss points of a boundary edge: one SIMD lane each, of two edges side by side
+    4;  // Gauss points per boundary edge: one SIMD lane each, two edges side by side
 
 // ---- contact curves ---------------------------------------------------------------------------
 struct CurvePosition : Component<ControlPoint, double, 2> {
@@ -55,7 +55,7 @@ struct ContactPair : Component<At, std::int32_t, 3> {
   static constexpr ComponentInfo info{"pair", "-",
                                       "stable key: particle slot, its edge, other slot or tool"};
 };
-// A byte each: those who look for the few that touch pass over many.
+// One byte each: systems that look for the few touching rows scan many of them.
 template <class At>
 struct ContactTouches : Component<At, std::uint8_t, 1> {
   static constexpr ComponentInfo info{"touches", "-",
@@ -66,17 +66,17 @@ struct ActivationTravel : Component<At, double, 1> {
   static constexpr ComponentInfo info{
       "activation", "m", "travel of the surfaces from which on the candidate is active again"};
 };
-// What the broad phase sets and the narrow phase reads, all of it at once: one cache line of a candidate.
+// Set by the broad phase and read by the narrow phase, all together: one cache line per candidate.
 template <class At>
 struct ContactLaw : Component<At, double, 4 + edge_points> {
   static constexpr ComponentInfo info{
       "law", "SI", "kappa, Coulomb's mu, damping, 1/edge length; area of every point"};
   enum Number {
     stiffness,   // Pa/m, kappa of the pair
-    friction,    // -, Coulomb coefficient of the pair; 0 where the scene has none
-    damping,     // Pa s/m, of the contact (T 5.1); 0 where the scene has none
+    friction,    // -, Coulomb coefficient of the pair; 0 if the scene has none
+    damping,     // Pa s/m, of the contact (T 5.1); 0 if the scene has none
     inv_length,  // 1/m, 1/undeformed length of the sampled edge
-    weight       // m^2, undeformed area that a Gauss point stands for: of the first of them
+    weight       // m^2, undeformed area of a Gauss point: of the first of them
   };
 };
 template <class At>
@@ -85,20 +85,20 @@ struct PointForce : Component<At, double, 2 * edge_points> {
                                       "on the sampled edge: x y of every point"};
 };
 
-// Where the curves of a row lie in the list of control points: its particles' shapes need not be asked.
+// Where the curves of a row start in the list of control points: saves looking up the shapes of its particles.
 struct ContactPlace : Component<Contact, std::int32_t, 2> {
   static constexpr ComponentInfo info{
       "place", "-", "control points: first of the sampled edge, first of the other outline"};
 };
-// A point of an outline's curve: an edge, by its first control point counted in the outline, and where on it.
+// A point on the curve of an outline: an edge, given by its first control point in the outline, and the position on it.
 struct CurvePoint;
-// The same as one number, edge + parameter: what a candidate keeps of its closest points fits beside the rest of it.
+// The same as one number, edge + parameter: a candidate's closest points then fit in beside the rest of its data.
 struct PackedCurvePoint {
   double number = 0;
   constexpr CurvePoint unpacked() const;
 };
 struct CurvePoint {
-  static constexpr double last_u = 1 - 1e-12;  // an end belongs to its own edge
+  static constexpr double last_u = 1 - 1e-12;  // an end point belongs to its own edge
   int edge;
   double u;  // 0 ... 1
   constexpr PackedCurvePoint packed() const { return {edge + (u < last_u ? u : last_u)}; }
@@ -115,13 +115,13 @@ struct ClosestPoint : Component<Contact, PackedCurvePoint, edge_points> {
                                       "that outline's first, + parameter"};
 };
 
-// ---- only where the scene has friction -----------------------------------------------------------
+// ---- only if the scene has friction --------------------------------------------------------------
 template <class At>
 struct ElasticSlip : Component<At, double, edge_points> {
   static constexpr ComponentInfo info{"elastic_slip", "m",
                                       "stretch of the tangential springs: history"};
 };
-// ---- only where a pair's friction is more than Coulomb's coefficient ------------------------------
+// ---- only if the friction of a pair is more than a Coulomb coefficient ----------------------------
 template <class At>
 struct FrictionMore : Component<At, double, 6> {
   static constexpr ComponentInfo info{"friction_more", "SI",
@@ -129,10 +129,10 @@ struct FrictionMore : Component<At, double, 6> {
                                       "stress, rate, 1/reference speed, "
                                       "nothing"};
   enum Number {
-    drop,       // -, static less dynamic coefficient
-    inv_decay,  // 1/m, over the sliding distance in which that fades by 1/e
-    strength,   // Pa, shear stress that the surfaces do not pass
-    rate,       // -, of ln(1 + v/v_0)
+    drop,       // -, static minus dynamic coefficient
+    inv_decay,  // 1/m, inverse of the sliding distance over which that drops by a factor of e
+    strength,   // Pa, upper limit of the shear stress
+    rate,       // -, coefficient of ln(1 + v/v_0)
     inv_speed   // s/m, 1/v_0
   };
 };
@@ -142,25 +142,25 @@ struct SlipWeakening : Component<At, double, edge_points> {
                                       "share of the static friction lost in sliding: history"};
 };
 
-// ---- only where surfaces attract each other ---------------------------------------------------------
+// ---- only if surfaces attract each other -----------------------------------------------------------
 template <class At>
 struct AdhesionLaw : Component<At, double, 2> {
   static constexpr ComponentInfo info{"adhesion", "SI", "traction of surfaces that touch; range"};
   enum Number {
     traction,  // Pa
-    range      // m, gap at which it has faded
+    range      // m, gap at which it has dropped to zero
   };
 };
 
-// Moment that keeps friction across a small gap from spinning the pair; see contact_kernel.hpp.
+// Moment that keeps friction across a small gap from spinning up the pair; see contact_kernel.hpp.
 struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
   static constexpr ComponentInfo info{"friction_couple", "N",
                                       "on the other curve's slope: x y of every point"};
 };
 
 // ---- sums over the rows -----------------------------------------------------------------------------
-// Of a block of rows, by the narrow phase while it has the rows at hand. Which rows make a block depends on their chunk alone:
-// neither on threads nor on what else a process has rows of. Nor do the bits of a sum, which is exact over the blocks.
+// Sums per block of rows, computed by the narrow phase while it has the rows at hand. Blocks depend on the chunks alone:
+// not on threads, nor on what other rows a process has. The sum over the blocks is exact, so its bits do not depend on them.
 template <class At>
 struct RowBlocks {
   static constexpr const char* resource_name = At::blocks_name;
@@ -183,14 +183,14 @@ struct RowBlocks {
 
 struct alignas(64) BlockSums {
   double energy = 0;                    // J, stored in the contact springs
-  double friction_work = 0;             // J, spent in sliding in the last step
-  double damping_work = 0;              // J, spent by contact damping in the last step
-  double depth = 0;                     // -, largest penetration over edge length; NaN where one is
-  std::int32_t deepest = -1;            // its row; none where nothing touches
+  double friction_work = 0;             // J, dissipated by sliding in the last step
+  double damping_work = 0;              // J, dissipated by contact damping in the last step
+  double depth = 0;                     // -, largest penetration over edge length; NaN if any is
+  std::int32_t deepest = -1;            // its row; -1 if nothing touches
   std::int32_t touching = 0;            // rows with a touching point
-  std::int32_t projections = 0;         // closest points looked for
-  std::int32_t unconverged = 0;         // of them, not found
-  std::int32_t first_unconverged = -1;  // the row of the first of them
+  std::int32_t projections = 0;         // closest-point projections
+  std::int32_t unconverged = 0;         // projections that did not converge
+  std::int32_t first_unconverged = -1;  // row of the first of them
 
   template <class Bytes>
   void state(Bytes& bytes) {

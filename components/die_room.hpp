@@ -1,4 +1,4 @@
-// The room between the tools around a powder in three dimensions: what relative density refers to.
+// The space enclosed by the tools in three dimensions: the reference of relative density.
 #pragma once
 
 #include <array>
@@ -9,19 +9,19 @@ namespace pulvis {
 
 struct DieRoom {
   enum class Kind { box, round };
-  // Towards -x +x -y +y -z +z; of a round die bottom and top alone, along its axis.
+  // Outward directions -x +x -y +y -z +z; a round die has only bottom and top, along its axis.
   enum Side : std::size_t { left, right, front, back, bottom, top };
   using Vector = std::array<double, 3>;
 
   Kind kind = Kind::box;
   std::array<int, 6> tool{};   // by side
-  int die = -1;                // of a round one: the tool
+  int die = -1;                // tool number of a round die
   Vector axis{0, 0, 1};        // from bottom to top
-  double diameter = 0;         // m, of a round one
-  double in_faces = 0;         // m^3 that profiles of punches take of the room
+  double diameter = 0;         // m, of a round die
+  double in_faces = 0;         // m^3 of the room occupied by the profiles of punches
   double particle_volume = 0;  // m^3, undeformed, of all particles
 
-  // m, between two sides. `at`: at(tool, component) is where a tool is now.
+  // m, distance between two sides. `at`: at(tool, component) is the current position of a tool.
   template <class At>
   double apart(Side low, Side high, const Vector& along, const At& at) const {
     double sum = 0;
@@ -41,13 +41,13 @@ struct DieRoom {
   double depth(const At& at) const {
     return apart(front, back, {0, 1, 0}, at);
   }
-  // m^2, across the axis.
+  // m^2, cross section normal to the axis.
   template <class At>
   double area(const At& at) const {
     if (kind == Kind::box) return width(at) * depth(at);
     return std::numbers::pi / 4 * diameter * diameter;
   }
-  // m^2, of the inside of a round die between the two other tools.
+  // m^2, inner surface of a round die between the two other tools.
   template <class At>
   double wall(const At& at) const {
     return std::numbers::pi * diameter * height(at);

@@ -1,4 +1,4 @@
-// The kinds of entities that arrays have rows for. `laned`: rows stand in slots of eight particles of one chunk.
+// The entity types that arrays have rows for. `laned`: rows are stored in slots of eight particles of one chunk.
 // `by_chunk`: the rows of a chunk are contiguous, so a chunk system may write its own.
 #pragma once
 
@@ -14,24 +14,24 @@ struct BoundaryNode {  // the same nodes, outline only
   static constexpr const char* name = "boundary";
   static constexpr bool laned = true, by_chunk = true;
 };
-struct Element {  // four-node quad; its points are components of a row
+struct Element {  // four-node quad; its integration points are components of a row
   static constexpr const char* name = "element";
   static constexpr bool laned = true, by_chunk = true;
 };
-struct Particle {  // one slot a chunk
+struct Particle {  // one slot per chunk
   static constexpr const char* name = "particle";
   static constexpr bool laned = true, by_chunk = true;
 };
-struct ControlPoint {  // of the contact curves, particle after particle
+struct ControlPoint {  // of the contact curves, stored by particle
   static constexpr const char* name = "curve";
   static constexpr bool laned = false, by_chunk = true;
 };
-struct Contact {  // (edge of one particle, other particle), four Gauss points a row
+struct Contact {  // (edge of one particle, other particle), four Gauss points per row
   static constexpr const char *name = "contact", *blocks_name = "contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
   static constexpr int rows_of_a_block = 128;
 };
-struct ToolContact {  // (edge of a particle, tool), four Gauss points a row
+struct ToolContact {  // (edge of a particle, tool), four Gauss points per row
   static constexpr const char *name = "tool_contact", *blocks_name = "tool_contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
   static constexpr int rows_of_a_block = 128;
@@ -40,25 +40,25 @@ struct SurfacePoint {  // Bezier points of a particle's surface in three dimensi
   static constexpr const char* name = "surface_point";
   static constexpr bool laned = true, by_chunk = true;
 };
-struct ParticleSurface {  // the same points, particle after particle
+struct ParticleSurface {  // the same points, stored by particle
   static constexpr const char* name = "particle_surface";
   static constexpr bool laned = false, by_chunk = true;
 };
-struct SurfaceFace {  // four-sided patches of these surfaces, particle after particle
+struct SurfaceFace {  // four-sided patches of these surfaces, stored by particle
   static constexpr const char* name = "surface_face";
   static constexpr bool laned = false, by_chunk = true;
 };
-struct FaceContact {  // (face of one particle, other particle), sixteen Gauss points a row
+struct FaceContact {  // (face of one particle, other particle), sixteen Gauss points per row
   static constexpr const char* name = "face_contact";
   static constexpr bool laned = false, by_chunk = false;
 };
-struct FaceToolContact {  // (face of a particle, tool), sixteen Gauss points a row
+struct FaceToolContact {  // (face of a particle, tool), sixteen Gauss points per row
   static constexpr const char *name = "face_tool_contact",
                               *blocks_name = "face_tool_contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
   static constexpr int rows_of_a_block = 32;
 };
-inline constexpr int tool_axes = 3;  // tools live in space, whatever the dimension of the powder
+inline constexpr int tool_axes = 3;  // tools are three-dimensional in two dimensions too
 struct Tool {
   static constexpr const char* name = "tool";
   static constexpr bool laned = false, by_chunk = false;

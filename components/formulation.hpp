@@ -1,26 +1,26 @@
-// The element formulations of a scene: where an element's stresses stand, and what keeps its shape.
-// All are four-node quads; the systems of the elements are templates of them.
+// The element formulations of a scene: where stresses are evaluated, and how hourglassing is prevented.
+// All are four-node quads; the element systems are templates on the formulation.
 #pragma once
 
 #include <stdexcept>
 
 namespace pulvis {
 
-// 2x2 Gauss points, one dilatation for the whole element (mean dilatation).
+// 2x2 Gauss points with one dilatation for the whole element (mean dilatation).
 struct FourPoint {
-  static constexpr int points = 4;   // with a deviator and a plastic state each
-  static constexpr int volumes = 1;  // with a mean stress each
+  static constexpr int points = 4;   // each with its own deviator and plastic state
+  static constexpr int volumes = 1;  // each with its own mean stress
   static constexpr bool stabilised = false;
 };
 
-// 2x2 Gauss points, each with its own dilatation. Locks where volume is kept: the negative control.
+// 2x2 Gauss points, each with its own dilatation. Volumetric locking: the negative control.
 struct Standard {
   static constexpr int points = 4;
   static constexpr int volumes = 4;
   static constexpr bool stabilised = false;
 };
 
-// One point at the centre, and the two bending modes that it cannot see (systems/body/hourglass_kernel.hpp).
+// One point at the centre, with stabilised hourglass modes (systems/body/hourglass_kernel.hpp).
 struct OnePoint {
   static constexpr int points = 1;
   static constexpr int volumes = 1;
@@ -29,7 +29,7 @@ struct OnePoint {
 
 enum class Formulation { four_point, one_point, standard };
 
-// What a scene's formulation decides, decided here and nowhere else: visit(F{}), F the struct above.
+// The only place that maps a scene's formulation to a type: visit(F{}), F one of the structs above.
 template <class Visit>
 decltype(auto) with_formulation(Formulation formulation, const Visit& visit) {
   switch (formulation) {

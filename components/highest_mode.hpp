@@ -1,5 +1,5 @@
-// Columns of the estimate of each particle's highest frequency (systems/body/highest_mode): there are none unless
-// the scene takes its time step from it.
+// Columns for estimating the highest eigenfrequency of each particle (systems/body/highest_mode): present only if
+// the scene derives its time step from it.
 #pragma once
 
 #include "components/entities.hpp"

@@ -1,5 +1,5 @@
-// Hollows: the inner boundaries of shapes with holes. Resource: fixed once the scene is built, and only there where
-// a shape has one.
+// Hollows: the inner boundaries of shapes with holes. Resource: fixed once the scene is built, and present only if
+// a shape has holes.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace pulvis {
 struct Hollows {
   static constexpr const char* resource_name = "hollows";
   static constexpr bool fixed = true;
-  using Loop = std::vector<std::int32_t>;  // nodes, the material to the left
+  using Loop = std::vector<std::int32_t>;  // nodes, with the material on the left
 
-  std::vector<std::vector<Loop>> of_shape;  // [shapes]: none, or one of every hole
+  std::vector<std::vector<Loop>> of_shape;  // [shapes]: empty, or one loop per hole
 };
 
 }  // namespace pulvis

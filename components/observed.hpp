@@ -1,5 +1,5 @@
-// What a scene can ask to be observed beyond forces and energies ([output]): stresses of the particles,
-// the network of their contacts, local densities. Written on sampled steps only; nothing in a step reads it.
+// What a scene can output beyond forces and energies ([output]): stresses of the particles,
+// their contact network, local densities. Written in sampled steps only; nothing in a step reads it.
 #pragma once
 
 #include <array>
@@ -24,16 +24,16 @@ struct ParticleCentre : Component<Particle, double, 2> {
 };
 
 // ---- output.contacts --------------------------------------------------------------------------------
-// All that one particle does to another, or a tool to a particle: the sum of their contact points.
+// Resultant of one particle on another, or of a tool on a particle: the sum over their contact points.
 struct ContactLink {
   std::int32_t first = 0;   // number of the particle that `force` acts on
   std::int32_t second = 0;  // number of the other particle, > first; or the tool
-  Point point{};            // m, mean of the contact points, weighted with their forces
-  Point normal{};           // unit vector into the first particle, weighted with the normal forces
+  Point point{};            // m, mean of the contact points, weighted by force
+  Point normal{};           // unit vector into the first particle, weighted by normal force
   Point force{};            // N
-  double length = 0;        // m, of the surface that touches
+  double length = 0;        // m, length of the contact
   double normal_force() const { return force[0] * normal[0] + force[1] * normal[1]; }
-  // Along (-n_y, n_x).
+  // Component along (-n_y, n_x).
   double tangential_force() const { return force[1] * normal[0] - force[0] * normal[1]; }
 
   template <class Bytes>
@@ -44,7 +44,7 @@ struct ContactLink {
 
 struct ContactNetwork {
   static constexpr const char* resource_name = "contact_network";
-  std::vector<ContactLink> pairs;  // each once, sorted by numbers; an outline's folds are none
+  std::vector<ContactLink> pairs;  // each pair once, sorted by numbers; no self-contact
   std::vector<ContactLink> tools;
 
   template <class Bytes>
@@ -53,16 +53,16 @@ struct ContactNetwork {
   }
 };
 
-// ---- wherever there is contact ----------------------------------------------------------------------
-// How well the meshes resolve the contacts, as last observed. A contact is all that one outline feels of one
-// other, or of a tool; of a pair each side has its own.
+// ---- in every scene with contact --------------------------------------------------------------------
+// How well the meshes resolve the contacts, as last observed. A contact is everything between an outline
+// and one other, or one tool; in a pair of particles each side counts separately.
 struct ContactQuality {
   static constexpr const char* resource_name = "contact_quality";
   static constexpr double min_edges = 2;  // narrower contacts are not resolved
-  double overlap = 0;                     // m^2, of the outlines with each other and with tools
-  double penetration_work = 0;            // J, normal forces times penetrations
+  double overlap = 0;                     // m^2, of outlines with each other and with tools
+  double penetration_work = 0;            // J, normal force times penetration, summed
   double force = 0;                       // N, sum over the contacts
-  double narrow_force = 0;                // N, of those narrower than two boundary edges
+  double narrow_force = 0;                // N, of contacts narrower than two boundary edges
   double narrow_width = 0;                // N m, their widths times their forces
   double narrow_edges = 0;                // N, their widths in edges times their forces
 
@@ -74,7 +74,7 @@ struct ContactQuality {
 
 struct ForceChains {
   static constexpr const char* resource_name = "force_chains";
-  std::vector<std::int32_t> chain;  // [particles], by number: the particle's chain, from 1; 0: none
+  std::vector<std::int32_t> chain;  // [particles], by number: its force chain, from 1; 0: none
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -89,14 +89,14 @@ struct DensityGrid {
   using OutlineEdge = std::array<Row<Node>, 2>;
 
   int columns = 0, rows = 0;
-  std::array<int, 4> tool{};                      // of every side
-  std::array<std::vector<Point>, 4> surface{};    // m, relative to the tool; of a plane empty
+  std::array<int, 4> tool{};                      // one per side
+  std::array<std::vector<Point>, 4> surface{};    // m, relative to the tool; empty for a plane
   std::vector<std::vector<OutlineEdge>> outline;  // [shapes]: material on the left, holes included
 
   // As last observed.
   std::array<double, 4> side{};  // m: x of left and right, y of bottom and top
-  std::vector<double> filled;  // m^2, [rows * columns] from the bottom: of the particles in a cell
-  std::vector<double> room;    // m^2, of the cell outside of the tools
+  std::vector<double> filled;  // m^2, [rows * columns] from the bottom: particle area in a cell
+  std::vector<double> room;    // m^2, area of the cell outside the tools
 
   template <class Bytes>
   void state(Bytes& bytes) {

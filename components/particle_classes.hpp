@@ -1,4 +1,4 @@
-// Which class of the scene the shapes of its bodies are of: for results, nothing in the step reads it.
+// Maps the shapes of the bodies to the particle classes of the scene; used for output only.
 #pragma once
 
 #include <vector>

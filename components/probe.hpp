@@ -1,5 +1,5 @@
-// Columns and resources of a probe that touches a rigid target: the points of the probe that can touch,
-// and the target that the scanner moves under it. There only where the scene has a surface.
+// Columns and resources of a probe in contact with a rigid target: the probe points that can touch,
+// and the target, which the scanner moves under it. Present only if the scene has a surface.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct ProbeStiffness : Component<ProbePoint, double, 2> {
 struct ProbeShare : Component<ProbePoint, double, 1> {
   static constexpr ComponentInfo info{"share", "-", "of the pull-off force that acts on the point"};
 };
-// What the point carries from one increment to the next.
+// State variables that a point carries from one increment to the next.
 struct ProbeMemory : Component<ProbePoint, double, 7> {
   static constexpr ComponentInfo info{
       "memory", "N, m, -",
@@ -40,7 +40,7 @@ struct ProbeState : Component<ProbePoint, double, 5> {
       "breaks the law of contact"};
 };
 
-// The rigid surface: how far a place is from it, and which way is out.
+// The rigid surface: signed distance of a point from it, and the outward normal.
 struct TargetShape {
   using Place = std::array<double, 3>;
   struct Nearest {
@@ -52,7 +52,7 @@ struct TargetShape {
   virtual Nearest nearest(const Place& place) const = 0;
 };
 
-// A ball of elastic material that adheres (JKR); work 0: none does.
+// An elastic sphere with adhesion (JKR); work 0: no adhesion.
 struct AdhesiveBall {
   double modulus = 0, radius = 0, work = 0;  // E/(1 - nu^2) Pa, m, J/m^2
 };
@@ -60,18 +60,18 @@ struct AdhesiveBall {
 struct Target {
   static constexpr const char* resource_name = "target";
   std::shared_ptr<const TargetShape> shape;
-  std::array<double, 3> origin{};  // m, of the shape, where it was first touched
-  std::array<double, 3> travel{};  // m, of the scanner since then
+  std::array<double, 3> origin{};  // m, origin of the shape, at first contact
+  std::array<double, 3> travel{};  // m, displacement of the scanner since then
   double friction = 0;             // -, Coulomb
-  double pull_off = 0;             // N, adhesion at contact; 0: none
-  AdhesiveBall ball;      // whose law takes the place of the normal penalty and of DMT's force
-  double range = 0;       // m, over which it fades: 1/(1 + gap/range)^2
-  double end_radius = 0;  // m, of a sharp tip's end; 0 for nodes of a meshed surface
-  bool servo = false;     // the scanner's height follows so that ...
+  double pull_off = 0;             // N, adhesion force at contact; 0: none
+  AdhesiveBall ball;      // its law replaces the normal penalty and the DMT force
+  double range = 0;       // m, decay length of adhesion: 1/(1 + gap/range)^2
+  double end_radius = 0;  // m, end radius of a sharp tip; 0 for nodes of a meshed surface
+  bool servo = false;     // the height of the scanner is controlled so that ...
   double set_point = 0;   // N, ... the target pushes the probe up with this force
-  bool may_jump = false;  // where no equilibrium is near the probe may snap on or off
+  bool may_jump = false;  // if there is no equilibrium nearby, the probe may snap on or off
 
-  // The rest is the scene's.
+  // All other members come from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(travel, servo, set_point, may_jump);

@@ -1,7 +1,7 @@
-// What links the world of a rank with those of the others. A scene that runs in one process has none of it.
+// Links the world of one rank to those of the others. Absent in a scene that runs in a single process.
 //
-// Ranks own whole chunks. A contact row is computed by the rank that owns the sampled particle, and by no other; the rank that
-// owns the other particle has the same row, among its own in the same order, and is told what it does.
+// Ranks own whole chunks. A contact row is computed only by the rank that owns the sampled particle; the rank that
+// owns the other particle has the same row, among its own in the same order, and receives the results.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ struct RankLink {
 
   Ranks* ranks = nullptr;
   std::vector<int> owner;            // [chunks]
-  std::vector<Neighbour> border;     // particles near those of the other rank when the rows were made
-  std::vector<Neighbour> outlines;   // of them, those that rows look at: told in every step
+  std::vector<Neighbour> border;     // particles near those of the other rank at the last rebuild
+  std::vector<Neighbour> outlines;   // the ones that rows refer to: exchanged in every step
   std::vector<Neighbour> rows;       // contact rows, or pairs of particles in three dimensions
-  bool outlines_sent = false;  // and not yet awaited
-  // What broke on this rank in this step, and at which position of the step list; told to the others at its end.
+  bool outlines_sent = false;  // and not yet received
+  // A failure of this rank in this step, and its position in the step list; sent to the others at the end of the step.
   std::string failure;
   int failed_at = 0;
   bool any_failed = false;  // on any rank
@@ -34,7 +34,7 @@ struct RankLink {
   int owner_of(int slot) const { return owner[static_cast<std::size_t>(slot / lane_count)]; }
 
   template <class Bytes>
-  void state(Bytes&) {}  // a checkpoint is of all ranks
+  void state(Bytes&) {}  // a checkpoint covers all ranks
 };
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// Resources that change over a run, and the rules of contact and tools that the scene set.
+// Resources that change during a run, and the settings of contact and tools from the scene.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,11 @@ struct Clock {
   double dt_before = 0;  // t_n - t_(n-1)
   double dt = 0;         // t_(n+1) - t_n
   double end = 0;        // s
-  double safety = 0.9;   // share of the stable step that is used
+  double safety = 0.9;   // fraction of the stable time step that is used
   double travel =
-      0;  // m, bound on how far any two surfaces have moved relative to each other so far
-  std::int64_t next_look = 0;  // step at which the stable time step is determined anew
-  double stiffening = 1;  // -, tangent of the stiffest contact spring over that of an untouched one
+      0;  // m, upper bound of the relative displacement of any two surfaces so far
+  std::int64_t next_look = 0;  // step at which the stable time step is computed next
+  double stiffening = 1;  // -, tangent of the stiffest contact spring over the undeformed tangent
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -37,7 +37,7 @@ struct Clock {
   }
 };
 
-// Prescribed motion of the tools: every segment moves one tool by `displacement` over its duration.
+// Prescribed motion of the tools: each segment moves one tool by `displacement` over its duration.
 struct ToolProgram {
   static constexpr const char* resource_name = "tool_program";
   struct Segment {
@@ -46,7 +46,7 @@ struct ToolProgram {
     double ramp = 0;                 // -, share of the duration with rising (and falling) speed
     Point3 displacement{};           // m
     int stage = 0;
-    // s: when the speed begins to fall although the displacement is not done; never, unless the stage ends early.
+    // s: when the speed starts to ramp down before the displacement is complete; infinite unless the stage ends early.
     double cut = std::numeric_limits<double>::infinity();
 
     template <class Bytes>
@@ -68,7 +68,7 @@ struct ToolProgram {
   std::vector<Segment> segments;
   std::vector<Stage> stages;
 
-  // The stage that `time` belongs to; their number once all are over.
+  // The stage at `time`; the number of stages once all are over.
   std::size_t stage_at(double time) const {
     std::size_t stage = 0;
     while (stage < stages.size() && time >= stages[stage].end) ++stage;
@@ -85,24 +85,24 @@ struct ContactRules {
   static constexpr const char* resource_name = "contact_rules";
   static constexpr bool fixed = true;
   double stiffness = 1;             // -, k of kappa = k K L/A
-  double damping = 0;               // -, share of critical
+  double damping = 0;               // -, fraction of critical damping
   double penetration_limit = 0.5;   // -, of the edge length
-  double unconverged_limit = 1e-3;  // -, share of the closest points
+  double unconverged_limit = 1e-3;  // -, share of the closest-point projections
   double shortest_edge = 0;         // m
-  // m: least width of an element and of a tool's ridge. What is thinner than a step's displacement can be passed unseen.
+  // m: minimum width of elements and tool ridges. Anything thinner than a step's displacement can be missed.
   double thinnest = std::numeric_limits<double>::infinity();
-  std::vector<double> tool_thickness;  // m, [tools]: of thin ridges; infinite where there are none
-  bool servos = false;                 // some tool holds a force
-  // -, [materials]: stiffness over that of the contact springs of the stiffest bonds made at the start, which their
-  // contact springs share, and of welds; empty without bonds
+  std::vector<double> tool_thickness;  // m, [tools]: of thin ridges; infinite if there are none
+  bool servos = false;                 // some tool is force-controlled
+  // -, [materials]: stiffness relative to the contact springs, of the stiffest bonds made at the start (their contact
+  // springs use it too), and of welds; empty without bonds
   std::vector<double> initial_stiffness, weld_stiffness;
   int materials = 0;
   struct Friction {
-    double coefficient = 0;  // -, Coulomb's; where there is a static one, the dynamic
-    double drop = 0;         // -, static less dynamic coefficient
+    double coefficient = 0;  // -, Coulomb; the dynamic one if there is also a static one
+    double drop = 0;         // -, static minus dynamic coefficient
     double inv_decay = 0;    // 1/m
-    double strength = std::numeric_limits<double>::infinity();  // Pa, shear stress at most
-    double rate = 0;                                            // -, of ln(1 + v inv_speed)
+    double strength = std::numeric_limits<double>::infinity();  // Pa, limit of the shear stress
+    double rate = 0;                                            // -, factor of ln(1 + v inv_speed)
     double inv_speed = 0;                                       // s/m
     bool acts() const { return coefficient > 0 || drop > 0 || rate > 0; }
     bool only_coulomb() const { return drop == 0 && rate == 0 && std::isinf(strength); }
@@ -110,10 +110,10 @@ struct ContactRules {
   std::vector<Friction> friction;       // [materials * materials]
   std::vector<Friction> tool_friction;  // [tools * materials]
   struct Adhesion {
-    double traction = 0;  // Pa, of surfaces that touch
-    double range = 0;     // m, gap at which it has faded
+    double traction = 0;  // Pa, of touching surfaces
+    double range = 0;     // m, gap at which it has dropped to zero
   };
-  std::vector<Adhesion> adhesion;       // [materials * materials]; empty without
+  std::vector<Adhesion> adhesion;       // [materials * materials]; empty without adhesion
   std::vector<Adhesion> tool_adhesion;  // [tools * materials]
   const Adhesion& adhesion_between(int a, int b) const {
     return adhesive(adhesion, a * materials + b);
@@ -121,8 +121,8 @@ struct ContactRules {
   const Adhesion& adhesion_with_tool(int tool, int material) const {
     return adhesive(tool_adhesion, tool * materials + material);
   }
-  // Tangent of the springs of a material's contacts and bonds over that of an untouched contact spring, when the
-  // contact springs have stiffened so much.
+  // Tangent of the springs of a material's contacts and bonds relative to that of an undeformed contact spring, if the
+  // contact springs have stiffened by this factor.
   double springs_of(int material, double stiffening) const {
     if (initial_stiffness.empty()) return stiffening;
     return std::max(1.0, entry(initial_stiffness, material)) *
@@ -145,32 +145,32 @@ struct ContactRules {
   }
 };
 
-// Where the rows of each particle are, rebuilt with the rows.
+// The rows of each particle; rebuilt together with the rows.
 struct ContactIndex {
   static constexpr const char* resource_name = "contact_index";
-  double skin = 0;  // m: by how much surfaces may approach each other before rows are made anew
+  double skin = 0;  // m: how far surfaces may approach each other before rows are rebuilt
   double reach =
-      0;  // m: forces act across gaps below this; rows are made for gaps below skin + reach
+      0;  // m: forces act across gaps below this; rows are created for gaps below skin + reach
   double neighbourhood =
-      0;  // m, > skin + reach: particles nearer than this to each other are neighbours
-  double travel_at_bin = -1;  // m, Clock::travel when the rows were made; < 0: never yet
+      0;  // m, > skin + reach: particles closer than this are neighbours
+  double travel_at_bin = -1;  // m, Clock::travel when the rows were created; < 0: not yet
   double look_at = 0;         // m, Clock::travel at which the skin may be used up
-  double travel_seen = 0;     // m, Clock::travel of the step before
-  bool due = false;           // the rows are made anew in this step
-  std::int64_t bins = 0;      // how often so far
+  double travel_seen = 0;     // m, Clock::travel in the previous step
+  bool due = false;           // the rows are rebuilt in this step
+  std::int64_t bins = 0;      // number of rebuilds so far
   std::vector<std::int32_t> neighbour_begin;  // [slots + 1] into neighbours
-  std::vector<std::int32_t> neighbours;  // slots, itself included, when the rows were made; sorted
-  // In a periodic cell, of each of them: by which periods it is moved.
+  std::vector<std::int32_t> neighbours;  // slots, including itself, at the last rebuild; sorted
+  // In a periodic cell, for each neighbour: the number of periods by which it is shifted.
   std::vector<std::array<std::int32_t, 2>> images;
-  std::array<double, 4> cell_before{};      // m, the cell's vectors then
-  std::vector<Point3> tools_before;         // m, [tools]: where they stood then
-  std::vector<std::int32_t> sampled_begin;  // [slots + 1] into contact rows: particle samples
+  std::array<double, 4> cell_before{};      // m, the cell vectors at the last rebuild
+  std::vector<Point3> tools_before;         // m, [tools]: tool positions then
+  std::vector<std::int32_t> sampled_begin;  // [slots + 1] into contact rows: as sampled particle
   std::vector<std::int32_t>
-      other_begin;  // [slots + 1] into other_rows: particle is sampled against
+      other_begin;  // [slots + 1] into other_rows: rows with the particle as the other side
   std::vector<std::int32_t> other_rows;
   std::vector<std::int32_t> tool_begin;  // [slots + 1] into tool contact rows
 
-  // From the keys of the rows: slot, edge, other of each.
+  // From the keys of the rows: slot, edge, other for each.
   void list_others(std::span<const std::int32_t> keys) {
     other_begin.assign(sampled_begin.size(), 0);
     for (std::size_t k = 2; k < keys.size(); k += 3) entry(other_begin, keys[k] + 1) += 1;
@@ -196,24 +196,24 @@ struct ContactIndex {
   }
 };
 
-// Sums over the run and of the last step.
+// Sums over the run, and values of the last step.
 struct Totals {
   static constexpr const char* resource_name = "totals";
   double external_work = 0;      // J, of the tools on the particles
-  double largest_work = 0;       // J, of the tools in one step, either way
+  double largest_work = 0;       // J, of the tools in one step, absolute value
   double friction_work = 0;      // J, dissipated
   double damping_work = 0;       // J, dissipated by contact damping
   double damping_power = 0;      // W, of this step
-  double contact_energy = 0;     // J, stored in contact springs now
-  double penetration = 0;        // -, penetration / edge length, largest of this step
-  double worst_penetration = 0;  // -, the same, of the run
-  double min_jacobian = 1;       // -, smallest det F of the run
-  std::int64_t touching = 0;     // rows with a touching point now
-  std::int64_t projections = 0;  // closest points looked for in the run
-  std::int64_t unconverged = 0;  // of them, not found
+  double contact_energy = 0;     // J, stored in contact springs
+  double penetration = 0;        // -, penetration / edge length, maximum in this step
+  double worst_penetration = 0;  // -, the same, maximum of the run
+  double min_jacobian = 1;       // -, minimum det F of the run
+  std::int64_t touching = 0;     // rows with at least one touching point
+  std::int64_t projections = 0;  // closest-point projections in the run
+  std::int64_t unconverged = 0;  // projections that did not converge
 
-  // Share of the closest points that were not found: of the run, or of ten thousand where it has had fewer, so that
-  // one of the first few is no tenth of them.
+  // Share of the projections that did not converge: of all in the run, or of ten thousand if there were fewer, so that
+  // one of the first few does not already count as a tenth.
   double unconverged_share() const {
     return static_cast<double>(unconverged) /
            static_cast<double>(std::max<std::int64_t>(projections, 10000));

@@ -1,4 +1,4 @@
-// Tools that hold a force, and stages that end when something is reached: only in scenes that ask for them.
+// Force-controlled tools, and stages that end on a condition: only in scenes that use them.
 #pragma once
 
 #include <algorithm>
@@ -34,26 +34,26 @@ struct ServoForce : Component<Tool, double, 2> {
       "the tool bore when its stage began"};
 };
 
-// What drives a tool while a stage lasts: the set force, a mass of its own, and a second one dragged along
+// What drives a tool during a stage: the prescribed force, a servo mass, and a second mass coupled to it
 // through a dashpot (systems/tools/servo_kernel.hpp).
 struct ToolServos {
   static constexpr const char* resource_name = "tool_servos";
   struct Servo {
     int tool = 0;
     int stage = 0;
-    Point3 direction{};       // unit vector: the way it pushes
-    double force = 0;         // N, to be held
-    double rise = 0;          // s, until it is asked for in full
-    double rate = 0;          // N/s, instead of it; 0: none
-    double mass = 0;          // kg, of the tool at least
-    double damping = 0;       // N s/m, of its dashpot with that mass; grows with the mass's root
+    Point3 direction{};       // unit vector: pushing direction
+    double force = 0;         // N, target
+    double rise = 0;          // s, time to ramp up to the full force
+    double rate = 0;          // N/s, used instead of `rise`; 0: none
+    double mass = 0;          // kg, minimum mass of the tool
+    double damping = 0;       // N s/m, of its dashpot at that mass; scales with its square root
     double max_speed = 0;     // m/s
     double tolerance = 0.05;  // -, of the force, at the end of the stage
-    // A drive that gives, instead of a force that is held: 0, or N/m; `damping` is then that of its dashpot.
+    // A compliant drive instead of a constant force: 0, or N/m; `damping` is then that of its dashpot.
     double stiffness = 0;
     bool holds_force() const { return stiffness == 0; }
   };
-  // Set from outside: at once, and in all stages instead of what their servos of this tool are to hold.
+  // Set externally: takes effect at once, and overrides the servos of this tool in all stages.
   struct Driven {
     int tool = 0;
     double force = 0;  // N
@@ -64,7 +64,7 @@ struct ToolServos {
   };
   std::vector<Servo> servos;
   std::vector<Driven> driven;
-  std::size_t stage = static_cast<std::size_t>(-1);  // in which the last step was
+  std::size_t stage = static_cast<std::size_t>(-1);  // stage of the last step
 
   const Driven* driven_force(int of_tool) const {
     for (const Driven& one : driven)
@@ -72,40 +72,40 @@ struct ToolServos {
     return nullptr;
   }
 
-  // The servos are the scene's.
+  // The servos come from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(stage, driven);
   }
 };
 
-// ---- stages that end early ------------------------------------------------------------------------
+// ---- stages that end on a condition ---------------------------------------------------------------
 struct StageEnds {
   static constexpr const char* resource_name = "stage_ends";
   enum class Kind { force, displacement, density };
   struct End {
     int stage = 0;
     Kind kind = Kind::force;
-    int tool = 0;        // whose force or displacement it is
-    Point3 direction{};  // the force along it; zero: the size of the resultant
+    int tool = 0;        // whose force or displacement is monitored
+    Point3 direction{};  // of the force component; zero: magnitude of the resultant
     double value = 0;    // N, m or -
     bool reached = false;
 
-    // The rest is the scene's.
+    // All other members come from the scene.
     template <class Bytes>
     void state(Bytes& bytes) {
       bytes(reached);
     }
   };
-  struct Cell {  // tools around the powder, and its area: what relative density is
+  struct Cell {  // tools around the powder, and the particle area, for relative density
     int left = 0, right = 0, bottom = 0, top = 0;
     double particle_area = 0;  // m^2
-    Relief relief = {};        // of the bottom
+    Relief relief = {};        // of the bottom tool
   };
   std::vector<End> ends;
   Cell cell;
-  std::optional<DieRoom> room = {};    // instead of the cell: of three dimensions
-  std::vector<Point3> tools_at_begin;  // m, [tools]: where they stood when the stage began
+  std::optional<DieRoom> room = {};    // used instead of the cell in three dimensions
+  std::vector<Point3> tools_at_begin;  // m, [tools]: tool positions at the start of the stage
   double run_end = std::numeric_limits<double>::infinity();  // s: Clock::end from the next step on
   std::size_t stage = static_cast<std::size_t>(-1);
 
@@ -115,7 +115,7 @@ struct StageEnds {
     });
   }
 
-  // Cell and room are the scene's.
+  // Cell and room come from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(ends, tools_at_begin, stage, run_end);

@@ -1,5 +1,5 @@
-// Shapes and bodies: what all particles of a class share (mesh, contact curve), and which particle
-// stands in which lane of which chunk. Resources: fixed once the scene is built.
+// Shapes and bodies: what all particles of a class share (mesh, contact curve), and the chunk and lane of
+// each particle. Resources: fixed once the scene is built.
 #pragma once
 
 #include <array>
@@ -15,89 +15,89 @@
 namespace pulvis {
 
 using Point = std::array<double, 2>;
-using Point3 = std::array<double, 3>;  // of tools, which live in space: z = 0 in two dimensions
+using Point3 = std::array<double, 3>;  // of tools; z = 0 in two dimensions
 
-// The undeformed mesh of one particle class, in its own frame (centre of the outline at the origin).
+// The undeformed mesh of one particle class, in its local frame (centre of the outline at the origin).
 struct Shape {
   static constexpr int no_edge = -1;
 
   struct GaussPoint {
     std::array<double, 4> inverse_jacobian;  // d(xi,eta)/d(X,Y): xi_X xi_Y eta_X eta_Y, 1/m
-    double determinant;                      // of dX/dxi, m^2: the area that the point stands for
+    double determinant;                      // of dX/dxi, m^2: area of the integration point
   };
-  // Of an element with one point: natural components of h in x = centre + a xi + b eta + h xi eta, and
-  // the skewness a.b / a.a, a.b / b.b, and what det dX/d(xi,eta) at the middle is over that at each of the
+  // For one-point elements: natural components of h in x = centre + a xi + b eta + h xi eta, the
+  // skewness a.b / a.a, a.b / b.b, and the ratio of det dX/d(xi,eta) at the centre to that at each of the
   // four Gauss points.
   struct Hourglass {
     std::array<double, 2> natural;
     std::array<double, 2> skew;
     std::array<double, 4> inv_determinant;
   };
-  struct CurveTerm {  // share of a boundary node in a control point
+  struct CurveTerm {  // weight of a boundary node in a control point
     Row<BoundaryNode> node;
     double weight;
   };
   struct Edge {  // of the contact curve, from one boundary node to the next, counter-clockwise
     int first_control = 0;   // its four control points are first_control .. +3
-    int previous = no_edge;  // no_edge where the outline has a corner
+    int previous = no_edge;  // no_edge if the outline has a corner there
     int next = no_edge;
     double length = 0;               // m, undeformed
     double stiffness = 0;            // 1/m: edge length / area of the element behind it
-    std::array<double, 4> weight{};  // m: length that each of its Gauss points stands for
+    std::array<double, 4> weight{};  // m: length of each of its Gauss points
   };
 
-  // D = V sum_I dN_I/dxi dN_I/dxi^T / a_I at the middle of an element of area V, a_I the part of node I's
-  // area that counts as the element's own: bounds its frequencies (systems/body/time_step_kernel).
+  // D = V sum_I dN_I/dxi dN_I/dxi^T / a_I at the centre of an element of area V, a_I the part of node I's
+  // area that belongs to the element: bounds its frequencies (systems/body/time_step_kernel).
   struct CornerMoment {
     double xixi, xieta, etaeta;
   };
 
   std::string name;
-  std::vector<Point> nodes;                      // m; outline first
+  std::vector<Point> nodes;                      // m; outline nodes first
   std::vector<std::array<Row<Node>, 4>> quads;   // counter-clockwise
   std::vector<std::array<GaussPoint, 4>> gauss;  // [elements]
-  // [elements]: one point for the whole element; its inverse_jacobian belongs to the fourfold map
-  // (kernels::FourfoldMap), which is what elements with one point work with.
+  // [elements]: one point for the whole element; its inverse_jacobian refers to the fourfold map
+  // (kernels::FourfoldMap) used by one-point elements.
   std::vector<std::array<GaussPoint, 1>> centre;
   std::vector<Hourglass> hourglass;  // [elements]
-  std::vector<double> nodal_area;    // m^2: a quarter of every element around
+  std::vector<double> nodal_area;    // m^2: a quarter of every adjacent element
   int boundary_nodes = 0;
   std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;
   std::vector<Edge> edges;
   std::vector<std::int32_t>
-      edge_from;  // [control points]: the edge whose first control point it is
+      edge_from;  // [control points]: the edge that starts with it
   std::vector<CornerMoment> corner_moment;  // [elements]
   std::vector<double>
-      contact_frequency;           // 1/m^2, [elements]: rho omega^2 / (k K) of its edges' springs
-  double mean_edge_stiffness = 0;  // 1/m: of its edges, weighted with their length
-  double area = 0;                 // m^2, of the true outline
+      contact_frequency;           // 1/m^2, [elements]: rho omega^2 / (k K) of its edge springs
+  double mean_edge_stiffness = 0;  // 1/m: of its edges, weighted by length
+  double area = 0;                 // m^2, of the exact outline
 
   int control_points() const { return static_cast<int>(curve_begin.size()) - 1; }
   int elements() const { return static_cast<int>(quads.size()); }
-  // What control point c is made of.
+  // The terms of control point c.
   std::span<const CurveTerm> terms_of(int c) const {
     return {&curve_terms[0] + entry(curve_begin, c), &curve_terms[0] + entry(curve_begin, c + 1)};
   }
 };
 
-// Particles by slot (engine/chunk_lane.hpp). A slot without a particle has number -1; it is computed
-// like the others (at rest, undeformed) and seen by no contact, no energy and no result.
+// Particles by slot (engine/chunk_lane.hpp). An empty slot has number -1; it is computed like
+// the others (at rest, undeformed) but ignored by contact, energies and results.
 //
-// A process that is alone holds all of them. One of several ranks (components/ranks.hpp) holds the chunks that it owns, and
-// of the particles of other ranks that are near its own the outlines: its border. All ranks number slots and rows alike; what
-// one does not hold is never touched, and takes no memory.
+// A single process holds all particles. One of several ranks (components/ranks.hpp) holds the chunks that it owns, and
+// the outlines of nearby particles of other ranks: its border. Slots and rows are numbered alike on all ranks; those
+// a rank does not hold are never accessed, and take no memory.
 struct Bodies {
   static constexpr const char* resource_name = "bodies";
   static constexpr int empty_slot = -1;
   enum class Held : std::uint8_t { absent, border, own };
 
   struct Slot {
-    int number = empty_slot;  // of the particle in the scene, from 0
+    int number = empty_slot;  // particle number in the scene, from 0
     int shape = 0;            // position in `shapes`
-    int material = 0;         // of the scene
+    int material = 0;         // material number in the scene
     int first_control = 0;    // row of its first control point
-    int parent = empty_slot;  // number of the particle that it is a grain of, or its own
+    int parent = empty_slot;  // number of the particle that it is a grain of, or its own number
   };
 
   double thickness = 0;  // m
@@ -105,12 +105,12 @@ struct Bodies {
   std::vector<Shape> shapes;
   std::vector<Slot> slots;          // [lane_count * chunks]
   std::vector<int> slot_of_number;  // [particles]
-  std::vector<Held> held;           // [slots]; absent where no particle is
+  std::vector<Held> held;           // [slots]; absent if there is no particle
   std::vector<int> own_chunks;      // ascending
-  std::vector<int> own_slots;       // of its particles, in the order of their numbers
+  std::vector<int> own_slots;       // slots of its own particles, ordered by particle number
   std::vector<int> present_slots;   // own and border, ascending
 
-  // The chunks that `owns`, and no border.
+  // Hold the chunks where `owns_chunk` is true, and no border.
   void hold(const std::vector<bool>& owns_chunk) {
     held.assign(slots.size(), Held::absent);
     own_chunks.clear();
@@ -125,14 +125,14 @@ struct Bodies {
     list_present();
   }
   void hold_all() { hold(std::vector<bool>(static_cast<std::size_t>(chunks()), true)); }
-  // Instead of the border before; of slots that it does not own.
+  // Replaces the current border; only slots that it does not own.
   void set_border(const std::vector<int>& border) {
     for (const int slot : present_slots)
       if (!owns(slot)) entry(held, slot) = Held::absent;
     for (const int slot : border) entry(held, slot) = Held::border;
     list_present();
   }
-  // Every lane of its chunks, empty ones too.
+  // All lanes of its chunks, including empty ones.
   template <class Visit>
   void for_own_lanes(const Visit& visit) const {
     for (const int chunk : own_chunks)
@@ -143,7 +143,7 @@ struct Bodies {
   bool is_whole() const { return own_slots.size() == slot_of_number.size(); }
 
   template <class Bytes>
-  void state(Bytes&) {}  // a checkpoint is of all ranks
+  void state(Bytes&) {}  // a checkpoint covers all ranks
 
   const Shape& shape_of_chunk(Chunk c) const { return shape_of_slot(ChunkLane(c, 0).slot()); }
   const Shape& shape_of_slot(int slot) const { return entry(shapes, entry(slots, slot).shape); }

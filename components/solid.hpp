@@ -1,5 +1,5 @@
 // Columns and resources of a deformable solid in space that is solved quasi-statically: eight-node hexahedra, ten-node
-// tetrahedra, nodes, and the blocks of the stiffness matrix. Nothing of it is there unless the scene has a lever
+// tetrahedra, nodes, and the blocks of the stiffness matrix. Present only if the scene has a cantilever
 // (family = "afm").
 #pragma once
 
@@ -21,11 +21,11 @@ struct SolidElement {  // eight-node hexahedron
   static constexpr const char* name = "solid_element";
   static constexpr bool laned = false, by_chunk = true;
 };
-struct SolidTetrahedron {  // of ten nodes; only where a mesh from a file has them
+struct SolidTetrahedron {  // ten-node tetrahedron; only if a mesh file contains them
   static constexpr const char* name = "solid_tetrahedron";
   static constexpr bool laned = false, by_chunk = true;
 };
-struct StiffnessBlock {  // 3 x 3 numbers: how one node's displacement acts on another's force
+struct StiffnessBlock {  // 3 x 3 numbers: couples displacements of one node to forces on another
   static constexpr const char* name = "stiffness_block";
   static constexpr bool laned = false, by_chunk = false;
 };
@@ -73,7 +73,7 @@ struct TetrahedronEnergy : Component<SolidTetrahedron, double, 1> {
   static constexpr ComponentInfo info{"tetrahedron_energy", "J", "strain energy"};
 };
 
-// Only where a material of the solid yields.
+// Only if a material of the solid is plastic.
 struct SolidYield : Component<SolidElement, double, 2> {
   static constexpr ComponentInfo info{"solid_yield", "Pa",
                                       "yield stress, hardening modulus; 0 0: elastic"};
@@ -89,21 +89,21 @@ struct BlockTangent : Component<StiffnessBlock, double, 9> {
   static constexpr ComponentInfo info{"block_tangent", "N/m", "3 x 3, row by row"};
 };
 
-// How a hexahedron takes its strains from its corners' displacements; systems/lever/solid_kernel.hpp.
+// How a hexahedron's strains follow from its nodal displacements; systems/lever/solid_kernel.hpp.
 enum class HexFormulation : std::uint8_t {
   solid,     // nine incompatible modes
-  plate,     // one layer of a plate, thin along zeta: modes, and transverse shear from its edges
-  standard,  // trilinear displacements alone: locks where it bends
+  plate,     // one layer of a plate, thin along zeta: modes, and edge-sampled transverse shear
+  standard,  // trilinear displacements only: locks in bending
 };
 
 // Hexahedra: corners 0-3 counter-clockwise at zeta = -1 seen from +zeta, 4-7 above them. Tetrahedra: corners
-// 0-3, 3 where 0-1-2 run counter-clockwise away from it, then the middles of the edges 01 12 02 03 23 13.
+// 0-3, with 0-1-2 counter-clockwise seen from 3, then the midside nodes 01 12 02 03 23 13.
 struct SolidMesh {
   static constexpr const char* resource_name = "solid_mesh";
   static constexpr bool fixed = true;
   using Hexahedron = std::array<std::int32_t, 8>;
   using Tetrahedron = std::array<std::int32_t, 10>;
-  // A node that hangs on others moves as their weighted mean; one that hangs on nobody is held.
+  // A dependent node moves as the weighted mean of its supports; a node without supports is fixed.
   struct Support {
     std::int32_t node = 0;
     double weight = 1;
@@ -113,9 +113,9 @@ struct SolidMesh {
   std::vector<std::uint8_t> part;           // [elements] 0 lever, 1 coating, 2 tip, 3 glue
   std::vector<Tetrahedron> tetrahedra;
   std::vector<std::uint8_t> tetrahedron_part;  // [tetrahedra]
-  std::vector<std::int32_t> support_begin;     // [nodes + 1]; a free node's only support is itself
+  std::vector<std::int32_t> support_begin;     // [nodes + 1]; a free node is its only support
   std::vector<Support> supports;
-  std::vector<std::int32_t> unknown;      // [nodes] block of three equations; -1: held or hanging
+  std::vector<std::int32_t> unknown;      // [nodes] block of three equations; -1: fixed, dependent
   std::int32_t unknowns = 0;              // free nodes
   std::vector<std::int32_t> chunk_begin;  // [chunks + 1] into hexahedra
   std::vector<std::int32_t> tetrahedron_begin;  // [chunks + 1] into tetrahedra
@@ -123,17 +123,17 @@ struct SolidMesh {
   std::span<const Support> supports_of(int node) const {
     return entries(supports, support_begin, node);
   }
-  // Of the three equations of a free node.
+  // First of the three equations of a free node.
   int first_equation(int node) const { return 3 * entry(unknown, node); }
 };
 
-// Where the numbers of the elements go: lists made once, added up in their order, whatever the threads.
+// Where element contributions are added: lists built once, summed in fixed order, whatever the threads.
 struct SolidAssembly {
   static constexpr const char* resource_name = "solid_assembly";
   static constexpr bool fixed = true;
   struct Share {
     std::int32_t element = 0;
-    std::int8_t row = 0, column = 0;  // of its nodes; of a force: row
+    std::int8_t row = 0, column = 0;  // local node numbers; for a force: row
     bool tetrahedron = false;
     double weight = 1;
   };
@@ -148,7 +148,7 @@ struct SolidAssembly {
   std::span<const Share> forces_of(int node) const { return entries(forces, force_begin, node); }
   std::span<const Share> shares_of(int block) const { return entries(shares, block_begin, block); }
   int columns() const { return static_cast<int>(column_begin.size()) - 1; }
-  // The rows of a column's blocks, in rising order; the first is the diagonal's.
+  // Rows of the blocks in a column, ascending; the first is the diagonal block.
   std::span<const std::int32_t> rows_of(int column) const {
     return entries(block_row, column_begin, column);
   }

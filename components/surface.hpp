@@ -1,4 +1,4 @@
-// Tools that are no planes: polylines, which particles touch, and constraints, which hold nodes.
+// Tools that are not planes: polylines in contact with particles, and constraints on nodes.
 #pragma once
 
 #include <array>
@@ -10,25 +10,25 @@
 
 namespace pulvis {
 
-// A chain of straight pieces with a corner after each, relative to the tool's position.
+// A chain of straight pieces, each followed by a corner, relative to the tool's position.
 struct ToolSurface {
   struct Piece {
-    double x = 0, y = 0;       // m, a point of the straight part
-    double tx = 1, ty = 0;     // its direction; the powder lies to the left
-    double low = 0, high = 0;  // m, extent along t from (x, y); infinite at the chain's ends
+    double x = 0, y = 0;       // m, a point on the straight piece
+    double tx = 1, ty = 0;     // its direction; the powder is on the left
+    double low = 0, high = 0;  // m, extent along t from (x, y); infinite at the ends of the chain
     double corner_x = 0, corner_y = 0;  // m, centre of the arc at its end
     double radius = 0;                  // m, of the arc; 0 in valleys and at sharp corners
-    double next_tx = 1, next_ty = 0;    // direction of the piece after
-    double side = 0;  // +1 corner of the tool, -1 valley, 0: the chain goes straight on
+    double next_tx = 1, next_ty = 0;    // direction of the next piece
+    double side = 0;  // +1 convex corner of the tool, -1 valley, 0: the chain continues straight
   };
   using Box = std::array<double, 4>;  // m: x low, y low, x high, y high
 
   std::vector<Piece> pieces;
   std::vector<Box>
-      tree;  // boxes of halves of halves of the chain; see systems/contact/surface_search
+      tree;  // bounding boxes, the chain halved recursively; see systems/contact/surface_search
 };
 
-struct ToolShapes {  // only where a tool is no plane
+struct ToolShapes {  // only if a tool is not a plane
   static constexpr const char* resource_name = "tool_shapes";
   static constexpr bool fixed = true;
   enum class Kind { plane, polyline, constraint };
@@ -45,7 +45,7 @@ struct SurfaceRange : Component<ToolContact, std::int32_t, 2> {
 };
 
 // ---- constraints ----------------------------------------------------------------------------------------
-struct ConstrainedNode {  // (node of a particle, direction in which a constraint holds it)
+struct ConstrainedNode {  // (node of a particle, direction in which it is constrained)
   static constexpr const char* name = "constrained_node";
   static constexpr bool laned = false, by_chunk = true;
 };

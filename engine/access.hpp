@@ -1,5 +1,5 @@
-// A system's only door to data: Read<C>, Write<C> and Structural<Entity>, as its members.
-// What a system may touch is what it declares; writing through Read does not compile.
+// The only way for a system to reach data: its members Read<C>, Write<C> and Structural<Entity>.
+// A system may touch only what it declares; writing through Read does not compile.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace pulvis {
 
-// The rows of one column that a chunk owns, addressed from zero: view(row, component).
+// The rows of one column that belong to one chunk, indexed from zero: view(row, component).
 template <class C, class Pointer>
 class ChunkView {
  public:
   explicit ChunkView(Pointer base) : base_(base) {}
   auto& operator()(Row<typename C::Entity> row, int component = 0) const {
-    // Components at a fixed distance from the row: one address for all of them.
+    // Components at a fixed offset from the row share one base address.
     return (base_ + static_cast<std::ptrdiff_t>(row.value) * C::count)[component];
   }
 
@@ -24,7 +24,7 @@ class ChunkView {
   Pointer base_;
 };
 
-// The same, of the lanes that register `part` holds.
+// The same for the lanes held in register `part`.
 template <class C, class PacketPointer>
 class PartView {
  public:
@@ -57,7 +57,7 @@ std::int32_t first_row(const Column<C>& column, Chunk chunk) {
   return column.table.chunk_begin[static_cast<std::size_t>(chunk.index)];
 }
 
-// Where the rows of a chunk begin: the worker's of scratch, and of a transient column where the graph drops it.
+// Start of a chunk's rows: in the worker's buffer for scratch and for transient columns that the graph drops.
 template <class C>
 auto* rows_of(Column<C>& column, Chunk chunk) {
   using Number = std::conditional_t<C::Entity::laned, Lane, typename C::value_type>;
@@ -82,7 +82,7 @@ AccessInfo access_info(AccessMode mode) {
 }
 }  // namespace detail
 
-// Components: rows of a plain table by operator()(row, component); rows of a chunk by chunk(c).
+// Access to components: operator()(row, component) for rows of a plain table, chunk(c) for the rows of a chunk.
 template <class T>
 class Read {
  public:
@@ -98,7 +98,7 @@ class Read {
     const auto* first = detail::rows_of(*column_, c);
     return ChunkView<T, decltype(first)>(first);
   }
-  // The whole column as it lies in memory: [row][component], eight lanes each where laned.
+  // The whole column as stored in memory: [row][component], in groups of eight lanes if laned.
   std::span<const typename T::value_type> values() const {
     return {column_->values(), column_->bytes() / sizeof(typename T::value_type)};
   }
@@ -162,8 +162,8 @@ class Write<R> {
   R* resource_;
 };
 
-// The right to change how many rows a kind of entity has. Every column of the kind of entity follows, so this excludes
-// any other access to the kind of entity: a sync point.
+// The right to change the number of rows of an entity type. All its columns are resized with it, so this excludes
+// any other access to that entity type: a sync point.
 template <class Entity>
 class Structural {
  public:
@@ -180,8 +180,8 @@ class Structural {
   World* world_;
 };
 
-// An access or bundle that a system uses only where the scene has it: test with `if (handle)`. A bundle is there when
-// its first member is; all others must be there then. The graph holds it to the same rules when it is there.
+// An access or bundle that a system uses only if the scene has it: test with `if (handle)`. A bundle is present if
+// its first member is; all other members must then be present too. If present, the usual access rules apply.
 template <class T>
 class Optional {
  public:

@@ -1,13 +1,13 @@
-// A bundle: accesses that always go together, as the members of a plain struct. Bundles may hold bundles; a system is
-// one that can be called.
+// A bundle: accesses that always go together, as members of a plain struct. Bundles may contain bundles; a system is
+// a bundle that can be called.
 //
 //   struct Elasticity {
 //     Read<ShearModulus> shear;
 //     Read<BulkModulus> bulk;
 //   };
 //
-// How many members a struct has is found by trying: with as many values of any type it can be initialised. Opening it
-// then asks every member, in order, for its own kind of access.
+// The number of members is found by trial: the largest number of values of any type that can initialise the struct.
+// Opening a bundle then requests the access for each member, in order.
 #pragma once
 
 #include <concepts>
@@ -23,15 +23,15 @@ namespace pulvis {
 enum class AccessMode { read, write, structural };
 
 struct AccessInfo {
-  TypeKey key;       // of the component, resource, or (structural) kind of entity
-  TypeKey entity;    // the kind that the component belongs to; null for resources
+  TypeKey key;       // of the component, resource, or (structural) entity type
+  TypeKey entity;    // entity type that the component belongs to; null for resources
   std::string name;  // "node/velocity"; "clock"
   AccessMode mode;
-  bool chunked;  // the kind of entity is divided by chunks, so a chunk system may write it
+  bool chunked;  // the entity type is divided into chunks, so a chunk system may write it
   bool transient = false;
 };
 
-// One column or resource: Read<C>, Write<C>, Structural<Entity>.
+// A single column or resource: Read<C>, Write<C>, Structural<Entity>.
 template <class T>
 concept IsAccess = requires {
   { T::info() } -> std::same_as<AccessInfo>;
@@ -42,7 +42,7 @@ concept IsBundle = std::is_class_v<T> && std::is_aggregate_v<T>;
 
 namespace detail {
 
-inline constexpr std::size_t max_members = 8;  // more than a reader keeps in mind: bundle them
+inline constexpr std::size_t max_members = 8;  // more is hard to keep in mind: bundle them
 
 struct AnyMember {
   template <class T>
@@ -64,7 +64,7 @@ constexpr std::size_t count_members() {
     static_assert(Count > 0, "a bundle has at most eight members, all of them accesses or bundles");
 }
 
-// Converts to any access or bundle, and notes what that gives access to.
+// Converts to any access or bundle, and records what it gives access to.
 struct Opener {
   World& world;
   std::vector<AccessInfo>* accesses = nullptr;
@@ -93,7 +93,7 @@ struct Opener {
   }
 };
 
-// The first member of a bundle; never called. (A list of names is all that the language has for "the others".)
+// The first member of a bundle; never called. (The language offers no shorter way to ignore the remaining members.)
 template <class Bundle>
 auto& first_member(Bundle& bundle) {
   constexpr std::size_t count = count_members<Bundle>();
@@ -109,7 +109,7 @@ auto& first_member(Bundle& bundle) {
   // clang-format on
 }
 
-// Whether the world has what an access names; of a bundle, what its first member does.
+// Whether the world has what an access names; for a bundle, what its first member names.
 template <class T>
 bool is_there(const World& world) {
   if constexpr (IsAccess<T>)
@@ -120,7 +120,7 @@ bool is_there(const World& world) {
 
 }  // namespace detail
 
-// All accesses of a bundle, outside of a step: where a test calls a system by hand.
+// All accesses of a bundle, outside a time step: used by tests that call a system directly.
 template <IsBundle Bundle>
 Bundle open(World& world) {
   return detail::Opener{world}.open<Bundle>();

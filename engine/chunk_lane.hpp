@@ -1,4 +1,4 @@
-// Where a particle's rows stand: in which chunk, and in which lane of it. Slots count them one after the other.
+// Location of a particle's rows: its chunk, and its lane in that chunk. Slots number all lanes consecutively.
 #pragma once
 
 #include "engine/component.hpp"

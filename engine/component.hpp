@@ -1,7 +1,7 @@
-// How a named array is declared, and the number types that index it.
+// How named arrays are declared, and the index types for their rows.
 //
-// A kind of entity is what arrays have rows for: nodes, elements, contacts... The kinds themselves are declared in
-// components/; the engine only knows that a kind has rows, and that the rows of some kinds stand in
+// An entity type is what arrays have rows for: nodes, elements, contacts... The entity types are declared in
+// components/; the engine only knows that they have rows, and that the rows of some types are stored in
 // slots of eight lanes, chunk by chunk (AoSoA), while others are plain lists.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace pulvis {
 
-// Particles of a chunk, worked on side by side.
+// Particles per chunk, processed in parallel SIMD lanes.
 inline constexpr int lane_count = 8;
 
-// Row of a plain table, or slot (eight lanes) of a laned one. Rows of different kinds of entities do not mix.
+// Row of a plain table, or slot (eight lanes) of a laned one. Rows of different entity types cannot be mixed up.
 template <class Entity>
 struct Row {
   std::int32_t value = 0;
@@ -29,7 +29,7 @@ struct ComponentInfo {
   const char* meaning;
 };
 
-// Base of a declaration:
+// Base class of a declaration:
 //   struct Velocity : Component<Node, double, 2> {
 //     static constexpr ComponentInfo info{"velocity", "m/s", "..."};
 //   };
@@ -38,11 +38,11 @@ struct Component {
   using Entity = EntityTag;
   using value_type = Value;
   static constexpr int count = Count;
-  // A declaration may set this: what one system of a pass over the chunks leaves for the next ones, and
-  // nobody needs later. A graph may then keep it for one chunk a worker only, in cache; see TaskGraph.
+  // A declaration may set this for data that one system of a pass over the chunks leaves for the next ones, and
+  // that nobody needs later. A graph may then keep it for only one chunk per worker, in cache; see TaskGraph.
   static constexpr bool transient = false;
-  // Or this: what one system writes and reads again while it works on a chunk, and nobody else looks at. Every worker has
-  // room for a chunk of it; the world has no such column.
+  // Or this, for data that one system writes and reads back while it works on a chunk, and no other uses. Each worker
+  // has a buffer for one chunk of it; the world has no such column.
   static constexpr bool scratch = false;
 };
 
@@ -54,7 +54,7 @@ concept IsComponent = requires {
   C::info;
 };
 
-// Anything else that systems share by name: connectivity, the clock, totals.
+// Anything else that systems share by name: connectivity, the clock, sums over the run.
 template <class R>
 concept IsResource = !IsComponent<R> && requires {
   R::resource_name;
@@ -63,20 +63,20 @@ concept IsResource = !IsComponent<R> && requires {
 class LookAhead;
 class World;
 
-// One chunk of laned rows: the eight particles that a chunk system works on.
+// One chunk of laned rows: the eight particles that a chunk system processes together.
 struct Chunk {
   std::int32_t index = 0;
-  std::int32_t worker = 0;     // that works on it
-  LookAhead* ahead = nullptr;  // for busy systems; see BusyChunk
-  bool drops = false;          // transient rows are the worker's, where it has room for them
+  std::int32_t worker = 0;     // index of the worker that processes it
+  LookAhead* ahead = nullptr;  // for compute-bound systems; see BusyChunk
+  bool drops = false;          // transient rows are in the worker's buffer, where it has one
 };
 
-// Of a system that divides the whole world into tasks far smaller than a chunk. It begins when the chunks that can
-// be computed beside it have been taken: its tasks then fill the time in which a thread would wait for another's
-// chunk.
+// For a system that divides the whole world into tasks much smaller than a chunk. It starts once all chunks that can
+// be computed concurrently have been taken: its tasks then fill the time in which a thread would otherwise wait for
+// a chunk of another thread.
 struct SmallTasks {};
 
-// Identity of a component, resource or kind of entity type at run time.
+// Run-time identity of a component, resource or entity type.
 using TypeKey = const void*;
 template <class T>
 TypeKey type_key() {

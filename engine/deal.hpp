@@ -1,4 +1,4 @@
-// Pieces of work dealt out to threads, so that a thread finds in its caches what it left there.
+// Distributes work items to threads so that each thread finds its data from earlier stages in its caches.
 #pragma once
 
 #include <oneapi/tbb/parallel_for.h>
@@ -12,23 +12,23 @@
 
 namespace pulvis {
 
-// Pieces 0 ... pieces - 1: chunks, or blocks of rows in the order of their particles. A thread takes its own
-// first, in order, which are the same ones stage after stage and step after step; who has none left takes the
-// last of another's. Which thread computes a piece changes no bit of it.
+// Pieces 0 ... pieces - 1: chunks, or blocks of rows in the order of their particles. A thread takes its share
+// first, in order: the same pieces in every stage and every step. A thread with none left steals the
+// last piece of another thread. Which thread computes a piece does not affect the results, bit for bit.
 class Deal {
  public:
   Deal(int pieces, int threads) : pieces_(pieces), shares_(static_cast<std::size_t>(threads)) {
     restart();
   }
   int pieces() const { return static_cast<int>(pieces_); }
-  // All pieces are there again. Nobody may be taking meanwhile.
+  // Makes all pieces available again. No thread may be taking pieces meanwhile.
   void restart() {
     const auto threads = static_cast<std::int64_t>(shares_.size());
     for (std::int64_t t = 0; t < threads; ++t)
       shares_[static_cast<std::size_t>(t)].bounds.store(
           packed(pieces_ * t / threads, pieces_ * (t + 1) / threads), std::memory_order_relaxed);
   }
-  // The next piece for the calling thread, whose arena has no more threads than shares were dealt; none when
+  // The next piece for the calling thread, whose arena must not have more threads than shares; none when
   // all are taken.
   std::optional<int> take() {
     const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
@@ -47,7 +47,7 @@ class Deal {
   }
 
  private:
-  struct alignas(64) Share {  // [first, last) that are left, in one number; a cache line of its own
+  struct alignas(64) Share {  // [first, last) that are left, in one number; separate cache lines
     std::atomic<std::uint64_t> bounds = 0;
   };
   static std::uint64_t packed(std::int64_t first, std::int64_t last) {
@@ -64,8 +64,8 @@ class Deal {
   std::vector<Share> shares_;
 };
 
-// Calls body(piece) for all pieces that nobody has taken yet, on all threads of the arena. Returns when they are
-// done; not those that others took before.
+// Calls body(piece) for all pieces not yet taken, on all threads of the arena. Returns when these are
+// done; does not wait for pieces taken by others before.
 template <class Body>
 void for_pieces(Deal& deal, const Body& body) {
   tbb::parallel_for(0, deal.pieces(), [&](int) {

@@ -1,5 +1,5 @@
-// An entry of a list by a number or row as the engine counts them: signed, so that differences and "none" (-1) are what
-// they look like. Checked where assertions are on.
+// List access by the engine's signed indices and rows: signed, so that differences and "none" (-1) are what
+// they look like. Range-checked where assertions are enabled.
 #pragma once
 
 #include <cassert>
@@ -26,7 +26,7 @@ constexpr decltype(auto) entry(List&& list, Row<Entity> row) {
   return entry(std::forward<List>(list), row.value);
 }
 
-// The entries of one group, in a list where the groups lie one behind the other: group g from begin[g] to begin[g + 1].
+// The entries of one group in a list of consecutive groups: group g runs from begin[g] to begin[g + 1].
 template <class T, std::integral Number>
 constexpr std::span<const T> entries(const std::vector<T>& list,
                                      const std::vector<std::int32_t>& begin, Number group) {

@@ -1,4 +1,4 @@
-// Asking long work to end. A signal leaves the wish here; work that takes long looks at it wherever it can stop.
+// Interrupting long computations. A signal sets a stop request; long computations check it where they can stop.
 #pragma once
 
 #include <xmmintrin.h>
@@ -11,21 +11,21 @@
 
 namespace pulvis {
 
-// Work was given up half done: what it was changing is not to be used any more.
+// The work was abandoned half done: the data it was changing must not be used any more.
 class Interrupted : public std::exception {
  public:
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-void ask_to_stop() noexcept;  // from a signal handler, too
+void ask_to_stop() noexcept;  // may be called from a signal handler
 bool asked_to_stop() noexcept;
 void stop_if_asked();  // throws Interrupted
-// Of a program that lives on: whoever asked has been answered.
+// For a program that keeps running: clears the stop request once it has been handled.
 void withdraw_wish_to_stop() noexcept;
 
-// Work of a library that knows no way to stop, done by a thread of its own with the caller's floating-point mode.
-// Where the wish to stop comes first, the thread is left to itself and Interrupted thrown: `work` owns all
-// that it touches, and the process is about to end.
+// Runs work of a library that cannot be interrupted in a separate thread with the caller's floating-point mode.
+// If a stop request comes first, the thread is abandoned and Interrupted is thrown: `work` must own everything
+// it touches, and the process is about to exit.
 template <class Work>
 auto interruptible(Work work) {
   std::packaged_task<decltype(work())()> task(

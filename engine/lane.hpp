@@ -1,11 +1,11 @@
-// Eight doubles worked on at once: one particle of a chunk (or one Gauss point of two edges) a lane.
+// Eight doubles processed together: one particle of a chunk (or one Gauss point of two edges) per lane.
 //
-// A Lane is one register of AVX-512, two of AVX2 or four of SSE2, whatever the translation unit is compiled
-// for. It lies in memory alike in all three, and every operation gives the same bits. The same functions
-// exist for plain doubles, so that a kernel written with them is tested as a scalar and run on lanes.
+// A Lane is one AVX-512 register, two AVX2 registers or four SSE2 registers, whatever the translation unit is compiled
+// for. Its memory layout is the same in all three, and every operation gives the same bits. The same functions
+// exist for plain doubles, so a kernel written with them can be tested with scalars and run with lanes.
 //
-// A Packet is what one register holds of it: the lanes that a kernel with many intermediate values takes at a time, so
-// that they stay in registers (PartView in engine/access.hpp).
+// A Packet is the part of a Lane in one register. Kernels with many intermediate values process one at a time,
+// so that these values stay in registers (PartView in engine/access.hpp).
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace simd {
 inline constexpr std::size_t registers = lane_count / register_lanes;
 }
 
-// True or false in each lane.
+// One boolean per lane.
 template <std::size_t Registers>
 struct PackMask {
   static constexpr unsigned all_bits = (1U << Registers * simd::register_lanes) - 1;
@@ -65,11 +65,11 @@ struct alignas(Registers * sizeof(simd::Register)) Pack {
   static constexpr std::size_t size = Registers * simd::register_lanes;
   simd::Register part[Registers];
 
-  Pack() = default;  // as a double: Lane{} is zero, a plain declaration nothing yet
+  Pack() = default;  // as for double: Lane{} is zero, a plain declaration is uninitialised
   Pack(double all) {
     for (auto& p : part) p = simd::broadcast(all);
   }
-  template <class Value>  // value(l) of lane l
+  template <class Value>  // value(l) for lane l
   static Pack from(const Value& value) {
     std::array<double, size> all;
     for (std::size_t l = 0; l < size; ++l) all[l] = value(static_cast<int>(l));
@@ -81,7 +81,7 @@ struct alignas(Registers * sizeof(simd::Register)) Pack {
   void store(double* to) const {
     for (std::size_t i = 0; i < Registers; ++i) simd::store(to + i * simd::register_lanes, part[i]);
   }
-  // For code that is seldom run: it goes through memory.
+  // For code that rarely runs: it goes through memory.
   double& operator[](int l) { return reinterpret_cast<double*>(this)[l]; }
   double operator[](int l) const { return reinterpret_cast<const double*>(this)[l]; }
 
@@ -129,7 +129,7 @@ struct alignas(Registers * sizeof(simd::Register)) Pack {
   }
   friend Pack abs(const Pack& a) { return max(a, -a); }
 
-  // ---- comparison and choice -----------------------------------------------------------------------
+  // ---- comparison and selection --------------------------------------------------------------------
   friend Mask operator<(const Pack& a, const Pack& b) {
     return Mask::each([&](std::size_t i) { return simd::less(a.part[i], b.part[i]); });
   }
@@ -156,8 +156,8 @@ inline constexpr bool is_pack = false;
 template <std::size_t Registers>
 inline constexpr bool is_pack<Pack<Registers>> = true;
 
-// a b + c, rounded once. Contraction is off for the whole build, so this is the only way to get one: the
-// compilers cannot differ.
+// a b + c, rounded once. FP contraction is off for the whole build, so this is the only way to get an FMA:
+// results do not depend on the compiler.
 inline double fma(double a, double b, double c) { return std::fma(a, b, c); }
 template <class A, class B, class C>
 requires(is_pack<A> || is_pack<B> || is_pack<C>) auto fma(const A& a, const B& b, const C& c) {
@@ -167,7 +167,7 @@ requires(is_pack<A> || is_pack<B> || is_pack<C>) auto fma(const A& a, const B& b
 
 inline double sqrt(double a) { return std::sqrt(a); }
 
-// As std::min and std::max do it, so that a NaN in `a` stays one.
+// Same semantics as std::min and std::max, so that a NaN in `a` is propagated.
 inline double min(double a, double b) { return std::min(a, b); }
 inline double max(double a, double b) { return std::max(a, b); }
 inline double abs(double a) { return std::abs(a); }
@@ -176,7 +176,7 @@ inline bool any(bool mask) { return mask; }
 inline bool all(bool mask) { return mask; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 
-// What a lane has in register i.
+// The part of a lane held in register i.
 inline constexpr int parts_of_a_lane = simd::registers;
 inline Packet part_of(const Lane& lane, int i) {
   Packet packet;

@@ -1,11 +1,11 @@
-// Lanes whose values come from several places in memory: halves of four, and eight rows of eight.
+// Lanes loaded from several places in memory: halves of four, and eight rows of eight.
 #pragma once
 
 #include "engine/lane.hpp"
 
 namespace pulvis {
 
-// The first four lanes from `low`, the others from `high`.
+// The first four lanes from `low`, the last four from `high`.
 inline Lane load_halves(const double* low, const double* high) {
 #ifdef __AVX512F__
   Lane a;
@@ -46,7 +46,7 @@ inline void store_half(const Lane& a, int half, double* four) {
 #endif
 }
 
-// The four lanes of a half of x and y in turn: x y x y ...
+// The four lanes of one half of x and y, interleaved: x y x y ...
 inline void store_pairs_of_half(const Lane& x, const Lane& y, int half, double* eight) {
 #ifdef __AVX512F__
   const __m512i pairs = half == 0 ? _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11)
@@ -63,7 +63,7 @@ inline void store_pairs_of_half(const Lane& x, const Lane& y, int half, double* 
 #endif
 }
 
-// x and y of every lane side by side, those of lane l at first + l apart.
+// x and y of every lane as adjacent pairs, the pair of lane l at first + l apart.
 inline void store_pairs(const Lane& x, const Lane& y, double* first, std::size_t apart) {
 #ifdef __AVX512F__
   const __m512d even = _mm512_unpacklo_pd(x.part[0], y.part[0]);  // lanes 0 2 4 6
@@ -99,7 +99,7 @@ inline Lane repeat_pair(const double* xy) {
 #endif
 }
 
-// (v0 + v1) + (v2 + v3) of both halves of `a` and `b`: the same order, and bits, on every machine.
+// (v0 + v1) + (v2 + v3) of both halves of `a` and `b`: the same order, and same bits, on every machine.
 struct SumsOfHalves {
   std::array<double, 2> a, b;
 };
@@ -150,7 +150,7 @@ inline unsigned at_most(const float* sixteen, float limit) {
 
 namespace simd {
 #if defined(__AVX512F__)
-// Loads put rows i and i + 4 into the halves of a register; then a 4 x 4 transpose in both halves at once.
+// Loads put rows i and i + 4 into the two halves of a register; then both are transposed (4 x 4) at once.
 template <std::size_t Count>
 [[gnu::always_inline]] inline std::array<Lane, Count> columns_of(
     const std::array<const double*, 8>& row) {

@@ -1,5 +1,5 @@
-// Memory that the systems to come will need, asked for while the present one computes: where the state is
-// larger than the caches, loading and computing then go on at the same time.
+// Prefetches the memory that the next systems will need while the current one computes: if the state is
+// larger than the caches, memory access and computation then overlap.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace pulvis {
 
-// What to ask for, in order.
+// What to prefetch, in order.
 class LookAhead {
  public:
   void add(std::span<const std::byte> memory) {
     if (!memory.empty() && count_ < maximum) parts_[count_++] = memory;
   }
   bool empty() const { return count_ == 0; }
-  // Returns how many lines it asked for.
+  // Returns the number of cache lines requested.
   int fetch() {
     int line = 0;
     for (; line < lines_of_a_call && at_ < count_; ++line) {
@@ -32,18 +32,18 @@ class LookAhead {
   }
 
  private:
-  // Two systems that call it once an element are enough for all columns of a plastic body.
+  // Two systems that call it once per element are enough for all columns of a plastic body.
   static constexpr int lines_of_a_call = 8;
   static constexpr std::size_t maximum = 24, line_bytes = 64;
   std::array<std::span<const std::byte>, maximum> parts_;
   std::size_t count_ = 0, at_ = 0;
 };
 
-// The chunk of a system that computes longer than it loads. What is asked for comes from the declarations of
+// The chunk of a compute-bound system. What to prefetch follows from the declarations of
 // the systems after it; see TaskGraph.
 struct BusyChunk : Chunk {
-  // Calls body(i) for 0 <= i < elements and looks ahead meanwhile. Where all is in the caches the loop is one that
-  // knows nothing of this: the call in it would cost a tenth.
+  // Calls body(i) for 0 <= i < elements and prefetches meanwhile. If everything fits in the caches, a loop without
+  // prefetching is used: the extra call would cost a tenth.
   template <class Body>
   void for_elements(int elements, const Body& body) const {
     if (ahead == nullptr) {

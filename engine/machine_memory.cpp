@@ -37,7 +37,7 @@ std::uint64_t number_in(const fs::path& path) {
   return file >> number ? number : unlimited;  // "max": no limit
 }
 
-// Bytes of the group that files could be dropped from: they count as used and are given back when needed.
+// Bytes of the group in droppable file caches: counted as used, but reclaimed when needed.
 std::uint64_t reclaimable_in(const fs::path& folder, const std::string& key) {
   std::ifstream file(folder / "memory.stat");
   std::string name;
@@ -60,8 +60,8 @@ std::uint64_t left_in(const fs::path& folder, const Version& version) {
   return remainder(maximum, remainder(used, reclaimable_in(folder, version.reclaimable)));
 }
 
-// Of a group and of all that it is in. In a container its path may be that of the machine, and only the
-// mount's own folder be there.
+// Minimum over a group and all its parents. In a container the path may be that of the host, while only
+// the mount point itself exists.
 std::uint64_t left_in_all(const fs::path& mount, const fs::path& group, const Version& version) {
   std::uint64_t minimum = left_in(mount, version);
   fs::path folder = mount;
@@ -87,7 +87,7 @@ std::uint64_t of_shell() {
 
 }  // namespace
 
-// A line is "4:memory:/group" in version 1, "0::/group" in version 2; both may be there.
+// A line is "4:memory:/group" in version 1, "0::/group" in version 2; both may be present.
 std::uint64_t left_by_control_groups(const fs::path& table, const fs::path& root) {
   std::uint64_t minimum = unlimited;
   std::ifstream file(table);

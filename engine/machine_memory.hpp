@@ -1,5 +1,5 @@
-// How much memory this process could still take: the least of what the machine has available, what its control
-// groups (version 1 or 2, and all above them) allow and what the shell's limit leaves.
+// How much more memory this process may use: the minimum of what the machine has available, what its control
+// groups (version 1 or 2, including all parent groups) allow, and what the shell's limit leaves.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace pulvis {
 
-std::uint64_t available_memory();  // bytes; the largest number where nothing says so
+std::uint64_t available_memory();  // bytes; the largest representable number if there is no limit
 
-// What control groups leave. `table` is /proc/self/cgroup, `root` where the groups are mounted.
+// Memory left by control groups. `table` is /proc/self/cgroup, `root` the mount point of the groups.
 std::uint64_t left_by_control_groups(const std::filesystem::path& table,
                                      const std::filesystem::path& root);
 

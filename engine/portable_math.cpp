@@ -1,4 +1,4 @@
-// Method: an argument is reduced to where a short power series is exact; what is lost by rounding is carried along
+// Method: an argument is reduced to a range where a short power series is exact; rounding errors are carried along
 // as the low part of a Pair. Error-free sums and products: Knuth (1969), Dekker (1971); reduction by pi/2 and ln 2
 // in parts: Cody and Waite (1980).
 #include "engine/portable_math.hpp"
@@ -16,7 +16,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The sum of both, not rounded.
+// The exact sum of two numbers.
 struct Pair {
   double high = 0, low = 0;
   double value() const { return high + low; }
@@ -24,7 +24,7 @@ struct Pair {
 
 constexpr Pair half_pi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr double half_pi_rest = -0x1.f1976b7ed8fbcp-110;
-constexpr double ln2_high = 0x1.62e42fee00000p-1;  // times a whole number below 2^20: exact
+constexpr double ln2_high = 0x1.62e42fee00000p-1;  // exact times an integer below 2^20
 constexpr double ln2_low = 0x1.a39ef35793c76p-33;
 
 Pair sum_of(double a, double b) {
@@ -48,7 +48,7 @@ double quotient(Pair a, Pair b) {
   return q + ((std::fma(-q, b.high, a.high) + a.low) - q * b.low) / b.high;
 }
 
-// x 2^k, as std::ldexp; a product where the power is a number of full precision.
+// x 2^k, like std::ldexp; a product if the power is a normal number.
 double scaled(double x, int k) {
   if (k < -1022 || k > 1023) return std::ldexp(x, k);
   return x * std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52U);
@@ -68,7 +68,7 @@ double whole(double x) { return std::floor(x + 0.5); }
 
 struct Reduced {
   Pair angle;                 // in [-pi/4, pi/4]
-  std::int64_t quarters = 0;  // and so many times pi/2
+  std::int64_t quarters = 0;  // plus this many times pi/2
 };
 
 Reduced reduced(double x) {
@@ -79,7 +79,7 @@ Reduced reduced(double x) {
   return {sum_of(c.high, rest), static_cast<std::int64_t>(k)};
 }
 
-// Taylor's series to the 19th power.
+// Taylor series up to power 19.
 Pair small_sine(Pair x) {
   static constexpr std::array c{-1 / 6.0,          1 / 120.0,          -1 / 5040.0,
                                 1 / 362880.0,      -1 / 39916800.0,    1 / 6227020800.0,
@@ -97,7 +97,7 @@ Pair small_cosine(Pair x) {
   return sum_of_larger(s.high, s.low + rest);
 }
 
-// The sine of the angle that is so many quarter turns further on: the cosine is that of one.
+// The sine of the angle plus this number of quarter turns: 1 gives the cosine.
 Pair shifted_sine(double x, std::uint64_t quarters) {
   if (!(std::abs(x) < 0x1p50)) return {nan, nan};
   const Reduced r = reduced(x);
@@ -108,7 +108,7 @@ Pair shifted_sine(double x, std::uint64_t quarters) {
 
 // ---- arctangent ----
 
-// Of v/u, 0 <= v <= u, nearly: two halvings, tan(a/2) = tan a / (1 + sqrt(1 + tan^2 a)), and Gregory's series.
+// Approximately, of v/u, 0 <= v <= u: two halvings, tan(a/2) = tan a / (1 + sqrt(1 + tan^2 a)), Gregory's series.
 double nearly_arctangent(double t) {
   for (int i = 0; i < 2; ++i) t /= 1 + std::sqrt(1 + t * t);
   double sum = 0;
@@ -116,7 +116,7 @@ double nearly_arctangent(double t) {
   return 4 * t * sum;
 }
 
-// The angle a of the vector (u, v) is near a0; the vector turned back by a0 has the angle a - a0.
+// The angle a of the vector (u, v) is near a0; the vector rotated back by a0 has the angle a - a0.
 Pair acute_angle(double u, double v) {
   const double a0 = nearly_arctangent(v / u);
   const Pair s = small_sine({a0, 0}), c = small_cosine({a0, 0});
@@ -132,7 +132,7 @@ Pair difference(Pair a, Pair b) {
 
 // ---- exponential and logarithm ----
 
-// e^x = 2^k e^r with |r| <= ln 2 / 2; Taylor's series to the 15th power.
+// e^x = 2^k e^r with |r| <= ln 2 / 2; Taylor series up to power 15.
 double exponential(Pair x) {
   if (!(x.high < 710)) return x.high > 0 ? infinity : nan;
   if (x.high < -746) return 0;
@@ -235,7 +235,7 @@ double pow(double x, double y) {
   return exponential(sum_of_larger(product.high, product.low + y * log_x.low));
 }
 
-// Of m in [1/8, 1): Newton's method, the last time with the exact residual.
+// For m in [1/8, 1): Newton's method, the last iteration with the exact residual.
 double cbrt(double x) {
   if (x == 0) return x;
   int k = 0;
@@ -254,7 +254,7 @@ double hypot(double x, double y) {
   double a = std::max(std::abs(x), std::abs(y)), b = std::min(std::abs(x), std::abs(y));
   if (b == 0) return a;
   int k = 0;
-  if (a > 0x1p500 || b < 0x1p-400) {  // squares would be lost
+  if (a > 0x1p500 || b < 0x1p-400) {  // squares would overflow or underflow
     std::frexp(a, &k);
     a = scaled(a, -k);
     b = scaled(b, -k);
@@ -265,7 +265,7 @@ double hypot(double x, double y) {
   return scaled(h + rest / (2 * h), k);
 }
 
-// Stirling's series, ten steps of Gamma(x + 1) = x Gamma(x) further up.
+// Stirling's series, evaluated ten recurrence steps Gamma(x + 1) = x Gamma(x) higher.
 double log_gamma(double x) {
   double product = 1;
   for (int i = 0; i < 10; ++i) product *= x++;

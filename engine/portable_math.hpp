@@ -1,17 +1,17 @@
-// Elementary functions with the same bits on every machine, with every compiler and every mathematical library.
-// IEEE 754 rounds sums, products, quotients, square roots and fused multiply-adds alike everywhere; sines,
-// exponentials and powers of a libm differ in the last bit from processor to processor (glibc takes another one
-// where there is FMA) and from version to version. Whatever goes into the state of a run is made with these;
-// tests/checks/portable.py holds that.
+// Elementary functions that give the same bits on every machine, with every compiler and every math library.
+// IEEE 754 defines the rounding of sums, products, quotients, square roots and fused multiply-adds; but sines,
+// exponentials and powers of a libm differ in the last bit between processors (glibc uses another variant
+// where there is FMA) and between versions. Everything that enters the state of a run is computed with these
+// functions; tests/checks/portable.py enforces that.
 //
-// Each is within one unit in the last place (acos 1.5), log_gamma within 2e-14. For finite arguments.
+// Accuracy: one unit in the last place (acos 1.5), log_gamma 2e-14. For finite arguments.
 #pragma once
 
 #include <numbers>
 
 namespace pulvis::portable {
 
-double sin(double x);  // |x| < 2^50, as cos and tan; NaN beyond
+double sin(double x);  // |x| < 2^50, also for cos and tan; NaN beyond
 double cos(double x);
 double tan(double x);
 double acos(double x);             // -1 <= x <= 1

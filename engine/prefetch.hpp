@@ -1,10 +1,10 @@
-// Asking for a cache line before it is needed.
+// Prefetching of a cache line before it is needed.
 #pragma once
 
 namespace pulvis {
 
-// g++ 12 takes a function that does nothing but prefetch for one without effect and drops its calls; the
-// empty statement keeps them.
+// g++ 12 considers a function that only prefetches to have no effect and drops its calls; the
+// empty statement prevents that.
 [[gnu::always_inline]] inline void prefetch(const void* line) {
   __builtin_prefetch(line);
   asm volatile("");

@@ -12,7 +12,7 @@ unsigned char byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
 }
 
-// Bytes of the character of UTF-8 at `i`; 0: there is none.
+// Number of bytes of the UTF-8 character at `i`; 0: invalid.
 std::size_t length_at(std::string_view text, std::size_t i) {
   const unsigned char first = byte_at(text, i);
   const std::size_t length = first < 0x80                    ? 1

@@ -1,4 +1,4 @@
-// Text that a user or a file gave, fit to be shown: a control character would be an order to the terminal.
+// Makes text from a user or a file safe to print: a control character would be a command to the terminal.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace pulvis {
 
-// Control characters (of C0, DEL and C1) and bytes that are no UTF-8 are spelt out: "\x1b".
+// Control characters (C0, DEL and C1) and bytes that are not valid UTF-8 are escaped: "\x1b".
 std::string printable(std::string_view text);
-std::string printable_lines(std::string_view text);  // of several lines: line ends and tabs stay
+std::string printable_lines(std::string_view text);  // for several lines: keeps line ends and tabs
 
 }  // namespace pulvis

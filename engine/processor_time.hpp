@@ -1,4 +1,4 @@
-// Processor time, which goes on only while something computes or waits by asking: s, since some moment.
+// CPU time in s since some moment. It advances only while the process computes or busy-waits.
 #pragma once
 
 #include <time.h>

@@ -1,7 +1,7 @@
-// One register of doubles as the instruction set at hand has it: what engine/lane.hpp is made of.
+// One register of doubles for the instruction set at hand: the building block of engine/lane.hpp.
 //
-// +, -, *, / and unary - are the compilers' own on these types. Comparisons, selection, roots and fused
-// operations are named here.
+// +, -, *, / and unary - on these types are built into the compilers. Comparisons, selection, roots and
+// fused operations are defined here.
 #pragma once
 
 #ifdef __AVX2__
@@ -18,7 +18,7 @@ namespace pulvis::simd {
 
 inline constexpr const char* instruction_set = "AVX-512";
 using Register = __m512d;
-using Mask = __mmask8;  // a bit a lane
+using Mask = __mmask8;  // one bit per lane
 
 inline Register broadcast(double a) { return _mm512_set1_pd(a); }
 inline Register load(const double* p) { return _mm512_loadu_pd(p); }
@@ -44,7 +44,7 @@ inline Mask mask_of(unsigned set) { return Mask(set); }
 
 inline constexpr const char* instruction_set = "AVX2";
 using Register = __m256d;
-using Mask = __m256i;  // all bits of a lane
+using Mask = __m256i;  // all bits of a lane set or clear
 
 inline Register broadcast(double a) { return _mm256_set1_pd(a); }
 inline Register load(const double* p) { return _mm256_loadu_pd(p); }

@@ -1,4 +1,4 @@
-// The last results of long computations, found again by what was asked.
+// Caches the latest results of long computations, looked up by their input.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace pulvis {
 
-// Thread-safe. Keys are compared by ==: results are those of the same bits.
+// Thread-safe. Keys are compared by ==, so a result is only reused for bitwise equal input.
 template <class Key, class Result>
 class ResultCache {
  public:
-  // All sizes together are at most that; the oldest results go first. One that is larger is not kept.
+  // Limit on the total size; the oldest results are evicted first. A larger result is not kept.
   explicit ResultCache(std::size_t most) : most_(most) {}
 
-  // make(key), unless its result is here; two threads may both make it.
+  // make(key), unless its result is cached; two threads may both compute it.
   template <class Make, class Size>
   Result get(const Key& key, const Make& make, const Size& size_of) {
     {
@@ -43,7 +43,7 @@ class ResultCache {
   };
   std::size_t most_, size_ = 0;
   std::mutex mutex_;
-  std::deque<Made> results_;  // the oldest first
+  std::deque<Made> results_;  // oldest first
 };
 
 }  // namespace pulvis

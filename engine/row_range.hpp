@@ -1,4 +1,4 @@
-// Rows that stand one after the other, to be gone through: for (const Row<Contact> row : range) ...
+// Consecutive rows, for iteration: for (const Row<Contact> row : range) ...
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class RowRange {
   };
 
   constexpr RowRange(std::int32_t first, std::int32_t end) : first_(first), end_(end) {}
-  // Of the i-th of several, which begin where the list says; one more entry tells where the last ends.
+  // The i-th of several ranges with starts `begin`; one extra entry marks the end of the last.
   static RowRange of(const std::vector<std::int32_t>& begin, int i) {
     return {entry(begin, i), entry(begin, i + 1)};
   }

@@ -1,4 +1,4 @@
-// A run that went bad: which system saw it, where, when, and the value that says so.
+// A failed run: which system detected it, where, when, and the value that shows it.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
-// State as bytes: what a checkpoint keeps of a resource. One description serves both directions:
+// State as bytes: what a checkpoint stores of a resource. One description serves both directions:
 //
 //   template <class Bytes>
 //   void state(Bytes& bytes) { bytes(step, time, neighbours); }
 //
-// StateWriter appends the named members, StateReader fills them in the same order; it throws BadState
-// where the bytes do not fit, before it takes memory for them. Numbers, words, and containers of them.
+// StateWriter appends the named members, StateReader reads them in the same order; it throws BadState
+// if the bytes do not fit, before allocating memory. Supports numbers, strings and containers.
 #pragma once
 
 #include <array>
@@ -93,7 +93,7 @@ class StateReader {
   void take(T& value) {
     take_raw(&value, sizeof value);
   }
-  void take(bool& value) {  // no other byte may lie in a bool
+  void take(bool& value) {  // a bool must not hold any other byte
     std::uint8_t byte = 0;
     take(byte);
     if (byte > 1) throw BadState("a truth value is neither 0 nor 1");
@@ -142,8 +142,8 @@ class StateReader {
   std::span<const std::byte> left_;
 };
 
-// What a resource says about itself. `fixed = true`: it is made from the scene and never changes, so a
-// checkpoint need not have it; no system can get a Write<> of it.
+// Properties that a resource declares. `fixed = true`: built from the scene, never changes, so a
+// checkpoint does not store it; no system can get a Write<> of it.
 template <class R>
 concept IsFixed = requires {
   requires R::fixed;

@@ -1,4 +1,4 @@
-// A system: a struct whose members declare what it reads and writes, and whose call does the work.
+// A system: a struct whose members declare what it reads and writes, and whose call operator does the work.
 //
 //   struct integrate {
 //     Read<Clock> clock;
@@ -7,9 +7,9 @@
 //     void operator()(Chunk chunk) const;
 //   };
 //
-// Called with a Chunk it works on the rows of one chunk and may be fused with its neighbours in the step list; with
-// nothing, on the whole world, and in many small tasks where it takes SmallTasks. A plain function of accesses and
-// bundles, after a first Chunk or none, is a system too.
+// If called with a Chunk, it works on the rows of one chunk and may be fused with its neighbours in the step list;
+// if called without arguments, on the whole world; with SmallTasks, on the whole world in many small tasks. A
+// plain function of accesses and bundles, optionally with a Chunk first, is a system too.
 #pragma once
 
 #include <concepts>
@@ -21,14 +21,14 @@
 
 namespace pulvis {
 
-// When a system runs: every step, or only on the steps whose results are sampled into the history.
+// When a system runs: in every step, or only in steps whose results are sampled for the history output.
 enum class When { every_step, on_sample };
 
 struct System {
   std::string name;
   When when = When::every_step;
   bool by_chunk = false;
-  bool busy = false;         // takes a BusyChunk
+  bool busy = false;         // takes a BusyChunk: compute-bound
   bool small_tasks = false;  // takes SmallTasks
   std::vector<AccessInfo> accesses;
   std::function<void(Chunk)> run;  // a world system ignores the chunk

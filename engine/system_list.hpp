@@ -1,4 +1,4 @@
-// Systems in order, each where the scene asks for it.
+// Systems in order, each added only if the scene needs it.
 #pragma once
 
 #include <utility>

@@ -47,7 +47,7 @@ bool stages_conflict(const StagePlan& a, const StagePlan& b) {
   });
 }
 
-// Keeps an edge only where no longer path says the same.
+// Keeps an edge only if no longer path implies it.
 std::vector<std::pair<int, int>> reduced_edges(const std::vector<StagePlan>& stages) {
   const int n = static_cast<int>(stages.size());
   std::vector<std::vector<bool>> reach(static_cast<std::size_t>(n),
@@ -73,7 +73,7 @@ bool systems_conflict(const System& a, const System& b) {
   });
 }
 
-// Of every system: it works by chunk, and waits for none but such systems.
+// For every system: whether it works by chunk, and depends only on such systems.
 std::vector<bool> wait_for_nothing(const std::vector<System>& systems) {
   std::vector<bool> free(systems.size());
   for (std::size_t i = 0; i < systems.size(); ++i) {
@@ -84,7 +84,7 @@ std::vector<bool> wait_for_nothing(const std::vector<System>& systems) {
   return free;
 }
 
-// Consecutive chunk systems are one pass; of `apart`, those that wait for nothing, before the others.
+// Consecutive chunk systems form one pass; those of `apart`, which depend on nothing, come before the others.
 Stages consecutive(const std::vector<System>& systems, const std::vector<bool>& apart) {
   Stages stages;
   std::size_t i = 0;
@@ -98,8 +98,8 @@ Stages consecutive(const std::vector<System>& systems, const std::vector<bool>& 
   return stages;
 }
 
-// Where the pass `from` goes on: the next pass, unless a stage between the two must come after the one and before
-// the other. None: the number of stages.
+// Where the pass `from` can continue: the next pass, unless a stage between the two must come after the first
+// and before the second. None: the number of stages.
 std::size_t next_pass(const std::vector<System>& systems, const Stages& stages, std::size_t from) {
   std::size_t next = from + 1;
   for (; next < stages.size() && !systems[stages[next].front()].by_chunk; ++next)
@@ -132,8 +132,8 @@ bool waits_for(const GraphPlan& plan, int later, int earlier) {
   });
 }
 
-// The stages whose chunks are taken before `stage` begins, which may then be computing still: they can start
-// with the step, and nothing waits for them that does not wait for `stage` too.
+// The stages whose chunks are all taken before `stage` begins, and which may still be computing then: they can
+// start with the step, and whatever depends on them also depends on `stage`.
 std::vector<int> stages_taken_before(const GraphPlan& plan, int stage) {
   std::vector<int> found;
   for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
@@ -170,7 +170,7 @@ std::vector<TypeKey> droppable_components(const std::vector<System>& systems, Pa
   struct Use {
     TypeKey key;
     std::size_t stage;
-    bool droppable;  // written first, by a pass over the chunks, and touched by no other
+    bool droppable;  // first written by a pass over the chunks, and accessed by no other
   };
   std::vector<Use> uses;
   const Stages stages = stages_of(systems, passes);
@@ -192,8 +192,8 @@ std::vector<TypeKey> droppable_components(const std::vector<System>& systems, Pa
 
 namespace {
 
-// What the first busy system of a stage and those after it look ahead to: columns that later systems are
-// the first to touch, and of the next chunk those that come before.
+// What the first compute-bound system of a stage and those after it prefetch: columns that later systems access
+// first, and for the next chunk those accessed earlier.
 struct ColumnsAhead {
   std::vector<const ColumnBase*> of_this, of_next;
 
@@ -228,9 +228,9 @@ struct TaskGraph::Flow {
   using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
 
   using Time = std::chrono::steady_clock;
-  static constexpr std::int64_t timed_every = 64, timed_first = 4;  // not those with cold caches
+  static constexpr std::int64_t timed_every = 64, timed_first = 4;  // skips runs with cold caches
 
-  struct alignas(64) Times {      // of one worker; its own cache lines
+  struct alignas(64) Times {      // of one worker; in separate cache lines
     std::vector<double> seconds;  // of each system, in the timed runs
   };
 
@@ -239,7 +239,7 @@ struct TaskGraph::Flow {
     bool by_chunk;
     ColumnsAhead ahead;
     Deal deal;
-    std::vector<Stage*> first;  // whose chunks are taken before this one begins
+    std::vector<Stage*> first;  // stages whose chunks are taken before this one begins
   };
 
   bool timed() const { return runs % timed_every == timed_first; }
@@ -269,7 +269,7 @@ struct TaskGraph::Flow {
 
   std::vector<System> systems;
   std::vector<int> chunks;
-  bool drops = false;  // transients
+  bool drops = false;  // transient components
   std::vector<std::unique_ptr<Stage>> stages;
   std::int64_t runs = 0;
   std::vector<Times> times;

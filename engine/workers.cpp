@@ -8,7 +8,7 @@
 namespace pulvis {
 namespace {
 
-// Denormal numbers halve the speed of a wave's fading tail and carry no physics.
+// Denormals halve the speed in the fading tail of a wave and have no physical meaning.
 class DenormalsToZero : public tbb::task_scheduler_observer {
  public:
   explicit DenormalsToZero(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) {

@@ -1,4 +1,4 @@
-// The threads of a run: a fixed number, each flushing denormals to zero.
+// The threads of a run: a fixed number, all with denormals flushed to zero.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@ class Workers {
   explicit Workers(int threads);
   ~Workers();
 
-  // Runs `body` inside the arena. The calling thread's own floating-point mode is put back after.
+  // Runs `body` in the arena. Afterwards the floating-point mode of the calling thread is restored.
   void run(const std::function<void()>& body);
 
  private:
-  struct Arena;  // its library is no business of those who only run
+  struct Arena;  // hides the threading library from callers
   std::unique_ptr<Arena> arena_;
 };
 

@@ -18,7 +18,7 @@ std::size_t up_to_huge_page(std::size_t bytes) {
   return (bytes + huge_page - 1) / huge_page * huge_page;
 }
 
-// Address space that begins with a huge page: what lies before it is given back.
+// Address space aligned to a huge page: the unaligned part in front is unmapped.
 std::byte* map_huge_pages(std::size_t bytes, int flags) {
   void* pages = ::mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE,
                        MAP_PRIVATE | MAP_ANONYMOUS | flags, -1, 0);
@@ -40,13 +40,13 @@ void FreeBuffer::operator()(std::byte* p) const {
     ::operator delete[](p, cache_line);
 }
 
-// A little more than asked for, so that an empty table still has an address to point at.
+// A little more than requested, so that an empty table still has a valid address.
 Buffer::Buffer(std::size_t bytes, Kind kind) : bytes_(bytes) {
   const bool sparse = kind == Kind::sparse && bytes > 0;
   if (sparse || bytes >= min_in_huge_pages) {
     const std::size_t whole = up_to_huge_page(bytes + 1);
     std::byte* pages = map_huge_pages(whole, sparse ? MAP_NORESERVE : 0);
-    // Large columns are walked from end to end: fewer pages, fewer misses. Advice, so failing is no error.
+    // Large columns are traversed from end to end: fewer pages, fewer TLB misses. Only a hint, so failure is not an error.
     ::madvise(pages, whole, sparse ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);
     data_ = decltype(data_)(pages, FreeBuffer{whole});
     return;
@@ -68,7 +68,7 @@ void Buffer::resize(std::size_t bytes) {
   }
   std::byte* pages = data();
   if (whole < mapped) ::munmap(pages + whole, mapped - whole);
-  if (whole > mapped) {  // its pages move to where there is room for all
+  if (whole > mapped) {  // its pages are moved to an address with enough room
     std::byte* room = map_huge_pages(whole, 0);
     if (::mremap(pages, mapped, whole, MREMAP_MAYMOVE | MREMAP_FIXED, room) == MAP_FAILED) {
       ::munmap(room, whole);
@@ -81,8 +81,8 @@ void Buffer::resize(std::size_t bytes) {
   bytes_ = bytes;
 }
 
-// Rows keep their order: those that come nearer to the front move from the front on, the others from the back on, and none
-// falls on one that has yet to move.
+// Rows keep their order: those that move towards the front are moved from the front on, the others from the back on, so
+// that no row overwrites one that has yet to move.
 void ColumnBase::rebuild(const std::vector<std::int32_t>& sources) {
   const std::size_t bytes = sources.size() * row_bytes;
   const auto at = [this](std::int64_t row) {
@@ -152,7 +152,7 @@ void World::hold(const std::vector<bool>& own_chunks) {
   for (const auto& [key, column] : columns_) expect_own(*column);
 }
 
-// Runs of chunks that stand together: their rows in the column.
+// Contiguous runs of chunks: their rows in the column.
 void World::expect_own(ColumnBase& column) const {
   const std::vector<std::int32_t>& begin = column.owner().chunk_begin;
   if (kind_ != Buffer::Kind::sparse || begin.empty() || column.bytes() == 0) return;

@@ -1,5 +1,5 @@
-// The world: tables (how many rows a kind of entity has) and the columns and resources that a scene asked for.
-// Nothing is allocated that was not added by name; asking for a missing column is an error that names it.
+// The world: tables (how many rows an entity type has) and the columns and resources requested by a scene.
+// Only what was added by name is allocated; asking for a missing column is an error that names it.
 #pragma once
 
 #include <cstddef>
@@ -22,18 +22,18 @@
 namespace pulvis {
 
 struct FreeBuffer {
-  std::size_t mapped = 0;  // bytes; 0: from the heap
+  std::size_t mapped = 0;  // bytes; 0: allocated on the heap
   void operator()(std::byte* p) const;
 };
 
-// Zeroed memory on a cache-line boundary. Where it is large: of whole huge pages, of which only those that are written take
-// memory. `sparse`: of small pages, so that little is taken beside what is written, and however small it is.
+// Zeroed memory, aligned to cache lines. Large buffers use huge pages; physical memory is only taken for pages that are
+// written. `sparse`: small pages, also for small buffers, so that little memory is taken beyond what is written.
 class Buffer {
  public:
   enum class Kind { dense, sparse };
   Buffer() = default;
   explicit Buffer(std::size_t bytes, Kind kind = Kind::dense);
-  // Of a dense one. Keeps what fits, without a copy of it where it is large. New bytes are indeterminate.
+  // For dense buffers. Keeps the contents that fit; large buffers are not copied. New bytes are indeterminate.
   void resize(std::size_t bytes);
   std::byte* data() { return data_.get(); }
   const std::byte* data() const { return data_.get(); }
@@ -61,42 +61,42 @@ class ColumnBase {
   ColumnBase& operator=(const ColumnBase&) = delete;
 
   void allocate(std::size_t rows, Buffer::Kind kind) { buffer_ = Buffer(rows * row_bytes, kind); }
-  // Of a sparse column: the rows take no memory any more, and are zeros. As far as whole pages go.
+  // For sparse columns: frees the memory of these rows, which then read as zeros. Applies to whole pages only.
   void drop(std::size_t first_row, std::size_t rows);
-  // Of a sparse column: these rows, from the first to before the last, will be written. In huge pages where they are many; so
-  // what stands beside them may take memory, too.
+  // For sparse columns: announces that these half-open ranges of rows will be written. Many rows get huge pages; memory may
+  // then also be taken for adjacent rows.
   void expect(const std::vector<std::pair<std::size_t, std::size_t>>& runs);
-  // Transient rows: as many for each worker.
+  // Transient rows: this many for each worker.
   void allocate_transient(std::size_t rows_of_worker, int workers);
   bool has_transient() const { return bytes_of_worker_ > 0; }
   std::byte* transient(int worker) {
     return transient_.data() + static_cast<std::size_t>(worker) * bytes_of_worker_;
   }
-  // New row r takes what old row sources[r] held; a negative source gives zeros. In place: the sources that are not negative
-  // increase.
+  // New row r gets the values of old row sources[r]; a negative source gives zeros. In place: the non-negative sources
+  // must increase.
   void rebuild(const std::vector<std::int32_t>& sources);
 
   std::size_t bytes() const { return buffer_.bytes(); }
   virtual const Table& owner() const = 0;
-  // The rows of a chunk; empty where the kind of entity is not divided by chunks.
+  // The rows of a chunk; empty if the entity type is not divided into chunks.
   virtual std::span<const std::byte> of_chunk(int chunk) const = 0;
   std::byte* data() { return buffer_.data(); }
   const std::byte* data() const { return buffer_.data(); }
 
   const ComponentInfo info;
   const std::string entity;
-  const int count;                // numbers in a row (in a lane of a slot)
-  const std::size_t row_bytes;    // of a row, or of a slot with its lanes
+  const int count;                // numbers per row (per lane of a slot)
+  const std::size_t row_bytes;    // of a row, or of a slot with all its lanes
   const bool declared_transient;  // nobody needs it after its step
-  const bool scratch;             // of a worker, a chunk of it
+  const bool scratch;             // per worker, one chunk each
 
  private:
   Buffer buffer_, transient_;
   std::size_t bytes_of_worker_ = 0;
 };
 
-// The rows of one kind of entity. `chunk_begin` (chunks + 1 entries) says which rows belong to which chunk;
-// it is empty for kinds of entities that are not divided by chunks.
+// The rows of one entity type. `chunk_begin` (chunks + 1 entries) gives the rows of each chunk;
+// it is empty for entity types that are not divided into chunks.
 struct Table {
   std::string entity;
   bool laned = false;
@@ -142,12 +142,12 @@ class Column : public ColumnBase {
 
 class World {
  public:
-  // `kind`: of columns that are divided by chunks. Sparse where a process holds some chunks of many.
+  // `kind`: of columns that are divided into chunks. Sparse if a process holds only some of many chunks.
   explicit World(Buffer::Kind kind = Buffer::Kind::dense) : kind_(kind) {}
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // A kind of entity divided by chunks gets the rows (or slots) of every chunk; another just a number of rows.
+  // An entity type divided into chunks gets the number of rows (or slots) of every chunk; others just a total.
   template <class Entity>
   void add_table(const std::vector<std::int32_t>& rows_of_chunk);
   template <class Entity>
@@ -157,7 +157,7 @@ class World {
   template <IsResource R, class... Args>
   R& emplace(Args&&... args);
 
-  // Of a sparse world: the chunks of which rows will be written, by the columns to come, too.
+  // For sparse worlds: the chunks whose rows will be written; also applies to columns added later.
   void hold(const std::vector<bool>& own_chunks);
 
   template <class Entity>
@@ -187,25 +187,25 @@ class World {
     return resources_.contains(type_key<R>());
   }
 
-  // Null where no column has this key.
+  // Null if no column has this key.
   const ColumnBase* find(TypeKey key) const {
     const auto found = columns_.find(key);
     return found == columns_.end() ? nullptr : found->second.get();
   }
 
-  // Gives every column of the kind of entity new rows; see ColumnBase::rebuild. Throws logic_error where rows would change
-  // places.
+  // Gives every column of the entity type new rows; see ColumnBase::rebuild. Throws logic_error if rows would be
+  // reordered.
   template <class Entity>
   void rebuild(const std::vector<std::int32_t>& sources);
 
-  // In the order in which they were added, without scratch.
+  // In the order in which they were added, without scratch columns.
   const std::vector<const ColumnBase*>& columns() const { return ordered_; }
-  // Takes over a checkpoint's rows of a column. A kind of entity that is not divided by chunks gets as many rows;
-  // all its columns must follow. Throws BadState where they do not fit.
+  // Takes over the rows of a column from a checkpoint. An entity type not divided into chunks gets that many rows;
+  // all its columns must follow. Throws BadState if they do not fit.
   void set_column(const ColumnBase& column, std::span<const std::byte> rows);
-  // Room for so many rows of it, to be written; its kind of entity has as many then.
+  // Space for this many rows of a column, to be written; its entity type then has this many rows.
   std::span<std::byte> room_for(const ColumnBase& column, std::size_t rows);
-  // It takes no memory any more, until it gets new rows. Of a kind of entity that is divided by chunks: while it is sparse.
+  // Frees the memory of the column until it gets new rows. For entity types divided into chunks: only while it is sparse.
   void drop_column(const ColumnBase& column);
   struct SavedResource {
     std::string name;
@@ -215,7 +215,7 @@ class World {
   // Those that are not fixed, in the order in which they were added.
   const std::vector<SavedResource>& saved_resources() const { return saved_resources_; }
   int chunks() const { return chunks_; }
-  // Room for what these transient columns, and scratch, hold of a chunk, for every worker.
+  // Allocates, for every worker, one chunk of these transient columns and of scratch.
   void allocate_transient(const std::vector<TypeKey>& components, int workers);
 
  private:

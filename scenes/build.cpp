@@ -37,8 +37,8 @@ namespace pulvis {
 
 namespace {
 
-// Surfaces move by this many skins against each other before they can have come near who were no
-// neighbours: more than neighbours do, and few enough to keep lists short.
+// Surfaces must move by this many skins relative to each other before non-neighbours can come close:
+// more than neighbours move, and few enough to keep lists short.
 constexpr double skins_of_neighbourhood = 8;
 
 template <class Count>
@@ -210,7 +210,7 @@ void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
   }
 }
 
-// Of materials without one: linear hardening, whose constants are in columns.
+// For materials without one: linear hardening, whose constants are in columns.
 FlowLaws flow_laws(const Scene& scene) {
   FlowLaws laws;
   for (const MaterialSpec& m : scene.materials)
@@ -218,7 +218,7 @@ FlowLaws flow_laws(const Scene& scene) {
   return laws;
 }
 
-// What the history calls the tool's position; a constraint's is the middle of its box, or its centre.
+// The tool position in the history; for a constraint, the centre of its box, or its centre.
 Vec2 start_of(const ToolSpec& tool) {
   if (tool.shape == ToolSpec::Shape::polyline) return tool.points.front();
   if (is_constraint(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
@@ -263,7 +263,7 @@ double shortest_edge(const Bodies& bodies) {
   return minimum;
 }
 
-// What surfaces could pass through: elements, and ridges of tools that are thinner than those.
+// What surfaces could pass through: elements, and tool ridges that are thinner than those.
 void find_thinnest(const Scene& scene, const Bodies& bodies, ContactRules& rules) {
   rules.shortest_edge = shortest_edge(bodies);
   rules.thinnest = rules.shortest_edge;

@@ -25,7 +25,7 @@ When when_of(const ExpectSpec& expect) {
   return expect.when.value_or(expect.like.empty() ? When::end : When::always);
 }
 
-// "-0.012 N"; a bare number where the series has no unit.
+// "-0.012 N"; a bare number if the series has no unit.
 std::string with_unit(double value, const std::string& unit) {
   return unit.empty() ? fmt::format("{:.6g}", value) : fmt::format("{:.6g} {}", value, unit);
 }
@@ -64,7 +64,7 @@ std::string allowed_of(const ExpectSpec& expect, const std::string& unit) {
   return text;
 }
 
-// How far a value is outside of what is allowed; <= 0: it is inside. NaN stays NaN.
+// How far a value is outside the allowed range; <= 0: inside. NaN stays NaN.
 double excess(const ExpectSpec& expect, double value) {
   if (expect.equals) {
     const double equals = expect.equals->number;
@@ -76,7 +76,7 @@ double excess(const ExpectSpec& expect, double value) {
   return worst;
 }
 
-// The sample that `when` means; of "always" the one that is furthest from what is allowed.
+// The sample selected by `when`; for "always", the one farthest outside the allowed range.
 double chosen(const ExpectSpec& expect, const Values& values) {
   for (const double value : values)
     if (std::isnan(value)) return value;
@@ -100,7 +100,7 @@ double chosen(const ExpectSpec& expect, const Values& values) {
   return values.back();
 }
 
-// The samples of a run that lie in the expectation's share of it.
+// The samples within the expectation's part of the run.
 Values window(const ExpectSpec& expect, const Values& times, const Values& values, double end) {
   Values inside;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -109,7 +109,7 @@ Values window(const ExpectSpec& expect, const Values& times, const Values& value
   return inside;
 }
 
-// Another scene, run in memory: what its expected series were.
+// Another scene, run in memory: the resulting series.
 struct OtherRun {
   Values times;
   double end = 0;
@@ -158,8 +158,8 @@ OtherRun run_other(const Scene& scene, const std::set<std::string>& names, const
   return run;
 }
 
-// Largest difference over the largest value of the other scene's series; infinite where nothing can
-// be compared, or a sample has a value in one run only. Samples without a value in both runs are alike.
+// Largest difference over the largest value of the other scene's series; infinite if nothing can
+// be compared, or a sample has a value in only one run. Samples without a value in both runs are equal.
 double deviation(const ExpectSpec& expect, const Values& here, const Values& other) {
   constexpr double incomparable = std::numeric_limits<double>::infinity();
   if (here.empty() || here.size() != other.size()) return incomparable;
@@ -236,7 +236,7 @@ bool all_met(const std::vector<Verdict>& verdicts) {
 bool ended_as_expected(const Scene& scene, const std::optional<std::string>& failure) {
   const ExpectSpec* stop = stop_of(scene);
   if (stop == nullptr || !failure) return stop == nullptr && !failure;
-  // In time that grows with the message's length only, whatever the expression.
+  // Linear time in the message length, whatever the expression.
   return re2::RE2::PartialMatch(*failure, re2::RE2(stop->message, re2::RE2::Quiet));
 }
 

@@ -33,7 +33,7 @@ Value place_of(const Vec2& place, const Origin& origin) {
   return {Array{length_of(place.x(), origin), length_of(place.y(), origin)}, origin};
 }
 
-// An array of tables; nothing where it is something else, which the reader refuses.
+// An array of tables; null if it is anything else, which the reader refuses.
 Array* elements_of(Table& root, const char* key) {
   Entry* entry = document::find(root, key);
   if (entry == nullptr || !document::is_array_of_tables(entry->value)) return nullptr;
@@ -72,8 +72,8 @@ class DieFiller {
   }
 
  private:
-  // The value of a key as its declaration has it; nothing where it is missing. A wrong one is told here: without it
-  // there are no tools, and what the reader says of that would lead astray.
+  // The value of a key as declared; nothing if it is missing. An invalid one is reported here: without it
+  // there are no tools, and the reader's message about that would be misleading.
   std::optional<schema::Decoded> value_in(const Table& table, const char* declared, const char* key,
                                           const std::string& path) {
     const Entry* entry = document::find(table, key);
@@ -88,7 +88,7 @@ class DieFiller {
     }
   }
 
-  // What [die] leaves open and the one packing says.
+  // What [die] leaves unspecified and the only packing specifies.
   void take_over(const Table& packing) {
     if (!spec_.corner)
       if (const auto corner = value_in(packing, "packing", "corner", "packing[0]"))
@@ -167,7 +167,7 @@ class DieFiller {
     return point;
   }
 
-  // A wall that the scene has itself must stand where the die's is; punches stand where they like.
+  // A wall defined in the scene itself must coincide with the die's; punches may be anywhere.
   void compare(const Wall& wall, const Table& tool, const std::string& path) {
     const std::string* shape = document::find_text(tool, "shape");
     if (wall.normal_x == 0 || shape == nullptr || *shape != "plane") return;
@@ -185,11 +185,11 @@ class DieFiller {
   Origin origin_;
   Problems& problems_;
   DieSpec spec_;
-  bool wrong_ = false;  // a value that the die's depends on
+  bool wrong_ = false;  // a value that the die depends on
   Array* packings_ = nullptr;
 };
 
-// A random packing has its width, or a die.
+// A random packing needs a width, or a die.
 void require_widths(Table& root, Problems& problems) {
   const Array* packings = elements_of(root, "packing");
   const schema::TableView& view = *schema::find_table("packing", schema::scene_language());

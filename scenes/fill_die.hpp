@@ -1,4 +1,4 @@
-// [die] put into the packings and tools of a scene: its width is given in one place.
+// Copies [die] into the packings and tools of a scene, so that its width is given in one place.
 #pragma once
 
 #include "scenes/language/document.hpp"
@@ -6,7 +6,7 @@
 
 namespace pulvis {
 
-// Takes [die] out of the tree. What is missing or contradicts it is added to `problems`.
+// Removes [die] from the tree. Anything missing or contradictory is added to `problems`.
 void fill_die(document::Table& root, Problems& problems);
 
 }  // namespace pulvis

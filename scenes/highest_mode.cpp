@@ -25,8 +25,8 @@ std::vector<double> supports(const Shape& shape) {
   return support;
 }
 
-// The same for all particles of a class, so that none depends on its place in memory. No symmetry: a guess
-// must have a part of every mode.
+// The same for all particles of a class, so that it does not depend on memory layout. No symmetry: a guess
+// must contain a component of every mode.
 void guess(const Shape& shape, Lane* mode) {
   std::mt19937_64 random(1);
   for (std::size_t n = 0; n < shape.nodes.size(); ++n)

@@ -1,4 +1,4 @@
-// What the estimate of the highest frequency starts from (systems/body/highest_mode).
+// Initial values for the estimate of the highest frequency (systems/body/highest_mode).
 #pragma once
 
 #include "components/shape.hpp"
@@ -7,8 +7,8 @@
 
 namespace pulvis {
 
-// Adds its columns: a first guess of every particle's fastest oscillation, and the springs that its outline
-// can have.
+// Adds its columns: an initial guess of every particle's fastest mode, and the springs that can act on
+// its outline.
 void add_highest_mode(World& world, const Bodies& bodies, const Needs& needs);
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// Begins a run with the state that another one has kept.
+// Starts a run from the saved state of another run.
 #pragma once
 
 #include "engine/world.hpp"
@@ -6,8 +6,8 @@
 
 namespace pulvis {
 
-// Bodies, contacts, bonds, the cell and all sums are the state's; time and stages are the scene's and begin anew, at rest.
-// Where the scene names a state.
+// Bodies, contacts, bonds, the cell and all sums come from the state; time and stages come from the scene and start
+// anew, at rest. Does nothing unless the scene names a state.
 void begin_with_state(World& world, const Scene& scene);
 
 }  // namespace pulvis

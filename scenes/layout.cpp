@@ -13,11 +13,11 @@ namespace pulvis {
 
 namespace {
 
-// Uniform in [0, 1) from the top 53 bits: the same on every machine and standard library.
+// Uniform in [0, 1) from the top 53 bits: identical on every machine and standard library.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-// In which order particles follow each other in memory: neighbours in space are near each other there, whatever
-// the order of the scene.
+// The order of particles in memory: neighbours in space are close in memory, regardless
+// of their order in the scene.
 class MemoryOrder {
  public:
   explicit MemoryOrder(const std::vector<BodySpec>& bodies) {
@@ -27,7 +27,7 @@ class MemoryOrder {
     }
   }
   std::uint64_t operator()(const BodySpec& body) const {
-    constexpr int order = 16;  // cells far smaller than particles
+    constexpr int order = 16;  // cells much smaller than particles
     const double size = std::max((high_ - low_).maxCoeff(), std::numeric_limits<double>::min());
     const Vec2 share = (body.position - low_) / size;
     const auto cell = [](double s) { return static_cast<std::uint32_t>(s * ((1 << order) - 1)); };

@@ -1,4 +1,4 @@
-// Which particle stands in which lane of which chunk, and the meshes of their classes, in two dimensions.
+// Which particle occupies which lane of which chunk, and the meshes of the particle classes, in two dimensions.
 #pragma once
 
 #include <array>
@@ -10,33 +10,33 @@
 
 namespace pulvis {
 
-// One particle in its lane: which shape, and the turn from the shape's frame to the scene's.
+// One particle in its lane: its shape, and the rotation from the shape's frame to the scene's.
 struct Placed {
   const BodySpec* body;
   int number;
-  double turn;  // rad, of the mesh in space: the body's angle and the mesh phase
+  double turn;  // rad, of the mesh in space: the body's angle plus the mesh phase
 };
 
-// Particles of one class after the other, so many to a chunk as it has lanes; a mesh phase turns the mesh, not the shape
-// (a disc's outline does not care), so that all particles of a class share one undeformed mesh. `bodies` must outlive it.
+// Particles of one class after another, as many per chunk as it has lanes. A mesh phase rotates the mesh, not the shape
+// (a disc's outline is unaffected), so all particles of a class share one undeformed mesh. `bodies` must outlive it.
 std::vector<std::vector<Placed>> placed_by_class(const Scene& scene,
                                                  const std::vector<BodySpec>& bodies);
 
 struct Layout {
   Bodies bodies;
   ParticleClasses classes;
-  std::vector<const Placed*> placed;  // [slots]; null where nobody stands
+  std::vector<const Placed*> placed;  // [slots]; null for empty slots
 };
 
 // `classes` must outlive it.
 Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& classes,
                std::size_t particles);
 
-// m, of every node of a mesh from where its particle stands, which turned it by `turn`.
+// m, of every node of a mesh rotated by `turn`, relative to the position of its particle.
 std::vector<Vec2> turned_nodes(const Shape& shape, double turn);
-// m, the same where it stands.
+// m, the same in scene coordinates.
 std::vector<Vec2> placed_nodes(const Shape& shape, const Placed& placed);
-// m, of every slot where a particle stands.
+// m, of every occupied slot.
 std::vector<std::array<double, 3>> centres(const Layout& layout);
 std::vector<double> elements_of_chunks(const Layout& layout);
 

@@ -21,12 +21,12 @@ namespace pulvis {
 namespace {
 
 constexpr std::uint64_t program_bytes = 64U << 20U;
-// Of a compacted powder: rows for all that is nearer than the skin, from both sides.
+// For a compacted powder: rows for everything closer than the skin, from both sides.
 constexpr double rows_of_an_edge = 3;
 constexpr std::uint64_t copies_of_a_frame =
-    3;  // gathered, on its way into the file, in the journal
+    3;  // gathered, being written to the file, in the journal
 
-// Areas of particles and tools while they are summed, as they are kept, and a frame's copies: measured are 90.
+// Areas of particles and tools during summation, stored areas, and a frame's copies: 90 were measured.
 constexpr std::uint64_t density_bytes_a_cell = 120;
 
 template <class... C>

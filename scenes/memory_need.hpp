@@ -1,4 +1,4 @@
-// What a scene will take of memory, known before any of it is taken.
+// The memory that a scene will need, known before any of it is allocated.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 namespace pulvis {
 
 struct MemoryNeed {
-  std::uint64_t columns = 0;   // bytes, of nodes, elements, outlines: exact but for alignment
+  std::uint64_t columns = 0;   // bytes, for nodes, elements, outlines: exact but for alignment
   std::uint64_t contacts = 0;  // rows of a dense packing; they come and go
-  std::uint64_t results = 0;   // a frame on its way to the disk
-  std::uint64_t program = 0;   // and its libraries
+  std::uint64_t results = 0;   // a frame being written to disk
+  std::uint64_t program = 0;   // the program and its libraries
   std::uint64_t total() const { return columns + contacts + results + program; }
 };
 
-// Of the scenes of particles; their packings are filled.
+// For scenes of particles; their packings must be filled.
 MemoryNeed memory_need(const Scene& scene);
 
-// The same. Throws OutputError where this machine has not got it now.
+// The same. Throws OutputError where this machine does not have that much free memory.
 MemoryNeed require_memory(const Scene& scene);
 
 }  // namespace pulvis

@@ -11,7 +11,7 @@
 namespace pulvis {
 namespace {
 
-// Whether any pair that can touch has friction that `acts` on.
+// Whether any pair that can touch has friction that satisfies `acts`.
 template <class Acts>
 bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& acts) {
   return (needs.pairs && std::ranges::any_of(rules.friction, acts)) ||

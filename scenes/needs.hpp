@@ -1,24 +1,24 @@
-// What a scene asks for.
+// What a scene requires of the model.
 #pragma once
 
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 
-// What a scene needs: decides which columns (and with them which systems) exist.
+// What a scene requires: decides which columns (and with them which systems) exist.
 struct Needs {
   bool plastic = false;    // a material yields
-  bool flow_laws = false;  // and one hardens along a curve or by its rate
+  bool flow_laws = false;  // and one hardens along a curve or is rate-dependent
   bool pairs = false;      // more than one particle, or one that tools can fold onto itself
   bool tools = false;      // something that particles touch
   bool polylines = false;
   bool constraints = false;
-  bool friction = false;   // a coefficient above zero can act
+  bool friction = false;   // a coefficient above zero can take effect
   bool weakening = false;  // and a law beyond Coulomb's
   bool cell = false;       // periodic
   bool bonds = false;      // between particles
   bool tool_bonds = false;
-  bool welds = false;  // made by pressure, between particles
+  bool welds = false;  // formed by pressure, between particles
   bool tool_welds = false;
   bool adhesion = false;      // surfaces attract each other
   bool damping = false;       // of contacts

@@ -105,7 +105,7 @@ class SceneReader : public SceneTables {
     return particles;
   }
 
-  // A misspelt outline is reported once; the keys of its mesh cannot be judged then.
+  // A misspelt outline is reported once; the keys of its mesh cannot be checked then.
   static bool holds_outline(const std::string& outline) {
     const schema::KeyInfo& key =
         *schema::find_key(*schema::find_table("particle", schema::scene_language()), "outline");
@@ -148,7 +148,7 @@ class SceneReader : public SceneTables {
   throw SceneError({{file.string(), 1, 1, "", "scene", message}});
 }
 
-// Of all that decides on what a state has in it, and on how the powder answers.
+// Of everything that determines the contents of a state and the response of the powder.
 std::uint64_t powder_hash(Table root) {
   for (document::Entry& entry : root)
     if (entry.key == "output" && entry.value.as<Table>() != nullptr)
@@ -162,8 +162,8 @@ std::uint64_t powder_hash(Table root) {
   return scene_hash(scene_text(root, language_of(root)));
 }
 
-// What an accuracy asked for stands in the meshes, two dimensions need not be said, and what the scene is expected to do
-// does not concern the one that is compared with it.
+// The meshes already contain the effect of `accuracy`, two dimensions are the default, and expectations of a scene
+// do not concern one that it is compared with.
 void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, bool alone) {
   const schema::Language& language = language_of(root);
   std::erase_if(root, [&](const document::Entry& entry) {
@@ -177,21 +177,21 @@ void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, 
   loaded.hash = hash_with_inputs(loaded.inputs, scene_hash(loaded.text));
 }
 
-// Files have been put together when overrides are applied.
+// Files have already been merged when overrides are applied.
 void refuse_extending(const Table& root, Problems& problems) {
   if (const document::Entry* entry = document::find(root, "extends"))
     problems.add(entry->origin, "extends", "cannot be set here, allowed: in the scene file");
 }
 
-// Which language a scene is in must be known before its variables are.
+// The language of a scene must be known before its variables are.
 void refuse_dimension_of_variables(const Table& root, bool in_space, Problems& problems) {
   if (is_in_space(root) && !in_space)
     problems.add(document::find(root, "dimension")->origin, "dimension",
                  "is an expression of variables, allowed: 2 or 3");
 }
 
-// The tree with all its values in it. Which files extend which, and which keys name files, is the same in all
-// dimensions; everything else asks for the scene's own language.
+// The complete tree with all its values. Which files extend which, and which keys name files, is the same in all
+// dimensions; everything else depends on the scene's own language.
 Table complete_tree(const std::string& text, const std::filesystem::path& file,
                     const std::vector<std::string>& overrides, Problems& problems) {
   Table root = whole_tree(text, file, schema::scene_language(), problems);
@@ -254,7 +254,7 @@ void make_powder(Scene& scene, const schema::Origins& origins, Problems& problem
   make_profiles(scene, origins, problems);
 }
 
-// `alone`: without what is expected of it.
+// `alone`: without its expectations.
 LoadedScene load(const std::string& text, const std::filesystem::path& file,
                  const std::vector<std::string>& overrides = {}, bool alone = false) {
   Problems problems(file, overrides);

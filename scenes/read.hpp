@@ -1,4 +1,4 @@
-// Reads a scene file. Everything that is wrong with it is thrown as one SceneError, before anything
+// Reads a scene file. All errors in it are thrown as one SceneError, before anything
 // is built or run.
 #pragma once
 
@@ -15,16 +15,16 @@ namespace pulvis {
 
 struct LoadedScene {
   Scene scene;
-  // The scene as run, as TOML: what it extends, overrides and defaults included, one fixed layout. It stands alone: its paths
-  // lead to copies of the files that it names, as a run's folder keeps them.
+  // The scene as run, as TOML: with the base files, overrides and defaults merged, in one fixed layout. It is
+  // self-contained: its paths lead to copies of the files that it names, as a run's folder keeps them.
   std::string text;
-  // The same with its paths as they are from the folder of the scene's file.
+  // The same with paths relative to the folder of the scene's file.
   std::string text_in_place;
   std::vector<InputFile> inputs;
-  // Of the powder alone, with its contacts and materials: scenes that differ in their stages and results share it, and may
-  // begin with each other's states.
+  // Of the powder alone, with its contacts and materials: scenes that differ only in stages and results share it, and
+  // may start from each other's states.
   std::uint64_t powder_hash = 0;
-  // Of that text and of those files: the same for every scene that says the same.
+  // Of that text and those files: the same for all scenes with the same content.
   std::uint64_t hash = 0;
 };
 
@@ -40,7 +40,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 // A scene that another one is compared with: its own comparisons are not followed.
 Scene read_scene_alone(const std::filesystem::path& file);
 
-// The text of a file of at most 16 MiB; throws SceneError where there is none.
+// The text of a file of at most 16 MiB; throws SceneError if it cannot be read.
 std::string toml_file_text(const std::filesystem::path& file, const char* kind = "a scene");
 
 // FNV-1a, 64 bits: the same on every machine.

@@ -1,5 +1,5 @@
-# What takes the bytes of a user's file apart. A build with sanitizers replaces these alone in the library of another
-# (tests/asan), so each is an object of its own there.
+# Sources that parse the bytes of user files. A sanitizer build replaces only these in the library of another build
+# (tests/asan), so each must be a separate object there.
 set(readers drawings/chains drawings/dxf_outline drawings/svg_outline language/csv_table language/document
             language/document_guard language/override language/scene_text language/table_reader let/expression let/let
             let/tokens lever/mesh/gmsh_file lever/mesh/gmsh_solid lever/mesh/meshed_lever lever/mesh/meshed_tip

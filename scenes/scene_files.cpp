@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using document::Table;
 
-// At most so many bytes of `name`, cut between characters: what is added must fit in a file's name.
+// At most this many bytes of `name`, cut between characters: the result must fit in a file name.
 std::string shortened(std::string name) {
   constexpr std::size_t longest = 100;
   if (name.size() <= longest) return name;
@@ -53,7 +53,7 @@ class InputKeeper {
     return add({source, "inputs" / fs::path(name + source.extension().string()), {}, hash});
   }
 
-  // In a folder of its own, with the files that it names.
+  // In a separate folder, with the files that it refers to.
   fs::path keep_scene(const fs::path& source, const LoadedScene& other) {
     const bool is_copy = source.filename() == "scene.toml" && source.has_parent_path();
     const fs::path name = is_copy ? source.parent_path().filename() : source.stem();
@@ -108,7 +108,7 @@ std::uint64_t file_hash(const fs::path& file) {
 }
 
 std::uint64_t hash_with_inputs(const std::vector<InputFile>& inputs, std::uint64_t hash) {
-  // A saved scene names its files in another order than the one that it was written from.
+  // A saved scene names its files in a different order from the original.
   std::vector<std::uint64_t> hashes;
   for (const InputFile& input : inputs) hashes.push_back(input.hash);
   std::ranges::sort(hashes);

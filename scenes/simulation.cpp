@@ -31,7 +31,7 @@ Simulation::Simulation(const Scene& scene, int threads, Ranks* ranks)
     require_initial_bonds(scene, *world_);
   } catch (const SceneError&) {
     if (!crew_ || crew_->leads()) throw;
-    return;  // the root has found the same, and tells it
+    return;  // the root has found the same and reports it
   }
   begin_with_state(*world_, scene);
   if (crew_ && crew_->leads()) tell(crew_->fetch_start());
@@ -50,7 +50,7 @@ double Simulation::end() const {
                                              : std::numeric_limits<double>::infinity());
 }
 
-// Tells the others, and does its own part of what is fetched.
+// Informs the other ranks, and does this rank's part of a gather.
 void Simulation::tell(Order order) {
   crew_->tell(order);
   if (order.kind == Order::Kind::fetch) crew_->fetch(order);
@@ -79,7 +79,7 @@ void Simulation::do_run(double time, const std::function<bool()>& stop) {
   if (crew_) crew_->ran(clock().step - first, crew_->bytes_sent() - sent);
 }
 
-// After a step. `stops`: of several ranks the root's counts.
+// After a step. `stops`: with several ranks, the root's value counts.
 bool Simulation::goes_on(bool stops) {
   if (!crew_) return !stops;
   const Crew::Next next = crew_->next(stops);
@@ -175,7 +175,7 @@ void Simulation::follow() {
         case Order::Kind::restore: restore_share(Checkpoint(order.file), *world_); break;
         case Order::Kind::leave: return;
       }
-    } catch (const RunFailure&) {  // the root has the same, and tells it
+    } catch (const RunFailure&) {  // the root has the same failure and reports it
     }
   }
 }

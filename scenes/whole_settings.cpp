@@ -20,7 +20,7 @@ using document::Array;
 using document::Table;
 using document::Value;
 
-// Links among the folders are followed, as opening the file does; the file keeps the name it was given.
+// Links among the folders are resolved, as when opening the file; the file keeps the name it was given.
 fs::path placed(const fs::path& path) {
   const fs::path whole = fs::absolute(path);
   return fs::weakly_canonical(whole.parent_path()) / whole.filename();
@@ -58,7 +58,7 @@ std::size_t position_of(const std::string& text, SourceMark mark) {
   return at;
 }
 
-// Behind the string that begins there.
+// Position after the string that begins there.
 std::size_t end_of_string(const std::string& text, std::size_t at) {
   const char quote = text.at(at);
   const bool is_long = text.compare(at, 3, std::string(3, quote)) == 0;
@@ -68,7 +68,7 @@ std::size_t end_of_string(const std::string& text, std::size_t at) {
   return at + closing.size();
 }
 
-// Behind the array that begins there.
+// Position after the array that begins there.
 std::size_t end_of_array(const std::string& text, std::size_t at) {
   int open = 0;
   do {
@@ -132,7 +132,7 @@ class Gathering {
     if (is_scene) add_scene(file, text);
   }
 
-  // What a scene does not use in the end may be no scene at all: that is copied as it is.
+  // A file that is not used in the end may not be a scene at all: it is copied unchanged.
   void add_scene(const fs::path& file, std::optional<std::string>& text) {
     Table root;
     try {
@@ -149,7 +149,7 @@ class Gathering {
     });
   }
 
-  // The folder that all of them lie below.
+  // The lowest folder that contains all of them.
   void find_top() {
     if (files_.empty()) return;
     top_ = files_.begin()->first.parent_path();
@@ -159,7 +159,7 @@ class Gathering {
     while (!std::ranges::all_of(files_, is_below)) top_ = top_.parent_path();
   }
 
-  // The name of the top is kept, so that a copy of a copy lies where the copy does.
+  // The name of the top folder is kept, so that a copy of a copy has the same location as the copy.
   fs::path copy_of(const fs::path& file) const {
     const fs::path inputs = "inputs";
     const fs::path name = top_.filename() == inputs ? fs::path() : top_.filename();
@@ -183,7 +183,7 @@ class Gathering {
     return with_changes(text, std::move(changes));
   }
 
-  // Behind the file's own `overrides`, as they are applied.
+  // After the file's own `overrides`, in the order in which they are applied.
   std::string with_overrides(std::string text) const {
     const Table root = document::parse(text);
     const document::Entry* own = document::find(root, "overrides");
@@ -211,7 +211,7 @@ class Gathering {
     return same ? change : change.substr(0, value) + document::value_text(after);
   }
 
-  // Paths among the values that a study sets in its scene are found by what they lead to.
+  // Paths among the values that a study sets in its scene are recognised by the file they lead to.
   void move_absolute(Value& value) const {
     if (auto* text = value.as<std::string>()) {
       if (fs::path(*text).is_absolute() && files_.contains(placed(*text)))
@@ -226,7 +226,7 @@ class Gathering {
   }
 
   const GivenSettings& given_;
-  std::map<fs::path, std::optional<std::string>> files_;  // text: of a scene
+  std::map<fs::path, std::optional<std::string>> files_;  // text: for a scene
   std::set<fs::path> scene_folders_;
   fs::path top_;
 };

@@ -19,7 +19,7 @@
 namespace pulvis {
 namespace {
 
-// On sampled steps, when the forces are known: of every particle...
+// On sampled steps, once the forces are known: for every particle...
 template <class F>
 void observe_particles(World& w, SystemList& observe) {
   const bool plastic = w.has<PlasticStrain<F::points>>();
@@ -37,7 +37,7 @@ void observe_particles(World& w, SystemList& observe) {
   observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress>());
   // clang-format on
 }
-// ...and of the powder as a whole.
+// ...and for the powder as a whole.
 void observe_whole(World& w, SystemList& observe) {
   // clang-format off
   observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork>());
@@ -55,8 +55,8 @@ std::vector<System> observed_of(World& w) {
   return observe.taken();
 }
 
-// ---- the order of a step: a newcomer's first page ------------------------------------------------
-// F: how the elements of the scene take their stresses (components/formulation.hpp).
+// ---- the order of a step: start reading here -----------------------------------------------------
+// F: the element formulation of the scene (components/formulation.hpp).
 template <class F>
 StepList step_list_of(World& w) {
   const bool plastic = w.has<PlasticStrain<F::points>>();
@@ -117,7 +117,7 @@ StepList step_list_of(World& w) {
   return {force.taken(), observed_of<F>(w), move.taken()};
 }
 
-// What touches at the start is known once contacts have been looked for.
+// What touches at the start is known only after the contact search.
 void add_first_bonds(World& w, SystemList& start) {
   const bool pairs = w.has<CurveAnchor>(), tools = w.has<ToolAnchor>();
   const bool bonds = pairs || tools;
@@ -145,7 +145,7 @@ std::vector<System> start_list_of(World& w) {
   return start.taken();
 }
 
-// Of three dimensions.
+// In three dimensions.
 StepList step_list_in_space(World& w) {
   space::Steps steps = space::steps_of(w);
   return {std::move(steps.forces), std::move(steps.observe), std::move(steps.motion)};
@@ -177,20 +177,20 @@ std::vector<System> whole_step(World& world) {
   return joined(step_list(world).forces, step_list(world).motion);
 }
 
-// Chunks (of eight particles, some 200 kB of state where each has 140 elements) that stay in a processor's
-// last cache from one step to the next.
+// Chunks (of eight particles, some 200 kB of state if each has 140 elements) that stay in the last-level
+// cache from one step to the next.
 constexpr int chunks_in_cache = 64;
 
 bool from_memory(const World& world) {
   return static_cast<int>(world.resource<Bodies>().own_chunks.size()) > chunks_in_cache;
 }
-// Of several ranks, a pass of its own over the bodies goes on while messages are under way.
+// With several ranks, a separate pass over the bodies runs while messages are in flight.
 Passes passes_of(const World& world) {
   const bool ranks = world.has<RankLink>();
   return from_memory(world) && !ranks ? Passes::fewest : Passes::concurrent;
 }
 
-// Room for the transient components of every thread that may run the step.
+// Storage for the transient components of every thread that may run the step.
 World& with_transients(World& world) {
   world.allocate_transient(droppable_components(whole_step(world), passes_of(world)),
                            tbb::this_task_arena::max_concurrency());
@@ -201,7 +201,7 @@ const std::vector<int>& chunks_of(const World& world) {
   return world.resource<Bodies>().own_chunks;
 }
 
-// Of several ranks: what breaks on one of them is told to the others at the end of the step, which all complete.
+// With several ranks: a failure on one is sent to the others at the end of the step, which all of them complete.
 std::vector<System> watched(std::vector<System> systems, World& world) {
   if (!world.has<RankLink>()) return systems;
   RankLink& link = world.resource<RankLink>();

@@ -1,4 +1,4 @@
-// The step: the one ordered list of systems, and the graphs made from it.
+// The step: the one ordered list of systems, and the task graphs built from it.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace pulvis {
 
-// The systems that a world's columns ask for, in order. The forces at t_n and the motion to t_(n+1) are
-// apart so that a result can be taken between them, where positions, stresses and forces belong together.
+// The systems that a world's columns require, in order. The forces at t_n and the motion to t_(n+1) are
+// separate so that output can be taken in between, where positions, stresses and forces are consistent.
 struct StepList {
   std::vector<System> forces;
   std::vector<System> observe;  // energies, on sampled steps
@@ -18,15 +18,15 @@ struct StepList {
 
 StepList step_list(World& world);
 
-// What has to be known before the first step: contact curves, the stable time step and the one that is taken.
+// What must be known before the first step: contact curves, the stable time step and the step taken.
 std::vector<System> start_list(World& world);
 
-// What looks at a powder as a whole, on the root of several ranks: at the world into which the results of all are fetched.
+// Observers of the powder as a whole, on the root of several ranks: in the world that gathers the results of all ranks.
 class WholeObservers {
  public:
   explicit WholeObservers(World& whole);
   void run();
-  // What they read and write: "contact/touches".
+  // Names of what they read and write: "contact/touches".
   const std::vector<std::string>& looks_at() const { return looks_at_; }
 
  private:
@@ -35,16 +35,16 @@ class WholeObservers {
   TaskGraph observe_;
 };
 
-// A step as the run loop uses it.
+// A step as used by the run loop.
 class Step {
  public:
   explicit Step(World& world);
   void start();    // once
   void run();      // forces and motion, fused
   void observe();  // forces and energies at t_n...
-  void move();     // ...and then the motion that finishes the step
+  void move();     // ...and then the motion that completes the step
   const GraphPlan& plan() const { return whole_.plan(); }
-  std::vector<SystemCost> costs() const;  // of plain and of sampled steps together
+  std::vector<SystemCost> costs() const;  // plain and sampled steps together
 
  private:
   void end_of_step() const;

@@ -1,5 +1,5 @@
-# Seconds of the longest tests that GoogleTest tells of: those start first, so that the last jobs end together. (ctest knows
-# them from its runs before, which a fresh clone has not.) One that there is no more is passed over.
+# Seconds of the longest GoogleTest tests: these start first, so that the last jobs end together. (ctest learns costs from
+# previous runs, which a fresh clone lacks.) Tests that no longer exist are ignored.
 set(costs
   "PlasticProbe.AResolvedBallHasTaborsPressureAndLeavesADentByElasticUnloading" 60
   "StudyRead.EverythingShippedIsRight" 45

@@ -1,10 +1,10 @@
-"""Elastic bar wave: forces on both ends against d'Alembert's solution."""
+"""Elastic wave in a bar: forces on both ends against d'Alembert's solution."""
 import numpy as np
 
 from .problem import (Problem, Reference, Setting, formulations, safeties, skins, stiffnesses,
                       together)
 
-LENGTH, AREA, RHO, MODULUS = 0.1, 8e-6, 8000.0, 200e9  # of the scene, SI
+LENGTH, AREA, RHO, MODULUS = 0.1, 8e-6, 8000.0, 200e9  # as in the scene, SI
 STAGE, WAY, RAMP = 80e-6, 0.078e-3, 0.025
 C = np.sqrt(MODULUS / RHO)
 TIME = np.linspace(0, 76e-6, 1521)
@@ -16,7 +16,7 @@ def speed(time):
 
 
 def reflected(first):
-    """Arrivals of the wave at an end, each doubled by the rigid plane."""
+    """Arrivals of the wave at an end, each doubled by reflection at the rigid plane."""
     return 2 * sum(speed(TIME - (first + 2 * n) * LENGTH / C) for n in range(4))
 
 

@@ -1,11 +1,11 @@
-"""A disc of 316L crushed by a tenth of its diameter between platens: force over compression."""
+"""A disc of 316L crushed by a tenth of its diameter between platens: force against compression."""
 import numpy as np
 
 from .problem import (coarse_cores, Problem, densities, durations, formulations, interpolated, meshes, own_series,
                       relative_rms, safeties, skins, stiffnesses)
 
 COMPRESSION = np.linspace(0.01, 0.10, 61)
-DIAMETER = 10e-3  # m, of the scene
+DIAMETER = 10e-3  # m, as in the scene
 
 
 def observe(run):

@@ -1,10 +1,10 @@
-"""Hertz' line contact: load of an elastic disc between platens over their approach."""
+"""Hertz line contact: load of an elastic disc between platens against their approach."""
 import numpy as np
 
 from .problem import (Problem, Reference, Setting, densities, durations, formulations, interpolated,
                       relative_rms, safeties, skins, stiffnesses, together)
 
-R, MODULUS, THICKNESS = 5e-3, 200e9 / (1 - 0.3**2), 1e-3  # m, Pa, m: of the scene
+R, MODULUS, THICKNESS = 5e-3, 200e9 / (1 - 0.3**2), 1e-3  # m, Pa, m: as in the scene
 APPROACH = np.linspace(0.015e-3, 0.039e-3, 49)  # m, of both platens together; the scene ends at 0.04
 
 

@@ -1,10 +1,10 @@
-"""Limit load of a perfectly plastic deep double-edge notch: an element that locks goes past it."""
+"""Limit load of a perfectly plastic deep double-edge notch: a locking element exceeds it."""
 import numpy as np
 
 from .problem import Problem, Reference, Setting, durations, formulations, safeties
 
 YIELD, THICKNESS, LIGAMENT = 24e6, 1e-3, 2e-3  # Pa, m, m (half of it: what the quarter holds)
-WAY = np.linspace(0.7, 1, 31)  # of the way, where all of the ligament flows
+WAY = np.linspace(0.7, 1, 31)  # of the displacement, where the whole ligament yields
 
 
 def observe(run):

@@ -1,4 +1,4 @@
-"""Compaction of a regular matrix by 10 %: force on the top punch over the punch's way."""
+"""Compaction of a regular matrix by 10 %: force on the top punch against its travel."""
 import numpy as np
 
 from .problem import (Problem, Reference, coarse_cores, densities, durations, formulations, interpolated, meshes,
@@ -14,7 +14,7 @@ def observe(run):
 
 
 def errors(values, reference):
-    """L2 norm over the whole way; the largest error beyond 1 % compression, of the local force."""
+    """L2 norm over the whole travel; largest error beyond 1 % compression, relative to the local force."""
     difference = values["force"] - reference["force"]
     beyond = COMPRESSION > 0.01
     return {"L2": float(np.linalg.norm(difference) / np.linalg.norm(reference["force"])),
@@ -22,7 +22,7 @@ def errors(values, reference):
 
 
 def finest(settings):
-    """The finest mesh that is affordable; uncertain by what a third of the change to it would be."""
+    """The finest affordable mesh; its uncertainty is a third of the change to it."""
     def make(observed):
         *_, middle, fine = [observed(s.overrides) for s in settings]
         uncertain = {m: e / 3 for m, e in errors(middle, fine).items()}
@@ -31,7 +31,7 @@ def finest(settings):
     return make
 
 
-# Safeties that give 100 discs (25: half as many) the numbers of steps of the thesis's Table 5.3.
+# Safeties that give 100 discs (25: half as many) the numbers of steps in Table 5.3 of the thesis.
 TABLE_5_3 = {"": (0.66, 0.38, 0.316), "-cu": (0.708, 0.454, 0.344)}
 
 
@@ -67,7 +67,7 @@ def small(suffix, quick):
 
 
 def large(suffix, quick):
-    """100 discs: the thesis's case, and its time-step study."""
+    """100 discs: the thesis case, and its time-step study."""
     material, rho = MATERIALS[suffix]
     sizes = ((12, 1), (16, 1)) if quick else ((32, 1), (40, 1), (60, 2), (80, 2))
     families = {"mesh": meshes("disc", sizes)}

@@ -1,6 +1,6 @@
-"""What a benchmark problem declares, and the families of settings that many of them share.
+"""The declaration of a benchmark problem, and families of settings shared by many of them.
 
-A setting is a dict of overrides, {"time.safety": 0.5}: what the program takes as --set time.safety=0.5.
+A setting is a dict of overrides, {"time.safety": 0.5}: passed to the program as --set time.safety=0.5.
 """
 from dataclasses import dataclass, field
 from typing import Callable
@@ -17,37 +17,37 @@ class Setting:
 @dataclass(frozen=True)
 class Reference:
     values: dict         # name -> array, as `observe` gives them
-    uncertainty: dict    # measure -> what the reference itself may be wrong by, None where it is exact
-    text: str            # where it is from
+    uncertainty: dict    # measure -> uncertainty of the reference itself, None if it is exact
+    text: str            # its source
 
 
 @dataclass(frozen=True)
 class Problem:
     name: str
     title: str
-    scene: str                 # below scenes/
+    scene: str                 # path below scenes/
     families: dict             # name -> [Setting]; the scene as shipped is always run too
-    observe: Callable          # (run) -> {name: array}: what is compared; kept with the run
+    observe: Callable          # (run) -> {name: array}: the compared data; stored with the run
     reference: Callable        # (observed: overrides -> {name: array}) -> Reference
     errors: Callable           # (values, reference values) -> {measure: share}
     always: dict = field(default_factory=dict)  # overrides of every run
-    standard: bool = True      # part of the run without names; the others take long
+    standard: bool = True      # run by default; the others take long
 
 
 def meshes(particle, sizes, core="even"):
-    """Of a disc: (edges, rings)."""
+    """Mesh sizes of a disc: (edges, rings)."""
     key = f"particle.{particle}.mesh."
     return [Setting(f"{edges}/{rings}" + (" coarse" if core == "coarse" else ""),
                     {key + "boundary_edges": edges, key + "rings": rings, key + "core": f'"{core}"'})
             for edges, rings in sizes]
 
 
-# Of `accuracy` draft, standard and fine, with what lies between.
+# Those of `accuracy` draft, standard and fine, with values in between.
 COARSE_CORES = ((48, 0), (60, 0), (60, 1), (72, 1), (84, 1), (96, 2))
 
 
 def coarse_cores(particle, sizes=COARSE_CORES):
-    """A third of the outline's edges around the core."""
+    """Cores with a third of the edges of the outline."""
     return meshes(particle, sizes, "coarse")
 
 
@@ -78,7 +78,7 @@ def formulations(values=("four-point", "standard")):
 
 
 def together(*settings):
-    """One setting of several: later ones win."""
+    """Merges several settings: later ones win."""
     overrides = {}
     for setting in settings:
         overrides |= setting.overrides
@@ -86,7 +86,7 @@ def together(*settings):
 
 
 def interpolated(xs, ys, points):
-    """Linear, xs rising but for the noise of its end points."""
+    """Linear interpolation; xs is increasing except for noise at its ends."""
     return np.interp(points, np.maximum.accumulate(xs), ys)
 
 
@@ -95,7 +95,7 @@ def relative_rms(values, reference):
 
 
 def extrapolated(coarse, middle, fine, ratio=2.0):
-    """Richardson with the observed order, kept within 1 and 2: differences of noise have none."""
+    """Richardson extrapolation with the observed order, limited to 1 to 2, since noise has no order."""
     coarse, middle, fine = (np.asarray(v) for v in (coarse, middle, fine))
     shrink = np.linalg.norm(middle - coarse) / np.linalg.norm(fine - middle)
     order = min(max(np.log(shrink) / np.log(ratio), 1.0), 2.0)
@@ -103,7 +103,7 @@ def extrapolated(coarse, middle, fine, ratio=2.0):
 
 
 def own_series(observed, errors, settings, ratio=2.0):
-    """The scene's own three finest meshes, extrapolated; uncertain by the distance of the finest."""
+    """Extrapolates the three finest meshes of the scene; uncertainty: distance from the finest."""
     runs = [observed(s.overrides) for s in settings]
     values, orders = {}, []
     for name in runs[0]:

@@ -1,16 +1,16 @@
-"""Partial slip of two pressed discs: work of friction while the tangential force rises."""
+"""Partial slip of two pressed discs: friction work as the tangential force increases."""
 import numpy as np
 
 from .problem import (Problem, Reference, Setting, formulations, relative_rms, safeties,
                       stiffnesses)
 
-R, MODULUS, THICKNESS, FRICTION = 2.5e-3, 200e9 / (1 - 0.3**2) / 2, 1e-3, 0.2  # of the pair; SI
+R, MODULUS, THICKNESS, FRICTION = 2.5e-3, 200e9 / (1 - 0.3**2) / 2, 1e-3, 0.2  # of the pair, SI
 SHARE = np.linspace(0.3, 0.6, 31)  # Q/(mu P)
 
 
 def theory(load, share):
     """Work dissipated up to Q = share mu P, J: slip s(x) = 2 mu p0/(E* a) int_c sqrt(t^2 - c^2) dt of
-    Cattaneo and Mindlin, times mu p(x), over c < |x| < a; slip only grows on the way."""
+    Cattaneo and Mindlin, times mu p(x), over c < |x| < a; slip increases monotonically."""
     per_thickness = load / THICKNESS
     a = np.sqrt(4 * per_thickness * R / (np.pi * MODULUS))
     p0 = 2 * per_thickness / (np.pi * a)
@@ -21,8 +21,8 @@ def theory(load, share):
 
 
 def observe(run):
-    """Forces are means over both constraints: between them runs the wave that shears the discs."""
-    shear = run.history("time") > 0.2 * run.history("time")[-1]  # a fifth of it is for pressing
+    """Forces are averaged over both constraints: the shear wave travels between them."""
+    shear = run.history("time") > 0.2 * run.history("time")[-1]  # the first fifth is for pressing
     load = 0.5 * (run.history("tool/head/force_y") - run.history("tool/base/force_y"))[shear]
     force = 0.5 * (run.history("tool/base/force_x") - run.history("tool/head/force_x"))[shear]
     share = np.maximum.accumulate(force / (FRICTION * load))

@@ -1,11 +1,11 @@
-"""Taylor impact of a copper slab: final length, and width of the mushroom."""
+"""Taylor impact of a copper slab: final length, and width of the mushroomed end."""
 import numpy as np
 
 from .problem import Problem, Setting, formulations, own_series, safeties, skins, stiffnesses, together
 
 
 def observe(run):
-    """Means over the last quarter of the run, when the bar has left the plane and only rings."""
+    """Means over the last quarter of the run, when the bar has rebounded and only vibrates."""
     frames = [run.frame("position", -1 - i)[1] for i in range(10)]
     return {"length": np.array([np.mean([np.ptp(x[:, 1]) for x in frames])]),
             "width": np.array([np.mean([np.ptp(x[:, 0]) for x in frames])])}

@@ -1,18 +1,18 @@
-"""Limit pressure of a perfectly plastic thick-walled cylinder, b/a = 2: an element that locks goes past it."""
+"""Limit pressure of a perfectly plastic thick-walled cylinder, b/a = 2: a locking element exceeds it."""
 import numpy as np
 
 from .problem import Problem, Reference, durations, formulations, meshes, safeties
 
 YIELD, THICKNESS, BORE, OUTER = 24e6, 1e-3, 5e-3, 10e-3  # Pa, m, m, m (radii)
-# Of the way. All of the wall flows from a third of it, but the stress there still turns to that of plastic
-# flow, and the exact pressure comes up to its limit from 0.2% below.
+# Of the displacement. The whole wall yields from a third of it, but the stress there still rotates towards
+# that of plastic flow, and the exact pressure approaches its limit from 0.2% below.
 WAY = np.linspace(0.8, 0.97, 35)
 
 
 def observe(run):
     moved = run.history("tool/bore/position_x") - run.history("tool/bore/position_x")[0]
     bore = BORE + moved
-    outer = np.sqrt(OUTER**2 - BORE**2 + bore**2)  # the wall keeps its area, but for elastic strain
+    outer = np.sqrt(OUTER**2 - BORE**2 + bore**2)  # the wall area is constant, except for elastic strain
     pressure = np.abs(run.history("tool/bore/force_x")) / (2 * np.pi * bore * THICKNESS)
     limit = 2 / np.sqrt(3) * YIELD * np.log(outer / bore)
     return {"pressure": np.interp(WAY * moved[-1], moved, pressure / limit)}

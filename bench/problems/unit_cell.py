@@ -1,4 +1,4 @@
-"""Die compaction of one disc: axial and lateral stress over relative density 0.80 to 0.95."""
+"""Die compaction of one disc: axial and lateral stress at relative densities of 0.80 to 0.95."""
 import numpy as np
 
 from .problem import (Problem, Reference, coarse_cores, densities, durations, formulations, interpolated, meshes,

@@ -1,5 +1,5 @@
-// What the throughput is measured on: a packing that is pressed until it is plastic everywhere, and then
-// goes on at the speed of the thesis.
+// Benchmark case: a packing that is pressed until it is plastic everywhere, and then further at the speed
+// of the thesis.
 #pragma once
 
 #include <memory>
@@ -15,26 +15,26 @@ namespace pulvis::bench {
 
 struct Case {
   std::string name;
-  const char* scene;  // below scenes/; its first move presses from above, the die starts at y = 0
+  const char* scene;  // path below scenes/; its first move presses from above, the die starts at y = 0
   int rows = 0,
-      columns = 0;  // of its first packing, and of a die around it; 0: as the scene has them
-  double compression = 0.03;  // of the height, before anything is timed
-  int batch = 0;  // steps that are timed at once; the stable time step is looked at every 8
+      columns = 0;  // of the first packing and its die; 0: as in the scene
+  double compression = 0.03;  // of the height, before timing starts
+  int batch = 0;  // steps per timed batch; the stable time step is checked every 8
   Formulation formulation = Formulation::one_point;
 };
 
 const std::vector<Case>& cases();
 const Case& case_called(const std::string& name);
 
-// The case's scene with two stages: crushing, fast, and then pressing, as slowly as the thesis does.
+// The scene of the case with two stages: fast crushing, then pressing as slowly as in the thesis.
 Scene scene_of(const Case& c);
 
-// A world in the state to be timed.
+// A world in the state for timing.
 //
 // A fast punch alone would crush the upper rows and leave the rest untouched, and a slow one takes minutes.
-// So the particles fall with it, each with the punch's speed times its height over the punch's: all rows are
-// crushed alike, in as many steps for 10,000 particles as for 100. Then all velocities are slowed down
-// alike, without a shock, and 600 steps pass at the final speed.
+// So the particles move with it, each at the punch speed times its height over that of the punch: all rows
+// are crushed uniformly, in as many steps for 10,000 particles as for 100. Then all velocities are reduced
+// uniformly, without a shock, and 600 steps are run at the final speed.
 class State {
  public:
   State(const Case& c, int threads);
@@ -45,7 +45,7 @@ class State {
   std::int64_t steps() const { return world_->resource<Clock>().step; }
   double startup() const {
     return startup_;
-  }  // s, from the scene's file to the end of the first step
+  }  // s, from the scene file to the end of the first step
 
  private:
   const Case& case_;

@@ -39,7 +39,7 @@ LimitMaterial material_of(const Shape& shape) {
   return {lambda, 2 * mu, 250e6, 1e9, hourglass / 8 * (lambda + 2 * mu) * dt, dt};
 }
 
-// All particles, four a block.
+// All particles, four per block.
 class Loop {
  public:
   Loop(const Shape& shape, int particles)
@@ -54,7 +54,7 @@ class Loop {
   }
   int blocks() const { return blocks_; }
 
-  // Every particle is squashed at a speed of its own.
+  // Every particle is compressed at a different speed.
   void start(int first, int last) {
     const double radius = std::sqrt(shape_.area / 3.14159265358979);
     for (int b = first; b < last; ++b) {
@@ -75,7 +75,7 @@ class Loop {
     for (int b = first; b < last; ++b)
       limit_step(nodes_of(b), elements_of(b), force.data(), mesh, material_);
   }
-  // Share of elements that have flowed.
+  // Fraction of elements that have yielded.
   double flowed() const {
     double count = 0;
     for (const LimitElement& e : elements_)
@@ -98,8 +98,8 @@ class Loop {
   std::vector<LimitElement> elements_;
 };
 
-// Threads that meet after every step. Nobody sleeps, since a step is some 60 microseconds, unless another process has
-// the processor of who is missing.
+// Barrier for threads after every step. Threads spin, since a step takes about 60 microseconds, and sleep only if
+// another process occupies the core of the missing one.
 class Meeting {
  public:
   explicit Meeting(int threads) : threads_(threads) {}
@@ -115,13 +115,13 @@ class Meeting {
   }
 
  private:
-  static constexpr int patience = 10'000;  // some 100 microseconds
+  static constexpr int patience = 10'000;  // about 100 microseconds
   int threads_;
   alignas(64) std::atomic<int> here_{0};
   alignas(64) std::atomic<int> round_{0};
 };
 
-// The t-th of those that the process may use: two threads that wait for each other on one would take turns.
+// The t-th core available to the process: two spinning threads must not share one core.
 void keep_to_processor(int t) {
   cpu_set_t allowed, one;
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -131,7 +131,7 @@ void keep_to_processor(int t) {
   if (CPU_COUNT(&one) == 1) pthread_setaffinity_np(pthread_self(), sizeof one, &one);
 }
 
-// What one thread does: `rounds` times a start, steps into the plastic range, steps on the clock. Returns their seconds.
+// Work of one thread: `rounds` times a start, steps into the plastic range, timed steps. Returns their seconds.
 double run(Loop& loop, Meeting& meeting, int rounds, int thread, int threads) {
   using Time = std::chrono::steady_clock;
   const int first = loop.blocks() * thread / threads, last = loop.blocks() * (thread + 1) / threads;

@@ -1,4 +1,4 @@
-// The limit: what this machine does of the kernels' work in a bare loop (limit_loop.hpp).
+// The limit: throughput of the kernels' work in a bare loop on this machine (limit_loop.hpp).
 #pragma once
 
 #include "components/shape.hpp"
@@ -8,8 +8,8 @@ namespace pulvis::bench {
 // The loop needs AVX2 and FMA.
 bool has_limit();
 
-// Seconds of so many steps of so many particles of the shape on 1 or 2 threads. The particles are squashed into the
-// plastic range, anew every 80 steps; that is not timed.
+// Seconds for this number of steps and particles of the given shape on 1 or 2 threads. The particles are compressed
+// into the plastic range, again every 80 steps; this is not timed.
 double limit_seconds(const Shape& shape, int particles, int steps, int threads);
 
 }  // namespace pulvis::bench

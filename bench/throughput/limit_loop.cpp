@@ -5,7 +5,7 @@
 namespace pulvis::bench {
 namespace {
 
-// What the first pass leaves for the second. The map's diagonals: xab = x_a - x_b.
+// Passed from the first pass to the second. Diagonals of the quad: xab = x_a - x_b.
 struct Trial {
   Four y24, y31, x42, x13, hx, hy, over;  // over: 1 / twice the area
   Four dxx, dyy, sxy, mean, mises2;       // trial stress
@@ -98,7 +98,7 @@ void move(LimitNode* nodes, LimitForce* force, const LimitMesh& mesh, double dt)
 
 }  // namespace
 
-// Ten elements at a time in two passes: the division of one pass and the root of the other do not wait for each other.
+// Ten elements at a time in two passes, so that the division of one and the root of the other do not stall each other.
 void limit_step(LimitNode* nodes, LimitElement* elements, LimitForce* force, const LimitMesh& mesh,
                 const LimitMaterial& m) {
   constexpr int block = 10;

@@ -1,14 +1,14 @@
-// A bare loop over one-point quads, to measure the kernels against: plain data, so that limit_loop.cpp alone is compiled
+// A bare loop over one-point quads as a baseline for the kernels: plain data, so that only limit_loop.cpp is compiled
 // for AVX2.
 //
 // Method   small-increment J2: Jaumann rate, radial return, linear hardening; elastic hourglass stress of Flanagan &
 //          Belytschko (1981); leapfrog. Four particles of one mesh in the lanes of a register
-// Lacks    the exactness of finite strain, plastic bending, other laws, any contact
+// Lacks    exact finite strain, plastic bending, other material laws, contact
 #pragma once
 
 namespace pulvis::bench {
 
-using Four [[gnu::vector_size(32)]] = double;  // one particle a lane
+using Four [[gnu::vector_size(32)]] = double;  // one particle per lane
 
 struct alignas(32) LimitNode {
   Four x, y, u, v;  // m, m/s
@@ -32,7 +32,7 @@ struct LimitMesh {
 };
 struct LimitMaterial {
   double lambda, two_mu, yield_stress, hardening;  // Pa
-  double hourglass;                                // Pa, of a rate times the step
+  double hourglass;                                // Pa, multiplies a rate times the step
   double dt;                                       // s
 };
 

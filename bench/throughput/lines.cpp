@@ -12,7 +12,7 @@ namespace pulvis::bench {
 namespace {
 
 using Time = std::chrono::steady_clock;
-constexpr int warm_up = 8;  // steps: caches and workers after a change of threads
+constexpr int warm_up = 8;  // steps: warms up caches and workers after a change of threads
 
 double since(Time::time_point start) {
   return std::chrono::duration<double>(Time::now() - start).count();
@@ -25,7 +25,7 @@ std::vector<System> all_systems(World& world) {
   return all;
 }
 
-// The step in three graphs, of which the middle one is timed.
+// The step split into three graphs; only the middle one is timed.
 class SplitStep {
  public:
   SplitStep(World& world, std::vector<System> all)
@@ -60,8 +60,8 @@ class SplitStep {
   TaskGraph before_, kernels_, after_;
 };
 
-// What follows each other is fused. Unlike a graph it does not move the systems of the whole world out of the way, so
-// that what a graph would drop after a pass is kept here.
+// Consecutive systems are fused. Unlike a graph, this does not move world-wide systems out of the way, so data that a
+// graph would drop after a pass is kept here.
 class TimedSystems {
  public:
   explicit TimedSystems(World& world)

@@ -14,7 +14,7 @@
 namespace pulvis::bench {
 namespace {
 
-// Until the last thread is done with its share.
+// Measured until the last thread has finished its share.
 double seconds_on(int threads, const std::function<void(int)>& work) {
   const auto start = std::chrono::steady_clock::now();
   {
@@ -26,7 +26,7 @@ double seconds_on(int threads, const std::function<void(int)>& work) {
 }
 
 // ---- arithmetic -----------------------------------------------------------------------------------
-// Each returns the operations that it did. More sums side by side than the latency of a multiply-add hides.
+// Each returns its operation count. Enough independent sums to hide the latency of a multiply-add.
 constexpr int sums = 12;
 constexpr std::int64_t rounds = 20'000'000;
 
@@ -71,7 +71,7 @@ double multiply_add() {
 
 // ---- memory ---------------------------------------------------------------------------------------
 struct Triad {
-  static constexpr std::int64_t length = std::int64_t{1} << 23;  // 64 MiB an array
+  static constexpr std::int64_t length = std::int64_t{1} << 23;  // 64 MiB per array
   static constexpr int passes = 4;
 
   std::unique_ptr<double[]> a{new double[length]}, b{new double[length]}, c{new double[length]};

@@ -1,21 +1,21 @@
-// What the machine itself can do, measured beside the program, and what it is.
+// Peak performance of the machine, measured along with the program, and its description.
 #pragma once
 
 #include <string>
 
 namespace pulvis::bench {
 
-// A second, in double precision: fused multiply-adds in the widest registers there are, each two operations
-// a lane, from and to registers.
+// Operations per second in double precision: fused multiply-adds in the widest available registers, each
+// two operations per lane, register to register.
 double peak_flops(int threads);
 
-// Bytes a second of a[i] = b[i] + s c[i] over arrays that no cache holds: three doubles an i, as STREAM
-// counts. (The line of a that is read before it is written comes on top, unseen.)
+// Bytes per second of a[i] = b[i] + s c[i] over arrays larger than any cache: three doubles per i, as in
+// STREAM. (The write-allocate read of a is not counted.)
 double triad_bandwidth(int threads);
 
 std::string compiler();
 
-// Bytes of this process in memory now.
+// Current resident memory of this process in bytes.
 double resident_bytes();
 
 }  // namespace pulvis::bench

@@ -1,11 +1,11 @@
-// Throughput of the explicit step, its systems, and the machine that it runs on. bench/throughput.py drives
-// this program and reads its JSON; docs/performance.md says what the lines mean.
+// Throughput of the explicit step, its systems, and the machine it runs on. bench/throughput.py runs
+// this program and reads its JSON; docs/performance.md explains the lines.
 //
 //   throughput [--cases=NAME,...] [--rounds=N] [BENCHMARK OPTION]...
-//   throughput --count=NAME:STEPS     no clock: the prepared state and STEPS more, on one thread
+//   throughput --count=NAME:STEPS     no timing: the prepared state and STEPS more, on one thread
 //
-// A round measures every line once, so that whatever else the machine does falls on all of them. One case
-// at a time is held in memory. Every line has `value`, in the unit that its label says.
+// A round measures every line once, so that background load affects all of them. Only one case
+// at a time is held in memory. Every line has `value`, in the unit given by its label.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ State& state_of(const Case& c) {
   return *kept;
 }
 
-// What one line yields; `seconds` of `updates` element-updates where it is a time.
+// Result of one line; `seconds` for `updates` element updates if it is a time.
 struct Line {
   double value = 0;
   const char* unit = "";
@@ -101,7 +101,7 @@ void add_times(const Case& c, int threads) {
   if (has_limit()) timed("limit", limit_seconds_of);
 }
 
-// All systems of a round are timed by the first of their lines.
+// All systems of a round are timed when the first of their lines is measured.
 void add_systems(const Case& c, const std::vector<std::string>& names) {
   const auto seconds = std::make_shared<std::map<std::string, double>>();
   for (std::size_t s = 0; s < names.size(); ++s)
@@ -143,7 +143,7 @@ void add_state(const Case& c) {
   });
 }
 
-// Of the systems that the case's scene asks for, without preparing it.
+// For the systems required by the scene of the case, without preparing it.
 std::vector<std::string> names_of(Case c) {
   if (c.rows > 0) c.rows = c.columns = 2;
   const auto world = build_world(scene_of(c));
@@ -171,7 +171,7 @@ void register_all(const Options& options) {
 }
 
 // ---- the command line -----------------------------------------------------------------------------
-// Takes --NAME=... out of the arguments.
+// Removes --NAME=... from the arguments.
 std::string take(int& argc, char** argv, const std::string& name) {
   std::string value;
   int kept = 0;
@@ -191,7 +191,7 @@ Options options_from(int& argc, char** argv) {
   const std::string rounds = take(argc, argv, "rounds");
   if (!rounds.empty()) options.rounds = std::stoi(rounds);
   std::istringstream names(options.cases);
-  for (std::string name; std::getline(names, name, ',');) case_called(name);  // or throws
+  for (std::string name; std::getline(names, name, ',');) case_called(name);  // throws if unknown
   return options;
 }
 

@@ -90,7 +90,7 @@ class Fitting {
     return run;
   }
 
-  // None: it went to its end.
+  // None: it ran to its end.
   std::optional<ExitCode> round() {
     std::vector<StudyRun> runs;
     for (const auto& values : search_.asks()) runs.push_back(run_of(values));

@@ -1,4 +1,4 @@
-// pulvis fit: keys of a simulated sliding-plate test, sought until its friction is the measured one.
+// pulvis fit: calibrates keys of a simulated sliding-plate test until its friction matches the test.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@ namespace pulvis {
 struct FitOptions {
   std::filesystem::path fit;
   std::filesystem::path folder;  // empty: runs/<name of the fit>
-  int jobs = 0;                  // runs at once; 0: as many as the processors are enough for
+  int jobs = 0;                  // concurrent runs; 0: as many as the processors allow
   bool fresh = false;            // run everything again
   std::vector<std::string> overrides;
-  std::string reference;  // print the language instead
+  std::string reference;  // print the language reference instead
 };
 
 ExitCode run_fit(const FitOptions& options);

@@ -1,4 +1,4 @@
-// What a fit leaves in its folder: fit.json, trials.csv, report.html.
+// Output files of a fit: fit.json, trials.csv, report.html.
 #pragma once
 
 #include <filesystem>

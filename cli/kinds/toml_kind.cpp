@@ -58,7 +58,7 @@ std::optional<std::string> other_kind(const std::string& command,
                            first.origin.mark.column, printable(first.key), kind.name, own.name,
                            kind.command);
       }
-  } catch (const std::exception&) {  // it is no TOML, and refused as that
+  } catch (const std::exception&) {  // not TOML, and refused as such
   }
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// What kind of TOML file a command was given by mistake.
+// Detects which kind of TOML file was passed to the wrong command.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace pulvis {
 
-// Where `command` cannot read the file, but another command can: what the file is, and how it is run. By the names of
-// its top-level tables and keys alone.
+// If `command` cannot read the file but another command can: what the file is, and how to run it. Judged only by its
+// top-level tables and keys.
 std::optional<std::string> other_kind(const std::string& command,
                                       const std::filesystem::path& file);
 

@@ -1,4 +1,4 @@
-// Compression curves of a press: reduced, fitted, and laid over simulations.
+// Compression curves of a press: reduced, fitted, and compared with simulations.
 #pragma once
 
 #include "cli/lab/lab_output.hpp"

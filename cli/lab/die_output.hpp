@@ -1,4 +1,4 @@
-// Compressions in an instrumented die: wall friction and stress ratio as functions of the density, simulations beside.
+// Compression in an instrumented die: wall friction and stress ratio against density, compared with simulations.
 #pragma once
 
 #include "cli/lab/lab_output.hpp"

@@ -1,5 +1,5 @@
-// What a reduction of laboratory records leaves in its folder: tables (CSV), summary.json, report.html, and the
-// settings with copies of the records. Each kind of record makes one of these.
+// Output files of a reduction of laboratory records: tables (CSV), summary.json, report.html, and the
+// settings with copies of the records. Each kind of record produces one of these.
 #pragma once
 
 #include <filesystem>
@@ -19,29 +19,29 @@ struct LabOutput {
   std::string title, lead;                                 // of the page
   nlohmann::ordered_json charts = nlohmann::ordered_json::array();
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
-  std::string told;  // on the command line
+  std::string told;  // printed on the command line
 
-  std::vector<std::string> names() const;  // of all files that will be written, the settings too
+  std::vector<std::string> names() const;  // of all files to be written, including the settings
 };
 
 void write_lab(const std::filesystem::path& folder, const LabOutput& output,
                const lab::LoadedSettings& loaded);
 
-// The page alone, with the settings as they stand on it.
+// Only the page, with the settings shown on it.
 void write_lab_page(const std::filesystem::path& folder, const LabOutput& output,
                     const std::string& settings, const char* role);
 
-// A line of a chart, thinned to what can be seen.
+// A line of a chart, thinned to the visible resolution.
 nlohmann::ordered_json chart_line(const std::string& label, const char* unit,
                                   std::span<const double> x, std::span<const double> y);
 nlohmann::ordered_json chart_of(const std::string& title, const char* x_label, const char* x_unit,
                                 const char* y_label);
 
-// {value, error, unit} as a cell of the page's tables; the error is the half width of the interval.
+// {value, error, unit} as a table cell of the page; the error is the half-width of the interval.
 nlohmann::ordered_json measured_cell(const lab::Measured& figure, double confidence);
 // The same with all contributions, for summary.json.
 nlohmann::ordered_json measured_json(const lab::Measured& figure, double confidence);
-// "yield_pressure 420.1 +- 0.8 MPa" with the prefix that is read best.
+// "yield_pressure 420.1 +- 0.8 MPa" with the most readable prefix.
 std::string measured_text(const lab::Measured& figure, double confidence);
 
 }  // namespace pulvis

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 struct Response {
   const char* name;
-  std::vector<double> values;  // one a run
+  std::vector<double> values;  // one per run
   lab::Effects effects;
 };
 
@@ -54,7 +54,7 @@ Matrix matrix_of(const Reduction& all) {
   return matrix;
 }
 
-// Half width by the condition's own runs, and by the scatter of all conditions together.
+// Half-width from the number of the condition's runs and the pooled scatter of all conditions.
 std::optional<double> pooled_half_width(const Matrix& m, const lab::Effects& e, std::size_t runs) {
   if (!e.not_found.empty() || e.freedom < 1) return std::nullopt;
   return lab::student_quantile(m.confidence, e.freedom) * e.deviation /
@@ -221,7 +221,7 @@ Json curves_chart(const Matrix& m) {
   return chart;
 }
 
-// Marks over the levels, a place a level.
+// Marks over the levels, one position per level.
 Json effects_chart(const Matrix& m, const Response& r) {
   Json chart = chart_of(fmt::format("Effects on the {} coefficient", r.name),
                         "level, in the order of the table", "-", "effect");

@@ -1,4 +1,4 @@
-// Sliding-plate tests under a matrix of conditions: means with their intervals, and the effects of the factors.
+// Sliding-plate tests over a matrix of conditions: means with their intervals, and main effects of the factors.
 #pragma once
 
 #include "cli/lab/lab_output.hpp"
@@ -6,7 +6,7 @@
 
 namespace pulvis {
 
-// Of runs that all state their condition.
+// For runs that all state their condition.
 LabOutput matrix_output(const Reduction& all);
 
 }  // namespace pulvis

@@ -57,7 +57,7 @@ std::vector<lab::RunFiles> files_of(const std::vector<lab::RunSpec>& specs,
   return runs;
 }
 
-// The first record of the press belongs to the first of the logger, and so on.
+// The first press record belongs to the first logger record, and so on.
 std::vector<lab::RunSpec> pairs_of(const Paths& records, const lab::Settings& settings) {
   Paths presses, loggers;
   for (const std::filesystem::path& file : records) {
@@ -90,7 +90,7 @@ void name_runs(std::vector<lab::RunFiles>& runs) {
   }
 }
 
-// A file of friction loops among the records says what kind of reduction is wanted.
+// A file of friction loops among the records determines the kind of reduction.
 lab::LoadedSettings settings_of(const Inputs& inputs, std::vector<std::string> overrides) {
   const auto loops = std::ranges::find_if(inputs.records, wedge::holds_loops);
   if (loops != inputs.records.end()) {
@@ -139,7 +139,7 @@ std::vector<std::string> files_of(const Reduction& all) {
   return files;
 }
 
-// `files` are what will be written. None of them may be somebody else's, or one that is being read.
+// `files` are what will be written. None of them may be a foreign file, or one that is being read.
 void open_folder(const ReduceOptions& options, const std::vector<std::string>& files) {
   const std::filesystem::path& folder = options.folder;
   for (const std::string& file : files) {
@@ -200,7 +200,7 @@ void write_output(const ReduceOptions& options, const LabOutput& output,
   tell("{}results in {}\n", output.told, options.folder.string());
 }
 
-// Kinds whose records stand in the settings alone.
+// Kinds whose records are named only in the settings.
 std::optional<LabOutput> output_of(const ReduceOptions& options,
                                    const lab::LoadedSettings& loaded) {
   if (!loaded.settings.curves.empty()) return compression_output(loaded, options.simulations);

@@ -1,4 +1,4 @@
-// pulvis reduce: raw records of sliding-plate tests, or an AFM's friction loops on slopes, to friction, figures
+// pulvis reduce: from raw records of sliding-plate tests, or AFM friction loops on slopes, to friction, figures
 // and a report.
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace pulvis {
 
 struct ReduceOptions {
-  std::vector<std::filesystem::path> files;  // records (CSV), and settings where they end in .toml
+  std::vector<std::filesystem::path> files;  // records (CSV), and settings if they end in .toml
   std::vector<std::filesystem::path> simulations;  // run folders
   std::filesystem::path folder = "reduced";
   std::vector<std::string> overrides;  // key.path=value

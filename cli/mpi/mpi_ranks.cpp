@@ -19,7 +19,7 @@ namespace {
 
 constexpr int root = 0;
 constexpr int collective =
-    2;  // tag of what gather and all_to_all send; those of an exchange are its kind
+    2;  // tag of gather and all_to_all messages; those of an exchange use its kind
 static_assert(collective != static_cast<int>(Ranks::Kind::outlines) &&
               collective != static_cast<int>(Ranks::Kind::contacts));
 
@@ -45,14 +45,14 @@ void end_at_error(MPI_Comm*, int* error, ...) {
   end_all(text.data());
 }
 
-// The process ends while the others still count on it.
+// The process ends while the others still depend on it.
 void end_unfinished(int exit_code, void*) {
   int finished = 0;
   MPI_Finalized(&finished);
   if (finished == 0) end_all(exit_code != 0 ? exit_code : machine_failed);
 }
 
-// Integers in the order of the doubles, -0 before 0: every rank gets the same bits, whoever is compared with whom first.
+// Integers ordered like the doubles, -0 before 0: every rank gets the same bits, in whatever order ranks are compared.
 std::int64_t in_order(double number) {
   if (std::isnan(number)) number = std::numeric_limits<double>::infinity();
   const auto bits = std::bit_cast<std::int64_t>(number);
@@ -62,7 +62,7 @@ double from_order(std::int64_t bits) {
   return std::bit_cast<double>(bits < 0 ? bits ^ std::numeric_limits<std::int64_t>::max() : bits);
 }
 
-// The processor time of a call, which waits by asking.
+// Measures the processor time of a call that waits by polling.
 class Waiting {
  public:
   explicit Waiting(double& seconds) : seconds_(seconds), since_(thread_seconds()) {}
@@ -91,14 +91,14 @@ MpiRanks::MpiRanks(std::size_t most_bytes)
   if (provided < MPI_THREAD_SERIALIZED)
     end_all(
         "this MPI cannot be called by several threads one after another (MPI_THREAD_SERIALIZED)");
-  MPI_Comm_dup(MPI_COMM_WORLD, &world_);  // with its error handler
+  MPI_Comm_dup(MPI_COMM_WORLD, &world_);  // keeps its error handler
   MPI_Comm_rank(world_, &rank_);
   MPI_Comm_size(world_, &count_);
 }
 
 MpiRanks::~MpiRanks() {
   if (std::uncaught_exceptions() > exceptions_)
-    return;  // what it says is told before the end: end_unfinished
+    return;  // its message is printed before the end: end_unfinished
   for (Sending& one : sending_)
     MPI_Waitall(static_cast<int>(one.parts.size()), one.parts.data(), MPI_STATUSES_IGNORE);
   MPI_Comm_free(&world_);
@@ -127,7 +127,7 @@ void MpiRanks::sum(std::span<std::int64_t> numbers) {
   bytes_sent_ += numbers.size_bytes();
 }
 
-// In parts, of which the last is shorter than the others, and may be empty: it says that the message ends.
+// In parts; the last one is shorter than the others, and may be empty: it marks the end of the message.
 void MpiRanks::post_send(std::span<const std::byte> bytes, int to, int tag,
                          Requests& requests) const {
   for (bool more = true; more;) {
@@ -139,7 +139,7 @@ void MpiRanks::post_send(std::span<const std::byte> bytes, int to, int tag,
   }
 }
 
-// What post_send has sent, where its size is known.
+// Receives what post_send has sent, if its size is known.
 void MpiRanks::post_receive(std::span<std::byte> bytes, int from, int tag,
                             Requests& requests) const {
   for (bool more = true; more;) {
@@ -151,7 +151,7 @@ void MpiRanks::post_receive(std::span<std::byte> bytes, int from, int tag,
   }
 }
 
-// Where it is not known.
+// If its size is not known.
 Ranks::Bytes MpiRanks::receive_from(int rank, int tag) const {
   Bytes bytes;
   for (bool more = true; more;) {

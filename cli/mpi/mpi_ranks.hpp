@@ -1,8 +1,8 @@
-// Ranks by MPI: the only file that knows MPI, in a library of its own that is loaded where a run has ranks
+// Ranks over MPI: the only file that uses MPI, in a separate library that is loaded when a run has ranks
 // (cli/ranks/mpi_plugin.hpp).
 //
-// An error of MPI is told with the rank it came to and ends all ranks with exit code 4. A process that ends without
-// having destroyed its MpiRanks, or in an exception, takes all others with it instead of leaving them waiting.
+// An MPI error is reported with the rank where it occurred and ends all ranks with exit code 4. A process that ends
+// without destroying its MpiRanks, or by an exception, aborts all others instead of leaving them waiting.
 #pragma once
 
 #include <mpi.h>
@@ -47,7 +47,7 @@ class MpiRanks final : public Ranks {
   std::size_t most_bytes_;
   MPI_Comm world_ = MPI_COMM_NULL;
   int rank_ = 0, count_ = 1;
-  int exceptions_;  // under way when it was made
+  int exceptions_;  // in flight when it was constructed
   std::uint64_t bytes_sent_ = 0;
   double seconds_waited_ = 0;
   std::list<Sending> sending_;

@@ -15,7 +15,7 @@ std::string duration_text(double seconds) {
   return fmt::format("about {:.2g} h", seconds / 3600);
 }
 
-// Two digits, written out: 1234567 is 1,200,000.
+// Rounds to two digits, written out: 1234567 is 1,200,000.
 std::string rounded(double count) {
   const double unit = count < 100 ? 1 : std::pow(10, std::floor(std::log10(count)) - 1);
   std::string digits = fmt::format("{:.0f}", std::round(count / unit) * unit);
@@ -30,7 +30,7 @@ RunEstimate estimate_run(Simulation& simulation) {
   using Time = std::chrono::steady_clock;
   constexpr double long_enough = 0.02;  // s
   RunEstimate estimate;
-  simulation.run_steps(2);  // first touch of memory, first look for contacts
+  simulation.run_steps(2);  // first touch of memory, first contact search
   estimate.dt = simulation.clock().dt;
   estimate.steps = simulation.clock().end / estimate.dt;
   const Time::time_point begin = Time::now();

@@ -57,7 +57,7 @@ std::map<std::uint8_t, Part> parts_of(const SolidMesh& mesh) {
   return parts;
 }
 
-// Faces that one element alone has and that look up or down: up ones lie above the middle of what is there.
+// Faces of only one element that point up or down, in the upper half of the body; all turned to point up.
 std::vector<Face> upper_faces(const std::vector<Face>& faces, const std::vector<Vec3>& at) {
   std::map<Face, int> seen;
   const auto key = [](Face face) {
@@ -177,7 +177,7 @@ json actions_setup(const std::vector<ActionSpec>& actions) {
   return out;
 }
 
-// How far the scanner goes sideways, for a profile to be drawn that far.
+// Sideways travel of the scanner: the profile is drawn that far.
 double travel_of(const AfmScene& afm) {
   double distance = 0;
   for (const ActionSpec& action : afm.actions)

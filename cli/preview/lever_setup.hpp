@@ -1,4 +1,4 @@
-// What the preview of an AFM scene draws: the lever as meshed, its tip, the sample and the programme, in SI units.
+// What the preview of an AFM scene draws: the meshed lever, its tip, the sample and the programme, in SI units.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

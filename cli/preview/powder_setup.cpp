@@ -41,7 +41,7 @@ json material_setup(const MaterialSpec& material) {
 
 // ---- classes ----------------------------------------------------------------------------------------
 struct Size {
-  double width = 0, height = 0, diameter = 0;  // m; the last of the circle of equal area
+  double width = 0, height = 0, diameter = 0;  // m; diameter of the circle of equal area
 };
 
 Size size_of(const Outline& outline) {
@@ -62,7 +62,7 @@ Size size_of(const Outline& outline) {
   return {high.x() - low.x(), high.y() - low.y(), 2 * std::sqrt(area / std::numbers::pi)};
 }
 
-// The class that a size of a packing is made of.
+// The class that a packing's size is derived from.
 int base_of(const Scene& scene, int particle) {
   const int of = scene.particles[static_cast<std::size_t>(particle)].class_of;
   return of < 0 ? particle : of;
@@ -70,7 +70,7 @@ int base_of(const Scene& scene, int particle) {
 
 struct ClassOf {
   int count = 0;
-  std::map<int, int> sizes;  // particle -> how many
+  std::map<int, int> sizes;  // particle -> count
 };
 
 void widen(json& range, double value) {
@@ -118,7 +118,7 @@ std::vector<Loop> loops_of(const Shape& shape) {
   return rims_of(faces);
 }
 
-// Places on an edge of the contact curve, a cubic B-spline: at its beginning, in its middle and at its end.
+// Points on an edge of the contact curve, a cubic B-spline: at its start, in its middle and at its end.
 using EdgePoints = std::array<PlanePoint, 3>;
 EdgePoints edge_points_of(const World& world, int slot, const Shape::Edge& edge) {
   const int control =
@@ -135,18 +135,18 @@ EdgePoints edge_points_of(const World& world, int slot, const Shape::Edge& edge)
   return points;
 }
 
-// x, y, x, y, ...: as other particles and tools feel it.
+// x, y, x, y, ...: as seen by contacts with other particles and tools.
 json contact_outline(const World& world, int slot) {
   json points = json::array();
   for (const Shape::Edge& edge : world.resource<Bodies>().shape_of_slot(slot).edges) {
     const EdgePoints places = edge_points_of(world, slot, edge);
-    for (std::size_t at = 0; at < 2; ++at)  // the end is the next one's beginning
+    for (std::size_t at = 0; at < 2; ++at)  // the end is the start of the next edge
       for (const double coordinate : places[at]) points.push_back(coordinate);
   }
   return points;
 }
 
-// The outline first, then the rims of holes.
+// The outline first, then the boundaries of holes.
 json particle_setup(const World& world, int slot, const std::vector<Loop>& loops) {
   const auto& x = world.column<Position>();
   const ChunkLane place(slot);
@@ -173,7 +173,7 @@ json particles_setup(const Scene& scene, const std::vector<BodySpec>& particles,
   for (int number = 0; number < bodies.particles(); ++number) {
     const int slot = entry(bodies.slot_of_number, number);
     const Bodies::Slot& of = entry(bodies.slots, slot);
-    // A grain belongs to a particle; a particle of one piece is its own.
+    // A grain belongs to a particle; a particle without grains is its own parent.
     const int parent = of.parent == Bodies::empty_slot ? number : of.parent;
     const BodySpec& body = entry(particles, parent);
     json one{

@@ -13,9 +13,9 @@ namespace pulvis {
 nlohmann::json powder_setup(const Scene& scene, const std::vector<BodySpec>& particles,
                             const World& world);
 
-// What three dimensions have as well.
+// Also used in three dimensions.
 nlohmann::json materials_setup(const Scene& scene);
 nlohmann::json pairs_setup(
-    const Scene& scene);  // friction between particles, of every pair of materials
+    const Scene& scene);  // friction between particles, for every pair of materials
 
 }  // namespace pulvis

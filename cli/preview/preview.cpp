@@ -34,7 +34,7 @@ json of_lever(const Scene& scene, SceneFindings& findings) {
   return lever_setup(scene, model);
 }
 
-// The estimate moves the simulation on: what is drawn is taken before.
+// The estimate advances the simulation: the drawing data are taken before it.
 json of_powder(const Scene& scene, SceneFindings& findings) {
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);

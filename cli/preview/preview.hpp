@@ -1,5 +1,5 @@
-// pulvis preview: the set-up of a scene, drawn and labelled before it runs. What is drawn is written as JSON; the scripts
-// of the package pulvis.preview, which the program carries, draw it. They need python3 with numpy and matplotlib.
+// pulvis preview: draws and labels the set-up of a scene before it runs. The drawing data are written as JSON; scripts
+// of the package pulvis.preview, embedded in the program, draw them. They need python3 with numpy and matplotlib.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace pulvis {
 
 struct PreviewOptions {
   std::filesystem::path scene;
-  std::filesystem::path output = "preview.png";  // .png .svg .pdf, or .json: what would be drawn
+  std::filesystem::path output = "preview.png";  // .png .svg .pdf, or .json: the drawing data
   std::vector<std::string> overrides;
 };
 

@@ -20,7 +20,7 @@ std::vector<PlanePoint> half_hull(Iterator begin, Iterator end) {
       chain.pop_back();
     chain.push_back(*at);
   }
-  chain.pop_back();  // it begins the other half
+  chain.pop_back();  // it starts the other half
   return chain;
 }
 

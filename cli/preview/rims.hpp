@@ -1,4 +1,4 @@
-// Outlines of what is drawn as filled areas.
+// Outlines of areas that are drawn filled.
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 
 namespace pulvis {
 
-using Loop = std::vector<std::size_t>;     // nodes, one after the other
-using Face = std::vector<std::size_t>;     // nodes, all faces the same way round
+using Loop = std::vector<std::size_t>;     // nodes in order
+using Face = std::vector<std::size_t>;     // nodes, all faces with the same orientation
 using PlanePoint = std::array<double, 2>;  // m
 
-// Chains of edges that one face alone has: the outline, and the rims of holes.
+// Chains of edges that belong to only one face: the outline, and the rims of holes.
 std::vector<Loop> rims_of(const std::vector<Face>& faces);
 
 // The corners of the convex hull, counter-clockwise.

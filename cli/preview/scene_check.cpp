@@ -32,7 +32,7 @@
 namespace pulvis {
 namespace {
 
-// A run that fails in its first steps has no estimate; `run` says why.
+// A run that fails in its first steps has no estimate; `run` reports why.
 std::string estimate_line(Simulation* simulation) {
   if (simulation == nullptr) return "warning: this machine does not have enough memory for the run";
   try {
@@ -54,7 +54,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodyS
                                      Simulation* simulation) {
   std::vector<std::string> lines = bending_warnings(scene);
   if (simulation != nullptr &&
-      has_bonds(scene))  // what is bonded is known once contacts have been looked for
+      has_bonds(scene))  // bonds are known only after a contact search
     std::ranges::move(bond_warnings(scene, simulation->world()), std::back_inserter(lines));
   std::ranges::move(setup_warnings(scene, bodies), std::back_inserter(lines));
   return lines;

@@ -1,4 +1,4 @@
-// pulvis check: whether a scene is right, and what a user should know of it before it runs.
+// pulvis check: whether a scene is valid, and what a user should know about it before it runs.
 #pragma once
 
 #include <string>
@@ -13,18 +13,18 @@
 
 namespace pulvis {
 
-// Of everything that can be said before the first step. `simulation`: at its start; none where memory is too small.
+// Everything that can be said before the first step. `simulation`: at its start; null if memory is too small.
 std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                                      Simulation* simulation);
 
-// What is told of a scene, in the order of its lines.
+// What is reported about a scene, in the order of its lines.
 struct SceneFindings {
-  std::string sizes;                  // of packings and meshes: whole lines
+  std::string sizes;                  // of packings and meshes: complete lines
   std::vector<std::string> warnings;  // one line each
-  std::string memory, run;            // a line each, or empty
-  std::string verdict;                // a line
+  std::string memory, run;            // one line each, or empty
+  std::string verdict;                // one line
 };
-// Moves the simulation on.
+// Advances the simulation.
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                           const MemoryNeed& need, Simulation* simulation);
 SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>& bodies,
@@ -32,7 +32,7 @@ SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>
 SceneFindings findings_of(const Scene& scene, const AfmModel& model);
 void tell_findings(const SceneFindings& findings);
 
-// Of an AFM scene, before it is taken. Throws OutputError where there is not so much.
+// For an AFM scene, before its memory is allocated. Throws OutputError if there is not enough.
 void tell_lever_memory(const Scene& scene);
 
 ExitCode check_scene(const Scene& scene);

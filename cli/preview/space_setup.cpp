@@ -35,7 +35,7 @@ const space::ParticleSpec& class_of_body(const space::SpaceScene& scene,
 
 json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-// x, y, z, x, ... of the surface's nodes; four of them a face, counter-clockwise from outside.
+// x, y, z, x, ... of the surface nodes; four per face, counter-clockwise from outside.
 json particle_surface(const World& world, std::size_t first, int lane, const space::Shape& shape) {
   json nodes = json::array(), faces = json::array();
   const Lane* x = world.column<space::Position>().lanes() + 3 * first;
@@ -66,7 +66,7 @@ json particles_in_space(const Scene& scene, const std::vector<space::BodySpec>& 
   return out;
 }
 
-// Diameters: of balls of the same volume.
+// Diameters of spheres of the same volume.
 json classes_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
                       const json& particles) {
   json out = json::array();

@@ -23,7 +23,7 @@ const std::string& tool_name(const Scene& scene, int tool) {
 
 json move_setup(const Scene& scene, const StageSpec& stage, const MoveSpec& move) {
   json out{{"tool", tool_name(scene, move.tool)}, {"displacement", vector_of(move.displacement)}};
-  // Where the ramps at both ends take their share of the stage.
+  // The ramps at both ends take their share of the stage.
   out["speed"] = move.displacement.norm() / (stage.duration * (1 - move.ramp));
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(move.tool)];
   if (tool.shape == ToolSpec::Shape::constraint && tool.holds == ToolSpec::Holds::radial)

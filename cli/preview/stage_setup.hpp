@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// [{name, kind, duration, moves, servos, until, cell, keep_state}], in SI units; what is not there is left out.
+// [{name, kind, duration, moves, servos, until, cell, keep_state}], in SI units; absent entries are left out.
 nlohmann::json stage_setup(const Scene& scene);
 
 }  // namespace pulvis

@@ -20,7 +20,7 @@ using nlohmann::json;
 
 json point_of(const Vec2& v) { return {v.x(), v.y()}; }
 
-// By material; of a pair with a law of its own its coefficient of sliding.
+// By material; for a pair with a contact law of its own, that law's sliding coefficient.
 json friction_setup(const Scene& scene, const ToolSpec& tool) {
   json out = json::object();
   for (const MaterialSpec& material : scene.materials)
@@ -28,7 +28,7 @@ json friction_setup(const Scene& scene, const ToolSpec& tool) {
   return out;
 }
 
-// Where the nodes are that it holds.
+// Positions of the nodes that it holds.
 json held_nodes(const World& world, int tool) {
   const auto& target = world.column<ConstraintTarget>();
   const auto& begin = world.resource<ConstraintIndex>().begin;
@@ -73,7 +73,7 @@ json touching_setup(const Scene& scene, const ToolSpec& tool, const Vec2& positi
   return out;
 }
 
-// The face of a tool: of a polyline what lies furthest in the powder.
+// The face of a tool: for a polyline its innermost point towards the powder.
 double face_of(const json& tool, const char* axis, bool largest) {
   const std::size_t k = axis[0] == 'x' ? 0 : 1;
   if (!tool.contains("points")) return tool["point"][k];

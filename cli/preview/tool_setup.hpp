@@ -1,4 +1,4 @@
-// The tools of a scene of particles and what is around its powder, as its preview draws them.
+// The tools of a scene of particles and the enclosure of its powder, as its preview draws them.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,10 +8,10 @@
 
 namespace pulvis {
 
-// [{name, shape, point, normal, points, friction by material, ...}] where they stand at the start.
+// [{name, shape, point, normal, points, friction by material, ...}] at their initial positions.
 nlohmann::json tool_setup(const Scene& scene, const World& world);
 
-// The room between four tools: {left, right, bottom, top} as names, x and y of their faces. Null where there is none.
+// The space between four tools: {left, right, bottom, top} as names, x and y of their faces. Null if there is none.
 nlohmann::json die_setup(const Scene& scene, const nlohmann::json& tools);
 
 // {corner, vectors}. Null without one.

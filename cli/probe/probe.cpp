@@ -44,7 +44,7 @@ void require_own_probe(const fs::path& folder, const Probe& probe) {
                          "it holds a run or a study; allowed: a folder of its own");
 }
 
-// The scene as a file of the probe's folder, and as something to run.
+// The scene, written to a file in the probe's folder, as a run.
 StudyRun written_run(const fs::path& folder, const std::string& name, const std::string& text) {
   StudyRun run;
   run.name = run.variation = name;
@@ -65,10 +65,10 @@ std::vector<StudyRun> loading_runs(const fs::path& folder, const Probe& probe) {
   return runs;
 }
 
-// The runs from one state; their angles, none for the shear.
+// The runs from one state; their angles, none for shear.
 struct StateRuns {
   std::vector<std::optional<double>> angles;
-  std::size_t first = 0;  // in the list of all
+  std::size_t first = 0;  // index in the list of all runs
 };
 
 StateRuns add_probes(const fs::path& folder, const Probe& probe, const ProbeLoading& loading,
@@ -91,7 +91,7 @@ StateRuns add_probes(const fs::path& folder, const Probe& probe, const ProbeLoad
   return mine;
 }
 
-// True when it went to its end.
+// True if it ran to its end.
 bool went(StudyRunner& runner, const char* what) {
   tell("{}: ", what);
   runner.go();
@@ -156,7 +156,7 @@ class Probing {
  private:
   void warn_of_moduli(const ProbeSurface& surface) const {
     const PowderModuli& m = surface.moduli;
-    const bool none = m.c11 == 0 && m.c22 == 0;  // their runs are told of
+    const bool none = m.c11 == 0 && m.c22 == 0;  // their runs have been reported
     if (none || m.are_of_a_solid()) return;
     const ProbeState& state = *surface.state;
     tell(
@@ -182,7 +182,7 @@ class Probing {
   const Probe& probe_;
   fs::path folder_;
   std::vector<ProbeState> states_;
-  std::vector<StateRuns> parts_;  // of the states
+  std::vector<StateRuns> parts_;  // one per state
   std::vector<StudyRun> probes_;
 };
 

@@ -1,4 +1,4 @@
-// pulvis probe: a powder loaded along paths, its states probed for where they yield, and cap models fitted.
+// pulvis probe: loads a powder along paths, probes its states for yielding, and fits cap models.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@ namespace pulvis {
 struct ProbeOptions {
   std::filesystem::path probe;
   std::filesystem::path folder;  // empty: runs/<name of the probe>
-  int jobs = 0;                  // runs at once; 0: as many as the processors are enough for
+  int jobs = 0;                  // concurrent runs; 0: as many as the processors allow
   bool fresh = false;            // run everything again
-  bool list = false;             // only say what would be run
+  bool list = false;             // only list what would be run
   std::vector<std::string> overrides;
-  std::string reference;  // print the language instead
+  std::string reference;  // print the language reference instead
 };
 
 ExitCode run_probe(const ProbeOptions& options);

@@ -29,7 +29,7 @@ constexpr std::array criteria{
     Criterion{"offset_strain", &ProbeSurface::offset, &ProbeSurface::offset_models},
     Criterion{"dissipation", &ProbeSurface::dissipation, &ProbeSurface::dissipation_models}};
 
-// All surfaces of a path at a density: one a seed.
+// All surfaces of a path at a density: one per seed.
 struct Group {
   std::string path;
   double asked;
@@ -145,7 +145,7 @@ Json point_json(const YieldPoint& point) {
   return json;
 }
 
-// Of a parameter over the seeds: mean and standard deviation.
+// Mean and standard deviation of a parameter over the seeds.
 Json scatter_json(const Group& group, const Criterion& criterion, const FittedModel& pooled) {
   Json json = Json::object();
   for (const auto& [key, ignored] : pooled.parameters) {
@@ -193,7 +193,7 @@ Json group_json(const Group& group) {
 }
 
 // A row for every density of the path that has a cap, by the dissipated energy: where a powder comes apart, plastic strain
-// grows and nothing is dissipated.
+// grows but nothing is dissipated.
 std::vector<CapRow> cap_rows(const std::string& path, const std::vector<Group>& groups) {
   std::vector<CapRow> rows;
   for (const Group& group : groups) {

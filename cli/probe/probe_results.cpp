@@ -36,7 +36,7 @@ double at_time(const std::vector<double>& times, const std::vector<double>& valu
   return (1 - share) * values[i - 1] + share * values[i];
 }
 
-// J, spent for good so far.
+// J, dissipated so far.
 std::vector<double> dissipation_of(const StudyResult& result) {
   std::vector<double> sum = result.series("energy/plastic");
   for (const char* name :
@@ -47,7 +47,7 @@ std::vector<double> dissipation_of(const StudyResult& result) {
   return sum;
 }
 
-// Of the samples after the release.
+// From the samples after the release.
 ProbeCurve curve_of(const StudyResult& result, const ProbeSpec& spec) {
   ProbeCurve curve;
   const std::vector<double>& times = result.series("time");

@@ -1,4 +1,4 @@
-// What the probes of a powder tell: a surface for every path, density, seed and criterion, and the models fitted to it.
+// Results of probing a powder: a surface for every path, density, seed and criterion, and the models fitted to it.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 
 namespace pulvis {
 
-// A state that a loading run has kept.
+// A state saved by a loading run.
 struct ProbeState {
   std::string path;
   std::int64_t seed = 1;
-  double asked = 0;                // -, the density of the probe file
+  double asked = 0;                // -, density requested in the probe file
   std::string loading;             // name of the run
   double density = 0;              // -, relative, as reached
   std::array<double, 4> stress{};  // Pa: xx yy xy zz
   double pressure = 0;             // Pa
-  bool bonded = false;             // its scene has bonds
+  bool bonded = false;             // whether its scene has bonds
 };
 
-// Of all states that the loading run has reached.
-// `passed`: one line is added for each density that the powder is beyond before it is pressed to it, which is no state.
+// All states that the loading run has reached.
+// `passed`: gets one line for each density already exceeded before the powder is compacted to it; it has no state.
 std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& spec,
                                   const StudyResult& result, std::vector<std::string>& passed);
 
@@ -35,7 +35,7 @@ struct ProbeSurface {
   std::vector<FittedModel> offset_models, dissipation_models;
 };
 
-// `angle` of each run of this state; none: the shear.
+// `angle` of each run from this state; none: the shear run.
 struct ProbeRun {
   std::optional<double> angle;
   const StudyResult* result = nullptr;

@@ -1,12 +1,12 @@
-"""Writes pulvis/declarations.py: dataclasses of the scene language, from the declarations of its reader.
+"""Writes pulvis/declarations.py: dataclasses of the scene language, from the declarations in its reader.
 
-usage: write_declarations.py FILE, with the compiled module in PYTHONPATH; the build does it.
+usage: write_declarations.py FILE, with the compiled module on PYTHONPATH; the build runs it.
 """
 import keyword
 import sys
 import textwrap
 
-sys.path.pop(0)  # this folder, whose package has no compiled module
+sys.path.pop(0)  # this folder: its package lacks the compiled module
 from pulvis import _core  # noqa: E402
 
 HEAD = '''"""The scene language as dataclasses: one a table, a field a key. Made by cli/python/write_declarations.py.
@@ -35,7 +35,7 @@ def wrapped(text, indent):
 
 
 def fields_of(table, tables):
-    """Names in the language, and what stands behind them."""
+    """Key names and their descriptions."""
     prefix = table["path"] + "." if table["path"] else ""
     for key in table["keys"]:
         unit = f", {key['unit']}" if key["unit"] else ""

@@ -1,4 +1,4 @@
-// Scripts in Python that the program carries: put into a folder, started, and what they drew put into its place.
+// Python scripts embedded in the program: written to a folder, run, and their pictures moved into place.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-// A folder for the scripts whose names begin like this, gone when the pictures are drawn.
+// A folder for the scripts whose names begin with this prefix, removed once the pictures are drawn.
 class ScriptFolder {
  public:
   explicit ScriptFolder(std::string_view beginning);
@@ -16,17 +16,17 @@ class ScriptFolder {
   ScriptFolder& operator=(const ScriptFolder&) = delete;
   ~ScriptFolder();
 
-  // Of the pictures, until they are put in their places.
+  // Holds the pictures until they are moved into place.
   std::filesystem::path drawn() const;
 
   std::filesystem::path path;
 };
 
-// Its exit code. Debian's own python has the modules of Debian's packages; elsewhere the first on the path.
+// Returns its exit code. Debian's own python has the modules of Debian's packages; elsewhere the first one on PATH.
 int run_python(const std::vector<std::string>& words);
 
-// Each line of the list in the folder of what was drawn: a file's name there, and where it belongs. No other than an own file
-// is replaced. Tells what it wrote.
+// Each line of the list in the folder of drawn pictures: a file's name there, and its destination. Only Pulvis's own files
+// are replaced. Reports what it wrote.
 void put_in_place(const std::filesystem::path& drawn);
 
 }  // namespace pulvis

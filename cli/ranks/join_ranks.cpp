@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_bytes_at_once = std::size_t{1} << 30;
 
-// A whole number of the environment; 0 where there is none.
+// An integer from the environment; 0 if not set.
 int number_in(const char* variable) {
   const char* text = std::getenv(variable);
   int number = 0;
@@ -30,7 +30,7 @@ int number_in(const char* variable) {
 
 const MpiPlugin& mpi_plugin() {
   void* library =
-      dlopen(MpiPlugin::library, RTLD_NOW | RTLD_LOCAL);  // stays: MPI cannot be unloaded
+      dlopen(MpiPlugin::library, RTLD_NOW | RTLD_LOCAL);  // stays loaded: MPI cannot be unloaded
   if (library == nullptr)
     throw NoMpi(
         fmt::format("several ranks need MPI: install the package pulvis-mpi, or build with "
@@ -61,7 +61,7 @@ std::string host_name() {
   return name.data();
 }
 
-// The kernel's name for this start of the machine: containers of one machine share it.
+// The kernel's boot ID: containers on one machine share it.
 std::string machine_name() {
   std::string name;
   std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), name);
@@ -80,7 +80,7 @@ Place place_of(const Ranks::Bytes& bytes) {
   return place;
 }
 
-// Of one rank, among all places.
+// Share of one rank, among all places.
 int share_of(const Place& own, const std::vector<Place>& places) {
   double share = 0;
   for (std::size_t i = 0; i < CPU_SETSIZE; ++i) {
@@ -90,13 +90,13 @@ int share_of(const Place& own, const std::vector<Place>& places) {
     });
     share += 1 / static_cast<double>(sharing);
   }
-  constexpr double rounding = 1e-9;  // thirds do not add up to one
+  constexpr double rounding = 1e-9;  // thirds do not add up to exactly one
   return std::max(1, static_cast<int>(share + rounding));
 }
 
 }  // namespace
 
-// A script that sbatch starts has SLURM_NTASKS and SLURM_PROCID, too; only tasks of a step have what is asked for here.
+// A batch script has SLURM_NTASKS and SLURM_PROCID, too; only tasks of a step have what is checked here.
 bool started_as_rank() {
   if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr) return number_in("OMPI_COMM_WORLD_SIZE") > 1;
   const bool has_process_manager =

@@ -1,4 +1,4 @@
-// The ranks that this process is one of, where it was started as one of several: by mpirun or srun.
+// The ranks that this process belongs to, if it was started as one of several by mpirun or srun.
 #pragma once
 
 #include <memory>
@@ -9,32 +9,32 @@
 
 namespace pulvis {
 
-// There is no MPI to be had: not built, not installed, or of another build. Of the machine.
+// MPI is not available: not built, not installed, or from another build. A machine error.
 class NoMpi : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Programs of several versions, or processors of several kinds: refused on all ranks. what() is empty on all but the
-// root, which speaks for them.
+// Ranks with different program versions or processor types: refused on all ranks. what() is empty on all but the
+// root, which reports for them.
 class UnlikeRanks : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// What the starter left in the environment says: Open MPI's mpirun, or a step of Slurm's with PMIx or PMI-2.
+// Judged by the launcher's environment variables: Open MPI's mpirun, or a Slurm step with PMIx or PMI-2.
 bool started_as_rank();
 
-// Loads the library that speaks MPI. Throws NoMpi.
+// Loads the MPI library. Throws NoMpi.
 void require_mpi();
 
-// Null where the process is alone. All ranks call it; once in a process. Throws NoMpi, UnlikeRanks.
+// Null if the process is alone. Called by all ranks, once per process. Throws NoMpi, UnlikeRanks.
 std::unique_ptr<Ranks> join_ranks();
 
-// All ranks run the same program, as each of them describes its own. Collective; throws UnlikeRanks.
+// Checks that all ranks run the same program, as each describes itself. Collective; throws UnlikeRanks.
 void require_alike(Ranks& ranks, const std::string& own);
 
-// The processors that this rank may use, each shared evenly by the ranks that may use it; at least 1. Collective.
+// Number of processors for this rank; each is shared evenly by the ranks that may use it. At least 1. Collective.
 int threads_of_rank(Ranks& ranks);
 
 }  // namespace pulvis

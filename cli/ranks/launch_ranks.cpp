@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int wish_to_stop =
-    SIGUSR1;                 // mpirun hands it on; at SIGTERM it kills the ranks a second later
-constexpr int killed = 128;  // mpirun's exit code: this and the signal that killed a rank
+    SIGUSR1;                 // forwarded by mpirun; at SIGTERM it kills the ranks a second later
+constexpr int killed = 128;  // mpirun's exit code: this plus the signal that killed a rank
 
 fs::path mpirun() {
   const char* path = std::getenv("PATH");
@@ -37,8 +37,8 @@ fs::path mpirun() {
 }
 
 std::vector<std::string> command_of(const RankLaunch& launch) {
-  // More ranks than cores are the user's choice. Threads of a rank go where there is room: bound to a core, as mpirun
-  // would have it, they had one between them.
+  // More ranks than cores are the user's choice. Threads of a rank run anywhere: bound to a core, mpirun's default,
+  // they would share one core.
   std::vector<std::string> words{mpirun(),          "-np",       std::to_string(launch.ranks),
                                  "--oversubscribe", "--bind-to", "none",
                                  "--stdin",         "none",      "--quiet"};
@@ -48,7 +48,7 @@ std::vector<std::string> command_of(const RankLaunch& launch) {
   return words;
 }
 
-// Signals that this process waits for instead of being interrupted by them.
+// Blocks signals that this process waits for instead of being interrupted by them.
 class SignalsHeld {
  public:
   SignalsHeld() {
@@ -71,11 +71,11 @@ class SignalsHeld {
   sigset_t held_{}, before_{};
 };
 
-// After fork() only what is safe in a signal handler. In a group of its own: a terminal's ^C comes to this process alone.
+// After fork() only async-signal-safe calls. Own process group: a terminal's ^C reaches only this process.
 [[noreturn]] void become(char* const* words, const sigset_t& mask, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, wish_to_stop);
-  if (getppid() != parent) _exit(1);  // it died in between
+  if (getppid() != parent) _exit(1);  // the parent died in between
   sigprocmask(SIG_SETMASK, &mask, nullptr);
   execv(words[0], words);
   _exit(127);
@@ -113,7 +113,7 @@ ExitCode end_of(int status, bool asked, const fs::path& folder) {
   if (code == static_cast<int>(ExitCode::machine)) tell_how_to_go_on(folder);
   if (is_own(code)) return static_cast<ExitCode>(code);
   if (asked &&
-      (WIFSIGNALED(status) || code == killed + wish_to_stop)) {  // before they could heed it
+      (WIFSIGNALED(status) || code == killed + wish_to_stop)) {  // before the ranks could react to it
     tell(stderr, "pulvis: interrupted before all ranks had started\n");
     return ExitCode::interrupted;
   }
@@ -144,7 +144,7 @@ void require_room_to_start(const fs::path& folder, std::uintmax_t bytes) {
 }
 
 ExitCode launch_ranks(const RankLaunch& launch) {
-  // Three ranks took 4 MB of Open MPI 4.1, and did not start with less.
+  // Three ranks used 4 MB with Open MPI 4.1, and did not start with less.
   require_room_to_start(fs::temp_directory_path(), std::uintmax_t{32} << 20);
   const std::vector<std::string> command = command_of(launch);
   const SignalsHeld signals;

@@ -1,4 +1,4 @@
-// What the program knows of the library that speaks MPI, which it loads where a run has ranks.
+// The program's interface to the MPI library, which it loads when a run has ranks.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ struct MpiPlugin {
   static constexpr const char* entry = "pulvis_mpi_plugin";  // const MpiPlugin* entry()
 
   const char*
-      build;  // build_identity() of its own; the rest is only to be used where it is that of the program
-  // Initialises MPI, once in a process. A message is cut into parts of `most_bytes` at most, since MPI counts in int.
+      build;  // its build_identity(); the rest may only be used if it equals that of the program
+  // Initialises MPI, once per process. Messages are cut into parts of at most `most_bytes`, since MPI counts in int.
   Ranks* (*join)(std::size_t most_bytes);
 };
 

@@ -1,5 +1,5 @@
-# Puts the reports' pages (page/) and what of the Python package `pulvis figure` needs into a target as bytes, and links
-# what packs the page's data.
+# Embeds the report pages (page/) and the Python files needed by `pulvis figure` as bytes into a target, and links
+# the compression for the page data.
 
 set(report_folder ${CMAKE_CURRENT_LIST_DIR})
 

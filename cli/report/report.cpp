@@ -8,8 +8,8 @@
 namespace pulvis {
 namespace {
 
-// What both pages are made of; last the panels, each a file of its own that enters itself (panels.js). The library is
-// for particles in three dimensions alone.
+// Scripts of both pages; last the panels, each a separate file that registers itself (panels.js). The library is
+// only for particles in three dimensions.
 std::vector<std::string> scripts(const char* page, bool in_space) {
   std::vector<std::string> names{
       "units.js",       "names.js",     "payload.js",       "save.js",          "chart.js",

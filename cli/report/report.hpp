@@ -1,5 +1,5 @@
-// report.html: one file that shows a run to somebody who has nothing but a browser. Curves,
-// energies, quality figures and the moving picture of the fields, without any other file.
+// report.html: a single file that shows a run in any browser. Curves,
+// energies, quality figures and an animation of the fields, without any other file.
 #pragma once
 
 #include <filesystem>
@@ -7,21 +7,21 @@
 
 namespace pulvis {
 
-// Reads run.h5 (complete frames only) and, where there is one, summary.json of the run's folder,
-// and writes report.html into it. Every key of the summary is optional; these have a meaning of
-// their own, others are listed as they are:
+// Reads run.h5 (complete frames only) and, if there is one, summary.json of the run's folder,
+// and writes report.html into it. Every key of the summary is optional; these have a special
+// meaning, others are listed as they are:
 //   title, outcome, steps, elements, particles, wall_seconds, threads, element_updates_per_second,
 //   peak_memory_bytes, thickness, time, relative_density, version, commit, energy_balance_error,
 //   kinetic_ratio, materials [{name, density, ...}, SI],
 //   tools      [{name, point: [x, y], normal: [x, y]}] or [{name, points: [[x, y], ...]}], which lies to
-//              the right of its points, at the end of the run, m; one without a place is not drawn
+//              the right of its points, at the end of the run, m; one without a position is not drawn
 //   limits     {energy_balance, kinetic_energy, penetration}, dimensionless
-//   quality    [{name, value, limit, meaning}]: shown instead of the figures made from the history
-// Throws OutputError where the folder holds no readable run or the report cannot be written.
+//   quality    [{name, value, limit, meaning}]: shown instead of the figures computed from the history
+// Throws OutputError if the folder holds no readable run or the report cannot be written.
 void write_report(const std::filesystem::path& run_folder);
 
-// Several runs on one page: their curves over each other, their figures in a table, their fields side by
-// side with one scale and one range of colours.
+// Several runs on one page: their curves overlaid, their figures in a table, their fields side by
+// side with a common scale and colour range.
 void write_comparison(const std::vector<std::filesystem::path>& run_folders,
                       const std::filesystem::path& page);
 

@@ -1,4 +1,4 @@
-// The periodic cell of a frame, and where the report shows the particles: with their centres inside.
+// The periodic cell of a frame, and where the report shows the particles: with their centres inside it.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ class ReportCell {
   ReportCell(const hdf5::File& file, const std::string& frame,
              const std::vector<std::int32_t>& node_particle);
 
-  bool here() const { return !way_.empty(); }  // else nothing is moved
-  // m, of the particle of that number.
+  bool here() const { return !way_.empty(); }  // otherwise nothing is shifted
+  // m, shift of the particle with that number.
   Point way(std::int32_t particle) const {
     return here() ? way_[static_cast<std::size_t>(particle)] : Point{};
   }
-  // x, y of all nodes.
+  // x, y of all nodes, shifted into the cell.
   std::vector<double> inside(std::vector<double> positions) const;
-  // Of a line from the centre of one particle through the point where it touches another: the centre of that image of the
-  // other one. A particle is about as large as its neighbour.
+  // For a line from the centre of one particle through its contact point with another: the centre of that image of the
+  // other one. Neighbouring particles are assumed to be of similar size.
   Point other_end(const Point& from, const Point& through, const Point& other) const;
   // Corner, first and second vector.
   std::vector<double> numbers() const;

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t frame_budget = 20'000'000;  // bytes; packed and spelt in base64 about 15 MB
-constexpr double space_budget = 1.6;              // of the same: positions in space pack better
+constexpr std::size_t frame_budget = 20'000'000;  // bytes; about 15 MB when packed and in base64
+constexpr double space_budget = 1.6;              // times that: positions in space compress better
 constexpr std::size_t max_samples = 5000;
 
 class Reader {
@@ -52,7 +52,7 @@ class Reader {
     return file_.has_attribute("/", name) ? file_.text_attribute("/", name) : std::string();
   }
 
-  // A file beside run.h5 that is missing or broken costs no report.
+  // The report is written even if a file beside run.h5 is missing or broken.
   std::string text_of(const char* name) const {
     constexpr std::size_t maximum = 64U << 20U;  // bytes
     try {

@@ -1,5 +1,5 @@
-// What report.html carries of a run: a head (JSON: names, units, ranges) and packed numbers, small enough
-// together to be mailed (about 15 MB at most).
+// Run data embedded in report.html: a head (JSON: names, units, ranges) and packed numbers, small enough
+// in total to be sent by e-mail (at most about 15 MB).
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace pulvis {
 
 struct ReportSection {
   std::string name;  // "cells", "history", "frame-3-position", "frame-3-0" (field 0 of frame 3)
-  std::string text;  // as cli/report/report_encoding writes it
+  std::string text;  // encoded as in cli/report/report_encoding
 };
 
 struct ReportData {
@@ -22,7 +22,7 @@ struct ReportData {
 
 ReportData read_report_data(const std::filesystem::path& run_folder);
 
-// Several runs for one page: the head has them as "runs", the names of their sections begin with "run-0-",
+// Several runs for one page: the head lists them as "runs"; names of their sections begin with "run-0-",
 // "run-1-" and so on.
 ReportData read_comparison(const std::vector<std::filesystem::path>& run_folders);
 

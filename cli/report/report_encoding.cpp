@@ -17,7 +17,7 @@ Bytes planes_of_differences(std::span<const Unsigned> values, std::size_t stride
   Bytes planes(values.size() * sizeof(Unsigned));
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Unsigned before = i < stride ? Unsigned{0} : values[i - stride];
-    const auto difference = static_cast<Unsigned>(values[i] - before);  // wraps; so does the reader
+    const auto difference = static_cast<Unsigned>(values[i] - before);  // wraps, as in the decoder
     for (std::size_t plane = 0; plane < sizeof(Unsigned); ++plane) {
       planes[plane * values.size() + i] = static_cast<unsigned char>(difference >> (8 * plane));
     }

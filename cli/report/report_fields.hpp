@@ -1,4 +1,4 @@
-// The fields of a run that the report shows: one number a cell, from the fields of cells, nodes and particles of run.h5.
+// The fields of a run that the report shows: one number per cell, from the cell, node and particle fields of run.h5.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ namespace pulvis {
 
 constexpr Range nothing_yet{std::numeric_limits<double>::infinity(),
                             -std::numeric_limits<double>::infinity()};
-void widen(Range& range, double value);  // by a finite one
+void widen(Range& range, double value);  // by a finite value
 
 struct CellField {
   std::string dataset, label, unit, meaning;
   std::size_t component = 0, stored = 1, used = 1;
-  bool speed = false;        // made from the velocities of the nodes
-  bool of_particle = false;  // one number a particle, which all of its cells show
+  bool speed = false;        // computed from the nodal velocities
+  bool of_particle = false;  // one number per particle, shown by all of its cells
   Range range = nothing_yet;
 };
 
 // Which fields of a frame are shown.
 struct FieldChoice {
-  bool tensors = true;    // those of more than one component, each by itself
-  bool particles = true;  // of particles all, not only damage and fragments
+  bool tensors = true;    // those with several components, each separately
+  bool particles = true;  // all particle fields, not only damage and fragments
 };
 std::vector<CellField> cell_fields(const hdf5::File& file, const std::string& frame,
                                    const FieldChoice& choice);
@@ -41,7 +41,7 @@ struct FieldMesh {
 std::vector<double> cell_values(const hdf5::File& file, const std::string& frame,
                                 const CellField& field, const FieldMesh& mesh);
 
-// As the head has it; `levels`: of its numbers.
+// As stored in the head; `levels`: of its quantised numbers.
 nlohmann::ordered_json described(const CellField& field, std::size_t levels);
 
 }  // namespace pulvis

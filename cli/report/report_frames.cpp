@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t max_frames = 60, min_frames = 12;
 constexpr std::size_t sectors = 12;  // of a particle drawn as a fan
 constexpr std::size_t fine_levels = 4094,
-                      coarse_levels = 254;  // of a value between least and greatest
+                      coarse_levels = 254;  // of a value between minimum and maximum
 
 std::string frame_path(const std::string& frame) { return "/frames/" + frame; }
 
@@ -48,7 +48,7 @@ class Frames {
     mesh_.reference = file_.read_doubles("/mesh/reference");
   }
 
-  // What is drawn of how many frames, so that it fits.
+  // Chooses what to draw in how many frames, so that it fits.
   void choose_frames() {
     const auto names = complete_frames(file_);
     all_ = names.size();
@@ -112,7 +112,7 @@ class Frames {
     const double width = std::max(x_.high - x_.low, y_.high - y_.low);
     const std::size_t levels = fans_ ? coarse_levels : fine_levels;
     const ReportCell of_frame = cell(frame);
-    auto xy = positions(frame, of_frame);  // both axes in steps of one length: from 0 to `width`
+    auto xy = positions(frame, of_frame);  // both axes with the same step length: from 0 to `width`
     for (std::size_t i = 0; i < xy.size(); ++i) xy[i] -= i % 2 == 0 ? x_.low : y_.low;
     sections_.push_back({prefix + "position", encoded(quantised(xy, {0, width}), 2)});
     for (std::size_t k = 0; k < fields_.size(); ++k) {

@@ -1,8 +1,8 @@
-// The frames of a plane run as the report carries them: positions and values of the drawn mesh, and what
+// The frames of a plane run as embedded in the report: positions and values of the drawn mesh, and what
 // was observed between the particles.
 //
-// Frames are thinned evenly, the last one always kept, to what fits into the budget. Where that leaves too
-// few of them for a film, particles are thinned instead (cli/report/report_mesh.hpp), and the head says so.
+// Frames are thinned evenly, always keeping the last, to fit the budget. If that leaves too
+// few for a film, particles are simplified instead (cli/report/report_mesh.hpp), and the head says so.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,15 +14,15 @@
 
 namespace pulvis {
 
-// Adds "mesh", "frames", "fields", "low", "high" to the head. `budget`: bytes of the numbers before they
-// are packed, which halves them or better.
+// Adds "mesh", "frames", "fields", "low", "high" to the head. `budget`: bytes of the numbers before
+// packing, which at least halves them.
 void add_frames(const hdf5::File& file, std::size_t budget, nlohmann::ordered_json& head,
                 std::vector<ReportSection>& sections);
 
-// Names of the frames that are whole.
+// Names of the complete frames.
 std::vector<std::string> complete_frames(const hdf5::File& file);
 
-// At most `maximum` of `count` positions, evenly, the last one among them.
+// At most `maximum` of `count` indices, evenly spaced, including the last.
 std::vector<std::size_t> thinned(std::size_t count, std::size_t maximum);
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// The pictures of rasters as the report carries them: levelled and drawn by cli/report/page/panel_raster.js.
+// The raster images of a run as embedded in the report: levelled and drawn by cli/report/page/panel_raster.js.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// Adds "images" to the head, where the run has any. Of pictures finer than a screen every second (third ...) pixel
+// Adds "images" to the head, if the run has any. Of images finer than a screen only every second (third ...) pixel
 // and line is kept, and the head says so.
 void add_images(const hdf5::File& file, nlohmann::ordered_json& head,
                 std::vector<ReportSection>& sections);

@@ -41,7 +41,7 @@ double length_of(const PlaneMesh& mesh, const std::vector<std::int32_t>& loop) {
   return length;
 }
 
-// The longest chain of edges that one quad alone has: the outline of a particle.
+// The longest chain of edges that belong to only one quad: the outline of a particle.
 std::vector<std::int32_t> outline_of(const PlaneMesh& mesh, std::span<const std::int32_t> cells) {
   std::map<std::pair<std::int32_t, std::int32_t>, int> seen;
   std::map<std::int32_t, std::int32_t> next;
@@ -106,7 +106,7 @@ void DrawnMesh::add_node(std::span<const std::int32_t> mean_of) {
   first_.push_back(static_cast<std::int32_t>(nodes_.size()));
 }
 
-// A cell of the mesh counts for the triangle that lies in its direction from the centre.
+// A mesh cell contributes to the triangle that lies in its direction from the centre.
 void DrawnMesh::add_fan(const PlaneMesh& mesh, std::span<const std::int32_t> cells,
                         std::size_t sectors) {
   const auto outline = outline_of(mesh, cells);
@@ -169,7 +169,7 @@ std::vector<double> DrawnMesh::values(std::span<const double> of_cells) const {
     sum[to] += area_[c] * of_cells[c];
     area[to] += area_[c];
   }
-  for (std::size_t k = 0; k < sum.size(); ++k)  // a thin triangle may have caught no cell
+  for (std::size_t k = 0; k < sum.size(); ++k)  // a thin triangle may contain no cell
     sum[k] = area[k] > 0 ? sum[k] / area[k] : std::numeric_limits<double>::quiet_NaN();
   return sum;
 }

@@ -1,5 +1,5 @@
-// What the report draws of a plane mesh: all of it, or, of a mesh too large to be mailed, every particle
-// as a fan of triangles between its centre and points of its outline.
+// What the report draws of a plane mesh: all of it, or, if it is too large to e-mail, every particle
+// as a fan of triangles between its centre and points on its outline.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,17 @@ struct PlaneMesh {
 class DrawnMesh {
  public:
   static DrawnMesh whole(const PlaneMesh& mesh);
-  // Fans of at most `sectors` triangles; a hole of a particle is drawn over.
+  // Fans of at most `sectors` triangles; holes in particles are drawn over.
   static DrawnMesh fans(const PlaneMesh& mesh, std::size_t sectors);
 
   const std::vector<std::int32_t>& cells() const { return cells_; }  // a triangle repeats a node
   std::size_t cell_count() const { return cells_.size() / 4; }
   std::size_t node_count() const { return first_.size() - 1; }
 
-  // Means of what the drawn nodes and cells stand for.
+  // Averages over the nodes and cells that each drawn one represents.
   std::vector<double> positions(std::span<const double> xy) const;
   std::vector<double> values(std::span<const double> of_cells) const;
-  // Of every drawn cell, the particle that it is of.
+  // The particle of every drawn cell.
   std::vector<std::int32_t> particles(const PlaneMesh& mesh) const;
 
  private:
@@ -40,8 +40,8 @@ class DrawnMesh {
   std::vector<std::int32_t> cells_;
   std::vector<std::int32_t> first_{0},
       nodes_;                        // drawn node k: nodes_[first_[k]] up to first_[k + 1]
-  std::vector<std::int32_t> drawn_;  // where the value of each cell of the mesh goes
-  std::vector<double> area_;         // of each cell of the mesh
+  std::vector<std::int32_t> drawn_;  // drawn cell that takes the value of each mesh cell
+  std::vector<double> area_;         // of each mesh cell
 };
 
 }  // namespace pulvis

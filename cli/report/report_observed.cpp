@@ -11,12 +11,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t max_sizes = 100;     // of a frame's fragments
-constexpr std::size_t max_cells = 10'000;  // of a frame's map
+constexpr std::size_t max_sizes = 100;     // fragments per frame
+constexpr std::size_t max_cells = 10'000;  // map cells per frame
 
 std::size_t groups(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
 
-// Every so many lines of a grid, and the last.
+// Every `size`-th line of a grid, and the last.
 std::vector<double> every(const std::vector<double>& lines, std::size_t size) {
   std::vector<double> kept;
   for (std::size_t i = 0; i + 1 < lines.size(); i += size) kept.push_back(lines[i]);
@@ -24,7 +24,7 @@ std::vector<double> every(const std::vector<double>& lines, std::size_t size) {
   return kept;
 }
 
-// Over groups of wide x tall cells of a grid; cells without a number do not count.
+// Averages over groups of wide x tall cells of a grid; cells without a number are ignored.
 std::vector<double> means(const std::vector<double>& cells, std::size_t columns, std::size_t wide,
                           std::size_t tall) {
   const std::size_t rows = cells.size() / columns, across = groups(columns, wide);
@@ -35,7 +35,7 @@ std::vector<double> means(const std::vector<double>& cells, std::size_t columns,
     sum[group] += cells[c];
     count[group] += 1;
   }
-  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= count[g];  // 0 / 0: none has one
+  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= count[g];  // 0 / 0: no cell has a number
   return sum;
 }
 
@@ -46,7 +46,7 @@ class Observed {
 
   bool has(const std::string& name) const { return file_.contains(frame_ + "/" + name); }
 
-  // A grid that is finer than any screen shows is drawn by the means of `merged` x `merged` cells.
+  // A grid finer than screen resolution is drawn as averages over `merged` x `merged` cells.
   Json density() const {
     const std::vector<double> x = numbers("density_grid/x"), y = numbers("density_grid/y");
     const std::size_t columns = x.size() - 1, rows = y.size() - 1;
@@ -67,7 +67,7 @@ class Observed {
             {"unit", file_.text_attribute(frame_ + "/contacts/normal_force", "unit")}};
   }
 
-  // Lines to draw, five numbers each: from centre to centre, or from a centre to where a tool acts; force.
+  // Lines to draw, five numbers each: centre to centre, or centre to the tool's contact point; force.
   std::vector<float> lines() const {
     std::vector<float> all;
     const std::vector<double> centre = numbers("particle_centre");
@@ -88,7 +88,7 @@ class Observed {
     return all;
   }
 
-  // Distribution of the fragments' sizes: diameters, and the shares of number and area up to each.
+  // Size distribution of the fragments: diameters, and cumulative fractions of number and area up to each.
   Json fragments() const {
     std::vector<FragmentSize> sizes;
     for (const double area : numbers("fragments/area")) sizes.push_back({0, 1, area});
@@ -108,8 +108,8 @@ class Observed {
             {"area", rounded(area)}};
   }
 
-  // Lines of four numbers, from start to end; of cracks five, with the share of shear. Of a run that was killed
-  // the newest rows may be missing in the table.
+  // Lines of four numbers, from start to end; cracks have five, with the shear fraction. If a run was killed,
+  // the table may lack the newest rows.
   std::vector<float> bond_lines(const std::string& group) const {
     const std::vector<double> start = numbers(group + "/start"), end = numbers(group + "/end");
     const bool cracks = group == "cracks";
@@ -134,7 +134,7 @@ class Observed {
     return {points[2 * n], points[2 * n + 1]};
   }
 
-  // m, of the particles whose edges the lines lie along.
+  // m, shifts of the particles whose edges the lines follow.
   std::vector<Point> ways_of_bonds(const std::string& group, std::size_t count) const {
     std::vector<Point> ways(count);
     if (!cell_.here()) return ways;
@@ -150,7 +150,7 @@ class Observed {
 
   Json rounded(const std::string& name) const { return rounded(numbers(name)); }
 
-  // Six figures, as many as anybody reads; what is no number becomes null.
+  // Six digits, as many as anybody reads; NaN and infinity become null.
   static Json rounded(const std::vector<double>& values) {
     Json list = Json::array();
     for (const double value : values) {

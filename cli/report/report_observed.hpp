@@ -1,4 +1,4 @@
-// What the report shows of local densities and contacts, where a frame has them.
+// Local densities and contacts in the report, for frames that have them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@
 
 namespace pulvis {
 
-// Adds "density" and "network" to the frame's entry of the report's head, and the lines of the contacts.
+// Adds "density" and "network" to the frame's entry in the report's head, and the contact lines.
 void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
                   const ReportCell& cell, nlohmann::ordered_json& entry,
                   std::vector<ReportSection>& sections);

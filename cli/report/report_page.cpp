@@ -24,7 +24,7 @@ std::string escaped(std::string_view text) {
   return with_replaced(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}});
 }
 
-// JSON inside a script element: no text of the run may look like the end of the element.
+// JSON inside a script element: no text of the run may look like the element's end tag.
 std::string harmless(std::string_view json) { return with_replaced(json, {{'<', "\\u003c"}}); }
 
 // The table of names is JSON from its first brace on.
@@ -58,7 +58,7 @@ std::string part(std::string_view name, const std::vector<std::string>& scripts,
   return carried(data);
 }
 
-// The page with every <!--@name@--> replaced; what is put in is not searched again.
+// The page with every <!--@name@--> replaced; inserted text is not searched again.
 std::string filled(std::string_view page, const std::vector<std::string>& scripts,
                    const ReportData& data) {
   static constexpr std::string_view opening = "<!--@", closing = "@-->";

@@ -1,4 +1,4 @@
-// A page of cli/report/report/ made into one file: style, scripts and data put in, nothing loaded.
+// Assembles a page of cli/report/report/ into one file: embedded style, scripts and data, no loading.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace pulvis {
 
-// `page`, which stands between head.html and tail.html, and `scripts` are names of assets; the data go into
-// elements that payload.js reads. `of`: what the page belongs to (engine/files/own_files.hpp).
+// `page`, inserted between head.html and tail.html, and `scripts` are names of assets; the data go into
+// elements that payload.js reads. `of`: owner of the page (engine/files/own_files.hpp).
 void write_page(const std::filesystem::path& path, const char* page,
                 const std::vector<std::string>& scripts, const ReportData& data, const char* of);
 

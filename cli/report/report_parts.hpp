@@ -1,4 +1,4 @@
-// A hexahedron as the eight parts that halving it along its three natural directions makes.
+// Splits a hexahedron into eight parts by halving it along its three natural directions.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,14 +9,14 @@
 
 namespace pulvis {
 
-// each(volume, low, high) of the eight parts of a hexahedron: a part's volume, m^3, by the Jacobian at its middle (trilinear
-// shape functions, Hughes 1987, ch. 3), and between which z it lies. Corners in the order of VTK.
+// each(volume, low, high) for the eight parts of a hexahedron: volume, m^3, from the Jacobian at its centre (trilinear shape
+// functions, Hughes 1987, ch. 3), and its range of z. Corners in VTK order.
 template <class Each>
 void for_parts(std::span<const double> xyz, std::span<const std::int32_t> corners, Each each) {
   using Vec3 = Eigen::Vector3d;
-  // x = sum of modes times 1, xi, eta, xi eta, zeta, zeta xi, eta zeta, xi eta zeta: bits of the number say which.
+  // x = sum of modes times 1, xi, eta, xi eta, zeta, zeta xi, eta zeta, xi eta zeta: bits of the index select the factors.
   std::array<Vec3, 8> mode;
-  static constexpr std::array<std::size_t, 8> vtk{0, 1, 3, 2, 4, 5, 7, 6};  // by bits, too
+  static constexpr std::array<std::size_t, 8> vtk{0, 1, 3, 2, 4, 5, 7, 6};  // in bit order, too
   for (std::size_t n = 0; n < 8; ++n)
     mode[n] = Vec3::Map(&xyz[3 * static_cast<std::size_t>(corners[vtk[n]])]) / 8;
   for (const std::size_t bit : {1U, 2U, 4U})
@@ -29,7 +29,7 @@ void for_parts(std::span<const double> xyz, std::span<const std::int32_t> corner
   for (int part = 0; part < 8; ++part) {
     const double xi = part & 1 ? 0.5 : -0.5, eta = part & 2 ? 0.5 : -0.5,
                  zeta = part & 4 ? 0.5 : -0.5;
-    // As long as the part.
+    // Each tangent vector is as long as the part.
     const Vec3 x = mode[1] + eta * mode[3] + zeta * (mode[5] + eta * mode[7]),
                y = mode[2] + xi * mode[3] + zeta * (mode[6] + xi * mode[7]),
                z = mode[4] + xi * mode[5] + eta * (mode[6] + xi * mode[7]);

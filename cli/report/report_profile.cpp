@@ -16,7 +16,7 @@ using Vec3 = Eigen::Vector3d;
 using Box = Eigen::AlignedBox3d;
 
 constexpr double upright =
-    1e-3;  // of a unit normal's part along z, and across the axis it is along
+    1e-3;  // of a unit normal's component along z, and of that across its main axis
 
 Box box_of(std::span<const double> xyz) {
   Box box;
@@ -47,7 +47,7 @@ std::vector<Piece> pieces_of(const hdf5::File& file, const std::string& frame) {
   return pieces;
 }
 
-// A slice gets of a part as much as it has of the part's height.
+// A slice gets the fraction of a part's volume that equals its share of the part's height.
 void spread(std::vector<double>& volume, double part, double from, double to) {
   const auto count = static_cast<double>(volume.size());
   const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, count - 1));

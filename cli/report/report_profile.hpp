@@ -1,5 +1,5 @@
-// Relative density of a powder in three dimensions along z: the solid volume of each of several slices over the slice's
-// room.
+// Relative density of a powder in three dimensions along z: the solid volume of each slice divided by the slice's
+// volume.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 namespace pulvis {
 
 struct DensityProfile {
-  std::vector<double> density;  // of the slices, from below
-  std::vector<double> edges;    // m, z, one more
+  std::vector<double> density;  // of the slices, from the bottom
+  std::vector<double> edges;    // m, z, one more than slices
 };
 
-// Hexahedra: eight rows of `xyz` each. `area`: m^2, of the room's cross-section. The slices, equally thick, reach from
-// the lowest to the highest point.
+// Hexahedra: eight rows of `xyz` each. `area`: m^2, cross-section of the space. The slices are equally thick and reach
+// from the lowest to the highest point.
 DensityProfile density_along_z(std::span<const double> xyz, std::span<const std::int32_t> hexahedra,
                                double area, std::size_t slices);
 
 struct CrossSection {
   double area = 0;    // m^2
-  std::string bound;  // "die", "walls", "powder": what it is the inside of
+  std::string bound;  // "die", "walls", "powder": whose inside it is
 };
-// Of a frame: of the round die if there is one along z; else of the box that upright walls across x and y make, as wide
-// as the powder where there is no wall.
+// For a frame: of the round die along z if there is one; else of the box formed by upright walls across x and y, which
+// is as wide as the powder where there is no wall.
 CrossSection cross_section(const hdf5::File& file, const std::string& frame,
                            std::span<const double> xyz);
 

@@ -19,11 +19,11 @@ constexpr std::array<std::array<std::size_t, 4>, 6> faces_of_cell{
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
 struct Surface {
-  std::vector<std::int32_t> faces, parts;  // four nodes a face; its part
+  std::vector<std::int32_t> faces, parts;  // four nodes per face; its part
 };
 
-// What is the same for both cells at a face; of a triangle, as hexahedra drawn together to tetrahedra have
-// them, whichever corner stands there twice; nothing where less than that is left of it.
+// Key shared by both cells at a face. A triangle, from hexahedra collapsed to tetrahedra, has the same key
+// whichever corner is repeated; nothing if less than a triangle is left.
 std::optional<Face> key_of(Face face) {
   std::ranges::sort(face);
   const auto repeated = std::unique(face.begin(), face.end());
@@ -32,7 +32,7 @@ std::optional<Face> key_of(Face face) {
   return face;
 }
 
-// Faces that one hexahedron alone has.
+// Faces that belong to only one hexahedron.
 Surface surface_of(const std::vector<std::int32_t>& hexahedra,
                    const std::vector<std::int32_t>& part) {
   struct Seen {
@@ -58,7 +58,7 @@ Surface surface_of(const std::vector<std::int32_t>& hexahedra,
   return surface;
 }
 
-// Nodes of the surface get numbers of their own, in the order of the mesh.
+// Nodes of the surface are renumbered, in mesh order.
 std::vector<std::size_t> renumber(std::vector<std::int32_t>& faces) {
   std::map<std::int32_t, std::int32_t> number;
   for (const auto node : faces) number[node] = 0;

@@ -1,5 +1,5 @@
-// The frames of a lever in three dimensions as the report carries them: the faces of its surface and how
-// far their corners have moved.
+// The frames of a lever in three dimensions as embedded in the report: the faces of its surface and the
+// displacements of their corners.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace pulvis {
 
-// Faces that one hexahedron alone has, four nodes of the mesh each.
+// Faces that belong to only one hexahedron, four mesh nodes each.
 std::vector<std::int32_t> surface_faces(const hdf5::File& file);
 
 void add_solid(const hdf5::File& file, nlohmann::ordered_json& head,

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 using Codes = std::vector<std::uint16_t>;
 
 constexpr std::size_t most_frames = 60, fewest_frames = 12;
-constexpr std::size_t levels = 4094;  // of a value between least and greatest
+constexpr std::size_t levels = 4094;  // of a value between minimum and maximum
 constexpr std::size_t slices = 20;    // of the density along z
 
 std::string path_of(const std::string& frame) { return "/frames/" + frame; }
@@ -63,7 +63,7 @@ class SpaceFrames {
     for (const auto i : thinned(all_, most)) frames_.push_back(path_of(names[i]));
   }
 
-  // Values of particles pack to next to nothing.
+  // Particle values compress to almost nothing.
   std::size_t affordable() const {
     const auto of_cells = std::ranges::count(fields_, false, &CellField::of_particle);
     const std::size_t bytes =
@@ -95,7 +95,7 @@ class SpaceFrames {
     return most;
   }
 
-  // All axes in steps of one length: from 0 to the width.
+  // All axes with the same step length: from 0 to the width.
   Codes position_codes(const std::string& frame) const {
     auto xyz = positions(frame);
     for (std::size_t i = 0; i < xyz.size(); ++i) xyz[i] -= box_[i % 3].low;
@@ -107,7 +107,7 @@ class SpaceFrames {
     const std::string prefix = "frame-" + std::to_string(number) + "-";
     Codes codes = position_codes(frame);
     if (number == 0) first_ = codes;
-    if (number > 0)  // wraps; so does the reader
+    if (number > 0)  // wraps around; so does the decoder
       for (std::size_t i = 0; i < codes.size(); ++i)
         codes[i] = static_cast<std::uint16_t>(codes[i] - first_[i]);
     sections_.push_back({prefix + "position", encoded(std::span<const std::uint16_t>(codes), 3)});

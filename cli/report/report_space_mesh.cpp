@@ -34,7 +34,7 @@ Vec3 mean_of(std::span<const double> xyz, std::span<const std::int32_t> nodes) {
   return sum / static_cast<double>(nodes.size());
 }
 
-// The numbers of everything that has a particle, particle by particle.
+// The indices of all items that have a particle, grouped by particle.
 std::map<std::int32_t, std::vector<std::int32_t>> grouped(std::span<const std::int32_t> numbers,
                                                           const SpaceMesh& mesh,
                                                           std::int32_t numbers_a_cell) {
@@ -105,7 +105,7 @@ void DrawnSpace::add_node(std::span<const std::int32_t> mean_of_nodes) {
   first_.push_back(static_cast<std::int32_t>(nodes_.size()));
 }
 
-// A cell of the mesh counts for the pyramids of its own sides, one inside for that in its direction from the centre.
+// A mesh cell counts for the pyramids of its own sides; an interior one for that in its direction from the centre.
 void DrawnSpace::add_particle(const SpaceMesh& mesh, std::span<const std::int32_t> sides,
                               std::span<const std::int32_t> cells) {
   std::set<std::int32_t> outer;

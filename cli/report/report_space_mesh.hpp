@@ -1,4 +1,4 @@
-// What the report draws of particles in three dimensions: all of their hexahedra, or, of a mesh too large to be mailed,
+// What the report draws of particles in three dimensions: all hexahedra, or, if the mesh is too large to e-mail,
 // every particle as pyramids between its centre and the faces of its surface.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// Corners of a hexahedron's sides, counter-clockwise from outside; in page/space/ as well.
+// Corners of a hexahedron's sides, counter-clockwise seen from outside; duplicated in page/space/.
 inline constexpr std::array<std::array<std::size_t, 4>, 6> sides_of_hexahedron{
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
@@ -22,7 +22,7 @@ struct SpaceMesh {
   std::size_t nodes() const { return node_particle.size(); }
 };
 
-// Sides that one hexahedron alone has, as 6 * hexahedron + side, in this order.
+// Sides that belong to only one hexahedron, as 6 * hexahedron + side, in this order.
 std::vector<std::int32_t> outer_sides(std::span<const std::int32_t> hexahedra);
 
 class DrawnSpace {
@@ -30,14 +30,14 @@ class DrawnSpace {
   static DrawnSpace whole(const SpaceMesh& mesh);
   static DrawnSpace pyramids(const SpaceMesh& mesh);
 
-  // Eight nodes each; a pyramid has its tip four times.
+  // Eight nodes each; a pyramid repeats its apex four times.
   const std::vector<std::int32_t>& cells() const { return cells_; }
   const std::vector<std::int32_t>& surface() const { return surface_; }      // 6 * cell + side
   const std::vector<std::int32_t>& particles() const { return particles_; }  // of the cells
   std::size_t cell_count() const { return particles_.size(); }
   std::size_t node_count() const { return first_.size() - 1; }
 
-  // Means of what the drawn nodes and cells stand for.
+  // Averages over the nodes that each drawn one represents.
   std::vector<double> positions(std::span<const double> xyz) const;
   std::vector<double> values(std::span<const double> of_cells) const;
 
@@ -50,13 +50,13 @@ class DrawnSpace {
   std::vector<std::int32_t> first_{0},
       nodes_;  // drawn node k: nodes_[first_[k]] up to first_[k + 1]
   struct Share {
-    std::int32_t cell, drawn;  // where the value of a cell of the mesh goes: one place or several
+    std::int32_t cell, drawn;  // drawn cells that take the value of a mesh cell: one or several
   };
   std::vector<Share> shares_;
-  std::vector<double> volume_;  // of each cell of the mesh
+  std::vector<double> volume_;  // of each mesh cell
 };
 
-// m^3, of a hexahedron whose corners are these rows of `xyz`: by the midpoints of its eight parts.
+// m^3, of a hexahedron whose corners are these rows of `xyz`: by the midpoint rule over its eight parts.
 double hexahedron_volume(std::span<const double> xyz, std::span<const std::int32_t> corners);
 
 }  // namespace pulvis

@@ -8,7 +8,7 @@
 namespace pulvis {
 namespace {
 
-// Lines to draw, seven numbers each: from centre to centre, or from a centre to where a tool acts; normal force.
+// Lines to draw, seven numbers each: centre to centre, or centre to the tool's contact point; normal force.
 std::vector<float> space_network_lines(const hdf5::File& file, const std::string& frame) {
   std::vector<float> lines;
   const std::vector<double> centre = file.read_doubles(frame + "/particle_centre");
@@ -33,7 +33,7 @@ std::vector<float> space_network_lines(const hdf5::File& file, const std::string
   return lines;
 }
 
-// A grid of more cells than anybody looks through is shown by the means of `merged`^3 of them.
+// A grid with more cells than is useful is shown as averages over `merged`^3 of them.
 constexpr std::size_t most_cells_of_a_grid = 4096;
 
 using GridLines = std::array<std::vector<double>, 3>;
@@ -58,7 +58,7 @@ std::vector<double> every_so_many(const std::vector<double>& lines, std::size_t 
   return kept;
 }
 
-// Cells without a number do not count.
+// Cells without a number are ignored.
 std::vector<double> merged_cells(const std::vector<double>& cells, const GridLines& lines,
                                  std::size_t merged) {
   const std::size_t nx = lines[0].size() - 1, ny = lines[1].size() - 1;
@@ -72,11 +72,11 @@ std::vector<double> merged_cells(const std::vector<double>& cells, const GridLin
     sum[group] += cells[c];
     count[group] += 1;
   }
-  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= count[g];  // 0 / 0: none has one
+  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= count[g];  // 0 / 0: no cell has a number
   return sum;
 }
 
-// Five digits; what is no number becomes null.
+// Five digits; NaN and infinity become null.
 nlohmann::ordered_json density_grid_of(const hdf5::File& file, const std::string& frame) {
   GridLines lines;
   for (std::size_t k = 0; k < 3; ++k)

@@ -1,4 +1,4 @@
-// What the report shows of what a run in three dimensions observes: the contact network, densities in the cells of a grid.
+// Observed quantities of a run in three dimensions in the report: the contact network, densities in the cells of a grid.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@
 
 namespace pulvis {
 
-// To the entry of a frame ("/frames/N") and, as sections that begin with `prefix`, the numbers.
+// Adds to the entry of a frame ("/frames/N") and, as sections that begin with `prefix`, the numbers.
 void add_space_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
                         nlohmann::ordered_json& entry, std::vector<ReportSection>& sections);
 

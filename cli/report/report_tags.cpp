@@ -16,7 +16,7 @@ Json names_of(const hdf5::File& file, const std::string& dataset) {
              : Json::array();
 }
 
-// A tool's lines join its corners in turn, the last one with the first.
+// A tool's lines join its corners in order, and the last one with the first.
 Json tools_of(const hdf5::File& file) {
   Json tools = names_of(file, "/tools/line_tool");
   std::vector<int> count(tools.size());

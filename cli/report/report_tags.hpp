@@ -1,4 +1,4 @@
-// What the report shows of a plane run beside its fields: which particle, material and class a cell is of, and the
+// What the report shows of a plane run besides its fields: the particle, material and class of each cell, and the
 // outlines of the tools.
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace pulvis {
 
-// Adds "tags" and "tools" to the head where the run has them, and the particle of every drawn cell.
+// Adds "tags" and "tools" to the head if the run has them, and the particle of every drawn cell.
 void add_tags(const hdf5::File& file, const PlaneMesh& mesh, const DrawnMesh& drawn,
               nlohmann::ordered_json& head, std::vector<ReportSection>& sections);
 
-// The same of particles in space: "tags" alone, and of "tools" the pieces of their surfaces, four rows of the corners each.
+// The same for particles in space: only "tags", and for "tools" the pieces of their surfaces, four corner rows each.
 void add_particle_tags(const hdf5::File& file, nlohmann::ordered_json& head,
                        std::vector<ReportSection>& sections);
 void add_tool_faces(const hdf5::File& file, nlohmann::ordered_json& head,

@@ -21,7 +21,7 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr std::size_t thumbnail_cells = 60'000, fan_sectors = 16;
 constexpr int largest_side = 240, smallest_side = 48;
-constexpr int colours_used = 250;  // of the palette; entry 0 is nothing, and seen through
+constexpr int colours_used = 250;  // of the palette; entry 0 is transparent background
 constexpr double share_left_out = 0.01;
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
@@ -38,7 +38,7 @@ constexpr std::array<std::array<int, 3>, 11> viridis{{{68, 1, 84},
                                                       {189, 223, 38},
                                                       {253, 231, 37}}};
 
-// What is drawn, in the order in which it is painted.
+// Polygons in painting order.
 struct Drawing {
   struct Polygon {
     std::array<std::array<double, 2>, 4> corners{};  // m
@@ -80,7 +80,7 @@ Bytes png_of(int width, int height, const Bytes& pixels) {
   Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}, head, rows;
   add_word(head, static_cast<std::uint32_t>(width));
   add_word(head, static_cast<std::uint32_t>(height));
-  head.insert(head.end(), {8, 3, 0, 0, 0});  // one byte a pixel, of a palette
+  head.insert(head.end(), {8, 3, 0, 0, 0});  // one byte per pixel, indexed colour
   for (int row = 0; row < height; ++row) {
     rows.push_back(0);  // no filter
     const auto begin = pixels.begin() + static_cast<std::ptrdiff_t>(row) * width;
@@ -96,14 +96,14 @@ Bytes png_of(int width, int height, const Bytes& pixels) {
 
 using Corners = std::array<std::array<double, 2>, 4>;  // in pixels
 
-// Pixels whose centre lies inside.
+// Fills pixels whose centre lies inside.
 void fill(Thumbnail& picture, const Corners& at, float value) {
   const auto [low, high] = std::minmax({at[0][1], at[1][1], at[2][1], at[3][1]});
   const int first = std::max(0, static_cast<int>(std::ceil(low - 0.5)));
   const int last = std::min(picture.height - 1, static_cast<int>(std::floor(high - 0.5)));
   for (int row = first; row <= last; ++row) {
     std::array<double, 4> crossings;
-    crossings.fill(std::numeric_limits<double>::infinity());  // the rest comes last
+    crossings.fill(std::numeric_limits<double>::infinity());  // unused entries sort last
     std::size_t count = 0;
     const double y = row + 0.5;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -122,7 +122,7 @@ void fill(Thumbnail& picture, const Corners& at, float value) {
   }
 }
 
-// Of the field, a hundredth of the polygons left out at either end.
+// Range of the field, ignoring a hundredth of the polygons at either end.
 Range range_of(const Drawing& drawing) {
   std::vector<double> values;
   for (const Drawing::Polygon& one : drawing.polygons)
@@ -171,7 +171,7 @@ Drawing plane_drawing(const hdf5::File& file, const std::string& frame) {
   return drawing;
 }
 
-// Seen from above and from the side; displacements larger than life, the largest an eighth of the size.
+// Oblique view; displacements are exaggerated, the largest to an eighth of the size.
 class SolidView {
  public:
   SolidView(std::vector<double> reference, std::vector<double> position)
@@ -185,7 +185,7 @@ class SolidView {
     if (largest > 0) larger_ = std::max(1.0, (high - low) / 8 / largest);
   }
 
-  // x and y on the picture, then the depth.
+  // x and y in the picture, then the depth.
   std::array<double, 3> place(std::size_t node) const {
     constexpr double turn = -0.7, tilt = 0.5;  // rad
     std::array<double, 3> p{};

@@ -1,5 +1,5 @@
-# Writes OUTPUT, a source that holds each file of the list ASSETS. As bytes: string literals have a
-# length that compilers refuse to go beyond, and CMake changes some characters of text it reads.
+# Writes OUTPUT, a source file that embeds each file of the list ASSETS. As bytes: compilers limit the
+# length of string literals, and CMake alters some characters of text it reads.
 
 set(arrays "")
 set(choices "")
@@ -7,7 +7,7 @@ set(names "")
 set(number 0)
 foreach(asset ${ASSETS})
   get_filename_component(name ${asset} NAME)
-  if(asset MATCHES "/python/(pulvis/.+)$")  # a package's modules are known by their folders
+  if(asset MATCHES "/python/(pulvis/.+)$")  # modules of the package keep their folders in the name
     set(name ${CMAKE_MATCH_1})
   endif()
   file(READ ${asset} bytes HEX)

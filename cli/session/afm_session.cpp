@@ -23,7 +23,7 @@
 namespace pulvis {
 namespace {
 
-// A lever's programme has no time.
+// A lever's programme has no physical time.
 const SeriesInfo actions_done{"actions", "-",
                               "actions completed, including the part of the current one"};
 
@@ -35,7 +35,7 @@ RunMesh mesh_of(const AfmSimulation& simulation) {
   for (const auto& hexahedron : solid.hexahedra)
     mesh.hexahedra.insert(mesh.hexahedra.end(), hexahedron.begin(), hexahedron.end());
   mesh.cell_particle.assign(solid.part.begin(), solid.part.end());
-  // Drawn by their corners, as hexahedra that are drawn together to a tetrahedron.
+  // Drawn as hexahedra collapsed to tetrahedra.
   for (const auto& t : solid.tetrahedra)
     for (const std::size_t corner : {0, 1, 2, 2, 3, 3, 3, 3}) mesh.hexahedra.push_back(t[corner]);
   mesh.cell_particle.insert(mesh.cell_particle.end(), solid.tetrahedron_part.begin(),
@@ -46,7 +46,7 @@ RunMesh mesh_of(const AfmSimulation& simulation) {
 }
 
 // The lever at rest and under a force normal to the sample, lateral, and along it, each scaled so that
-// the tip's end moves by a tenth of the lever's length.
+// the end of the tip moves by a tenth of the lever's length.
 void write_load_cases(const std::filesystem::path& folder, const LoadedScene& loaded, int threads,
                       AfmSimulation& simulation) {
   const RunMesh mesh = mesh_of(simulation);
@@ -81,7 +81,7 @@ std::vector<double> positions(const AfmSimulation& simulation, const RunMesh& me
   return x;
 }
 
-// Of every cell the mean of its Gauss points; tetrahedra are elastic.
+// Mean over the Gauss points of every cell; tetrahedra are elastic.
 std::vector<double> plastic_strain(const AfmSimulation& simulation, const RunMesh& mesh) {
   const World& world = const_cast<AfmSimulation&>(simulation).world();
   const auto& memory = world.column<SolidMemory>();
@@ -117,7 +117,7 @@ AfmSession::AfmSession(LoadedScene scene, int threads)
   report_.nodes = simulation_.model().nodes;
   try {
     report_.calibration = simulation_.calibrate();
-    // In long double another mesh would cost minutes.
+    // A second mesh in long double would take minutes.
     if (!report_.calibration->extended)
       report_.calibration->mesh_error = mesh_error(loaded_.scene, *report_.calibration, threads);
   } catch (const RunFailure& bad) {
@@ -150,8 +150,8 @@ bool AfmSession::stops() const {
   return (hooks.stop && hooks.stop()) || (checkpoints_ && checkpoints_->stops(increment()));
 }
 
-// An equilibrium of a large lever takes minutes. One that is given up half way leaves nothing to go on
-// from but what was kept before it.
+// An equilibrium of a large lever takes minutes. One that is interrupted leaves nothing to resume
+// from but the state saved before it.
 void AfmSession::keep() {
   kept_ = state_of(simulation_.world());
   kept_position_ = position_;
@@ -179,14 +179,14 @@ void AfmSession::tell(double time, const std::vector<double>& row, bool is_frame
   if (hooks.tick) hooks.tick();
 }
 
-// The last increment is no part's end: behind it the programme is over.
+// The last increment does not end a part: after it the programme is over.
 bool AfmSession::reached() const {
   constexpr double rounding = 1e-9;  // of the sum of increments
   return history_.rows.size() < total_ &&
          (increment() >= target_.increment || history_.times.back() >= target_.actions - rounding);
 }
 
-// False where the run is to stop here.
+// False if the run is to stop here.
 bool AfmSession::take(double time, const std::vector<double>& row) {
   history_.times.push_back(time);
   history_.rows.push_back(row);
@@ -212,7 +212,7 @@ void AfmSession::begin(const Checkpoint* from) {
   if (from != nullptr) restore = [from](World& world) { from->restore(world); };
   try {
     simulation_.begin(restore);
-  } catch (const Interrupted&) {  // its first factors take long, too
+  } catch (const Interrupted&) {  // its first factorisations take long, too
     end_.given_up = true;
   }
 }
@@ -280,12 +280,12 @@ void AfmSession::run(const Checkpoint* from) {
   leave();
 }
 
-// A lever that has no answer: there is nothing to draw or to go on from.
+// A lever without a solution: there is nothing to draw or to resume.
 void AfmSession::refuse_calibration() {
   report_.outcome = "failed: " + end_.failure;
   report_.verdicts = verdicts_of(loaded_, {}, {}, end_.failure, threads_);
   if (!writes()) return;
-  remove_own(folder_ / "report.html", role::run);  // there is none of this
+  remove_own(folder_ / "report.html", role::run);  // this run has none
   write_own(folder_ / "summary.json", role::run, afm_summary(loaded_, report_));
 }
 
@@ -307,7 +307,7 @@ void AfmSession::finish() {
   if (end_.done || !end_.failure.empty())
     report_.verdicts = verdicts_of(loaded_, history_, report_.figures, end_.failure, threads_);
   if (!writes()) return;
-  remove_own(folder_ / "report.html", role::run);  // with a summary, there is the report of it
+  remove_own(folder_ / "report.html", role::run);  // a report must never be older than the summary
   write_own(folder_ / "summary.json", role::run, afm_summary(loaded_, report_));
   write_report(folder_);
 }

@@ -1,5 +1,5 @@
-// A run of a scene of the family "afm": calibration, then its programme, increment by increment. What `pulvis run`,
-// `pulvis resume` and the Python module share.
+// A run of a scene of the family "afm": calibration, then its programme, increment by increment. For `pulvis run`,
+// `pulvis resume` and the Python module.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ namespace pulvis {
 
 struct ProgrammeEnd {
   bool done = false;
-  bool given_up = false;  // half way to an equilibrium: the world is of no use
+  bool given_up = false;  // in the middle of an equilibrium search: the world is unusable
   std::string failure{};
 };
 
@@ -31,23 +31,23 @@ class AfmSession {
  public:
   // How far to go.
   struct Target {
-    double actions = std::numeric_limits<double>::infinity();  // done, a part of one included
+    double actions = std::numeric_limits<double>::infinity();  // done, including part of one
     std::int64_t increment = std::numeric_limits<std::int64_t>::max();
   };
 
   // Calibrates, which may take minutes: before any folder is touched.
   AfmSession(LoadedScene scene, int threads);
 
-  // Where the run's files go; without a folder nothing is written.
+  // Folder for the run's files; without one nothing is written.
   void write_to(const std::filesystem::path& folder, const CheckpointOptions& options);
-  // To the programme's end, or until it is stopped; without actions, the load cases of the calibration.
+  // To the end of the programme, or until it is stopped; without actions, the load cases of the calibration.
   void run(const Checkpoint* from = nullptr);
-  // The same in parts, which leaves the same bits: to a target, until it is over(); then, or before, leave().
+  // The same in parts, with bitwise identical results: to a target, until over(); then, or earlier, leave().
   void go(const Target& target);
-  void leave();  // completes the files of the run; there is a checkpoint where it has not ended
-  // Nothing is left to go on with.
+  void leave();  // completes the run's files; leaves a checkpoint if the run has not ended
+  // Nothing is left to resume.
   bool over() const { return end_.done || end_.given_up || !end_.failure.empty() || has_left_; }
-  // What came of it, with verdicts, summary and report.
+  // Writes the outcome: verdicts, summary and report.
   void finish();
 
   SessionHooks hooks;  // `every` counts increments
@@ -57,7 +57,7 @@ class AfmSession {
   const AfmHistory& history() const { return history_; }
   const std::filesystem::path& folder() const { return folder_; }
   AfmSimulation& simulation() { return simulation_; }
-  std::int64_t increment() const { return position_.told - 1; }  // -1: not begun
+  std::int64_t increment() const { return position_.told - 1; }  // -1: not started
 
  private:
   bool writes() const { return !folder_.empty(); }
@@ -89,8 +89,8 @@ class AfmSession {
   std::optional<Checkpoints> checkpoints_;
   AfmPosition position_;
   std::unique_ptr<Recorder> recorder_;
-  std::size_t every_ = 1;  // increments a frame
-  std::size_t total_ = 1;  // rows of the whole history
+  std::size_t every_ = 1;  // increments per frame
+  std::size_t total_ = 1;  // rows of the complete history
   Target target_;
   bool has_begun_ = false, has_left_ = false;
   StateParts kept_;  // of the world after the last increment

@@ -46,7 +46,7 @@ OpenFolder open_stopped(const std::filesystem::path& folder, bool driven_too) {
   require_stopped_run(folder);
   OpenFolder open{std::make_unique<FolderLock>(folder), {}};
   require_own_results(folder);
-  hdf5::File::open_to_change(folder / "run.h5").close();  // repairs it after a loss of power
+  hdf5::File::open_to_change(folder / "run.h5").close();  // repairs it after a power failure
   open.run = find_stopped_run(folder);
   const std::vector<std::string> driven = driven_in(*open.run.checkpoint);
   if (!driven_too && !driven.empty())

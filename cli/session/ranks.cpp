@@ -49,7 +49,7 @@ ExitCode follow_root(Ranks& ranks, int threads) {
   if (!told.runs) return ExitCode::done;
   try {
     Simulation(load_scene_text(told.text, told.file).scene, threads, &ranks).follow();
-  } catch (const std::exception& error) {  // the root knows nothing of it
+  } catch (const std::exception& error) {  // the root does not know of it
     tell(stderr, "pulvis: rank {}: {}\n", ranks.rank(), error.what());
     ranks.abort(static_cast<int>(ExitCode::machine));
   }

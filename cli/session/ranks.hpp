@@ -1,4 +1,4 @@
-// A run over several ranks: the root runs it like any other, and tells the others which scene it is; they follow.
+// A run over several ranks: the root runs it like any other, and sends the scene to the others; they follow.
 #pragma once
 
 #include "cli/exit_code.hpp"
@@ -10,13 +10,13 @@ namespace pulvis {
 
 // On the root, before it builds its simulation of the scene.
 void tell_scene(Ranks& ranks, const LoadedScene& loaded);
-// Instead, where it has refused to run.
+// Called instead if it has refused to run.
 void tell_nothing(Ranks& ranks);
 
-// On the others: builds what the root tells, and follows it to its end.
+// On the others: builds the scene sent by the root, and follows it to its end.
 ExitCode follow_root(Ranks& ranks, int threads);
 
-// The root's hold on the others. If it leaves before it has told them a scene, nobody waits for it.
+// The root's control of the other ranks. If it leaves before it has sent them a scene, nobody waits for it.
 class LedRanks {
  public:
   explicit LedRanks(Ranks& ranks) : ranks_(ranks) {}
@@ -25,7 +25,7 @@ class LedRanks {
   }
   LedRanks(const LedRanks&) = delete;
   LedRanks& operator=(const LedRanks&) = delete;
-  // Throws SceneError where a run over ranks cannot have what is in the scene.
+  // Throws SceneError if the scene has something that a run over ranks does not support.
   Ranks& tell(const LoadedScene& loaded) {
     require_ranks_can_run(loaded.scene);
     told_ = true;

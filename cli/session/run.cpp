@@ -22,7 +22,7 @@
 namespace pulvis {
 namespace {
 
-// Of several ranks whose chunks have migrated.
+// For several ranks whose chunks have migrated.
 void print_balance(Simulation& simulation) {
   const Balance* balance = simulation.balance();
   if (balance == nullptr) return;
@@ -62,7 +62,7 @@ void print_end(Session& run, const RunOptions& options) {
   tell("results in {}\n", run.folder().string());
 }
 
-// A health check or a limit ended the run: that may be what the scene is about.
+// A health check or a limit ended the run: that may be what the scene expects.
 ExitCode stopped(Session& run, const RunOptions& options, const std::string& message) {
   run.judge(message, interrupted);
   const bool expected = ended_as_expected(run.loaded().scene, message);
@@ -74,7 +74,7 @@ ExitCode stopped(Session& run, const RunOptions& options, const std::string& mes
   return expected && all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
 }
 
-// After the machine failed the run.
+// After a machine error ended the run.
 void tell_what_is_left(const std::filesystem::path& folder) {
   if (checkpoints_in(folder).empty())
     tell(stderr,
@@ -88,7 +88,7 @@ void tell_what_is_left(const std::filesystem::path& folder) {
          folder.string(), folder.string());
 }
 
-// From wherever the run stands to its end.
+// From the current state of the run to its end.
 ExitCode complete(Session& run, const RunOptions& options) {
   run.hooks.stop = interrupted;
   if (options.before_steps) options.before_steps(run.simulation());
@@ -115,13 +115,13 @@ ExitCode complete(Session& run, const RunOptions& options) {
   }
 }
 
-// `ranks`: null where the process is alone.
+// `ranks`: null if the process is alone.
 int threads_of(const RunOptions& options, Ranks* ranks) {
   const int own = ranks != nullptr ? threads_of_rank(*ranks) : tbb::info::default_concurrency();
   return options.threads > 0 ? options.threads : own;
 }
 
-// Where this process is one of several ranks: what it is to them.
+// The role of this process in the run, if it is one of several ranks.
 class RankOfRun {
  public:
   explicit RankOfRun(const RunOptions& options)
@@ -131,7 +131,7 @@ class RankOfRun {
   int threads() const { return threads_; }
   bool follows() const { return ranks_ && !led_; }
   ExitCode follow() {
-    take_interrupts();  // the root answers them
+    take_interrupts();  // the root reacts to them
     return follow_root(*ranks_, threads_);
   }
   LedRanks* led() { return led_ ? &*led_ : nullptr; }

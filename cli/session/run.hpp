@@ -1,4 +1,4 @@
-// pulvis run: a scene from its file to its results folder; pulvis resume: what was left of one.
+// pulvis run: from the scene file to the results folder; pulvis resume: continues a stopped run.
 #pragma once
 
 #include <filesystem>
@@ -20,18 +20,18 @@ struct RunOptions {
   bool overwrite = false;
   std::vector<std::string> overrides;  // key.path=value
   CheckpointOptions checkpoints;
-  bool quiet = false;  // nothing on the terminal but what goes wrong
-  bool json = false;   // the same, and summary.json on the standard output
+  bool quiet = false;  // prints only errors and warnings
+  bool json = false;   // the same, and summary.json on standard output
   // Called before the first step.
   std::function<void(Simulation&)> before_steps{};
   bool talks() const { return !quiet && !json; }
 };
 
-std::filesystem::path folder_of(const RunOptions& options);  // of the results
+std::filesystem::path folder_of(const RunOptions& options);  // for the results
 
 ExitCode run_scene(const RunOptions& options);
 
-// pulvis resume: goes on with the run of a folder, from its newest checkpoint.
+// pulvis resume: continues the run of a folder from its newest checkpoint.
 ExitCode resume_run(const RunOptions& options);
 
 }  // namespace pulvis

@@ -25,7 +25,7 @@ namespace {
 
 constexpr auto between_ticks = std::chrono::milliseconds(200);
 
-// Where to look first when the energies say that something is wrong: the most distorted element.
+// Where to look first if the energies indicate a problem: the most distorted element.
 std::string worst_element(const World& world) {
   const double* minimum = world.column<MinJacobian>().values();
   const double* element = world.column<WorstElement>().values();
@@ -37,7 +37,7 @@ std::string worst_element(const World& world) {
                      static_cast<int>(element[slot]), minimum[slot]);
 }
 
-// Quality that the scene set limits for, looked at on every sample, the last one too: the figures of the summary.
+// Quality figures with limits in the scene, checked at every sample, also the last: the figures of the summary.
 void check_limits(const Scene& scene, const Results& results, const World& world) {
   const Clock& clock = world.resource<Clock>();
   const auto stop = [&](const char* key, double value, double limit) {
@@ -46,10 +46,10 @@ void check_limits(const Scene& scene, const Results& results, const World& world
         value, clock.step, clock.time, limit, key, worst_element(world)));
   };
   const auto hold = [&](const char* key, double value, double limit) {
-    if (!(value <= limit)) stop(key, value, limit);  // NaN is not
+    if (!(value <= limit)) stop(key, value, limit);  // NaN fails
   };
   hold("energy_balance", results.energy_balance_error(), scene.limits.energy_balance);
-  const bool started = clock.time > 0.1 * clock.end;  // nothing is quasi-static at first touch
+  const bool started = clock.time > 0.1 * clock.end;  // nothing is quasi-static at first contact
   if (scene.limits.kinetic_energy && started)
     hold("kinetic_energy", results.kinetic_ratio(), *scene.limits.kinetic_energy);
 }
@@ -100,7 +100,7 @@ void Session::begin() {
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks);
 }
 
-// What the world does not hold of the run's state.
+// The part of the run's state that is not in the world.
 template <class Bytes>
 void Session::state(Bytes& bytes, RecorderPosition& position, double& seconds) {
   bytes(position, seconds, results_, expectations_, compaction_, contacts_, samples_, frames_,
@@ -145,7 +145,7 @@ void Session::write_checkpoint() {
   simulation_->leave();
 }
 
-// What broke since: the recorder knows how many rows it has.
+// Bonds broken since the last call: the recorder knows how many rows it has.
 void Session::record_cracks() {
   if (recorder_ == nullptr || results_.tables().empty()) return;
   constexpr std::size_t cracks = 0;  // the only table
@@ -178,7 +178,7 @@ void Session::record() {
   if (is_frame && hooks.on_frame) hooks.on_frame(recorder_ ? recorder_->frames() - 1 : -1);
 }
 
-// The stages that are over, and whose states are to be kept.
+// Saves the states of completed stages that ask for it.
 void Session::keep_states() {
   const World& world = simulation_->world();
   const std::size_t over = world.resource<ToolProgram>().stage_at(clock().time);
@@ -193,7 +193,7 @@ void Session::keep_states() {
   }
 }
 
-// Not so where its time was over before what its `until` asks for.
+// Not if its time was over before its `until` condition was met.
 bool Session::reached_its_end(std::size_t stage) const {
   if (!simulation_->world().has<StageEnds>()) return true;
   const auto& ends = simulation_->world().resource<StageEnds>().ends;
@@ -238,7 +238,7 @@ void Session::move() {
   observed_ = false;
 }
 
-// Checkpoints are taken where a step is complete and nothing of the next one is known yet: before a sample, if one
+// Checkpoints are written when a step is complete and nothing of the next one has started: before a sample, if one
 // is due.
 Session::Halt Session::go(const Target& target) {
   const auto is_reached = [&] {
@@ -249,7 +249,7 @@ Session::Halt Session::go(const Target& target) {
     call_between_steps();
     if (stops()) return Halt::stop;
     const bool due = samples_.due(clock().time) || frames_.due(clock().time);
-    const bool last = simulation_->finished();  // before its time where a stage ended early
+    const bool last = simulation_->finished();  // early if a stage ended early
     if (is_reached() && !last) return Halt::target;
     if (writes() && keeps_states_) keep_states();
     if (writes() && checkpoints_.due(clock().step, clock().time)) write_checkpoint();
@@ -299,7 +299,7 @@ void Session::finish(const std::string& outcome) {
   recorder_->finish(outcome);
   recorder_ = nullptr;
   const std::filesystem::path& folder = options_.folder;
-  remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
+  remove_own(folder / "report.html", role::run);  // a report must never be older than the summary
   RunCost cost{progress_->seconds(),
                clock().step,
                options_.threads,

@@ -1,7 +1,7 @@
-// A run of a scene of particles: the loop that `pulvis run`, `pulvis resume` and the Python module share.
+// A run of a scene of particles: the loop shared by `pulvis run`, `pulvis resume` and the Python module.
 //
-// A run that is driven in parts, looked at between its steps or resumed takes the same steps, and leaves the same bits, as
-// one that runs through.
+// A run that is driven in parts, inspected between its steps or resumed takes the same steps, with bitwise identical
+// results, as an uninterrupted one.
 #pragma once
 
 #include <chrono>
@@ -31,7 +31,7 @@
 
 namespace pulvis {
 
-// What had been changed from outside when it was written: Session::drive.
+// What had been changed from outside (Session::drive) when the checkpoint was written.
 std::vector<std::string> driven_in(const Checkpoint& checkpoint);
 
 class Session {
@@ -47,30 +47,30 @@ class Session {
     int threads = 1;
     bool talks = false;
     CheckpointOptions checkpoints{};
-    LedRanks* ranks = nullptr;  // of which this is the root
+    LedRanks* ranks = nullptr;  // led by this process as root
   };
 
-  // `scene` as it is saved; `built` is at its beginning. Neither the folder nor its lock is the session's.
+  // `scene` as it is saved; `built` is at its start. Neither the folder nor its lock belongs to the session.
   Session(LoadedScene scene, Options options, std::unique_ptr<Simulation> built);
 
-  // One of the two comes first.
+  // Call one of the two first.
   void begin();
   void go_on_from(const Checkpoint& checkpoint);
 
-  // Halt::end: the last sample is taken. Throws RunFailure, OutputError and what hooks throw.
+  // Halt::end: the last sample is taken. Throws RunFailure, OutputError and whatever hooks throw.
   Halt go(const Target& target);
   Halt go() { return go(Target()); }
   SessionHooks hooks;
 
-  // `failure` is what stopped the run, if anything did.
+  // `failure` is what stopped the run, if anything.
   void judge(const std::optional<std::string>& failure, const std::function<bool()>& stop);
   // Completes the files; `outcome` says how the run ended.
   void finish(const std::string& outcome);
-  // After finish: as a run that was stopped goes on.
+  // After finish: resumes like a stopped run.
   void reopen();
   void write_checkpoint();
-  // Somebody has changed the run's state or its tools from outside: a checkpoint says so, and `pulvis resume`
-  // refuses to go on without that hand. `what`: "velocity", "tool top".
+  // The run's state or tools were changed from outside: checkpoints record it, and `pulvis resume`
+  // refuses to continue without the driver. `what`: "velocity", "tool top".
   void drive(const std::string& what) { driven_.insert(what); }
   const std::set<std::string>& driven() const { return driven_; }
   void remove_checkpoints() { checkpoints_.remove(); }
@@ -81,13 +81,13 @@ class Session {
   const Clock& clock() const { return simulation_->clock(); }
   const Results& results() const { return results_; }
   const std::vector<Verdict>& verdicts() const { return verdicts_; }
-  RunQuality quality() const;  // what its user should know of its figures
+  RunQuality quality() const;  // what the user should know about its figures
   double seconds() const { return progress_->seconds(); }
   bool ended() const { return ended_; }
   bool open() const { return recorder_ != nullptr || !writes(); }
   // At a sample: forces and stresses belong to t_n; false between two steps.
   bool observed() const { return observed_; }
-  // From a sample on, to where the step is complete.
+  // From a sample on, to the end of the step.
   void move();
   void end_progress() { progress_->finish(); }
 
@@ -112,7 +112,7 @@ class Session {
   Expectations expectations_;
   CompactionCurve compaction_;
   ContactLoading contacts_;
-  std::vector<std::string> bond_warnings_;  // of those made at the start
+  std::vector<std::string> bond_warnings_;  // for bonds created at the start
   std::vector<Verdict> verdicts_;
   Timetable samples_, frames_;
   bool ended_ = false;  // and its last sample is taken
@@ -121,7 +121,7 @@ class Session {
   std::size_t stages_over_ = 0;
   std::set<std::string> driven_;
   RecorderPosition closed_at_;  // by finish
-  std::int64_t told_step_ = 0;  // of hooks.every
+  std::int64_t told_step_ = 0;  // last step at which hooks.every was called
   std::chrono::steady_clock::time_point ticked_{};
   Checkpoints checkpoints_;
   std::unique_ptr<Recorder> recorder_;

@@ -1,4 +1,4 @@
-// What a run calls on its way.
+// Callbacks of a run.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace pulvis {
 
-// What is called on the thread that runs. One that throws leaves the session where it can go on.
+// Called on the simulation thread. If one throws, the session can still be continued.
 struct SessionHooks {
-  // The last sample or frame is taken: positions, forces, stresses and energies belong to t_n.
+  // The last sample or frame has been taken: positions, forces, stresses and energies belong to t_n.
   std::function<void(double time, const std::vector<double>& row)> on_sample;
   std::function<void(std::int64_t frame)> on_frame;
-  // Between two steps, where their number is a multiple: positions are of t_n, velocities of t_(n-1/2).
+  // Between two steps, at multiples of the number of steps: positions at t_n, velocities at t_(n-1/2).
   std::vector<std::pair<std::int64_t, std::function<void()>>> every;
-  // Between two steps, some times a second.
+  // Between two steps, a few times per second.
   std::function<void()> tick;
-  // Asked after every step: the run is to stop there.
+  // Called after every step: true stops the run there.
   std::function<bool()> stop;
 };
 

@@ -15,7 +15,7 @@
 namespace pulvis {
 namespace {
 
-// What the child does before it becomes the other program.
+// Actions of the child before it executes the other program.
 class SpawnActions {
  public:
   SpawnActions(int output, const std::filesystem::path& folder) {

@@ -1,4 +1,4 @@
-// Another program, run to its end with all that it prints.
+// Runs another program to its end and captures its output.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@ namespace pulvis {
 
 struct Captured {
   int code = -1;     // exit code; -1: a signal ended it
-  std::string text;  // standard output and standard error, in the order in which they came
+  std::string text;  // standard output and standard error, interleaved as printed
 };
 
-// The first word is looked for on PATH; `folder` is where the program runs. Throws NoProgram, or OutputError where the
-// machine refuses.
+// The first word is looked up on PATH; `folder` is the working directory. Throws NoProgram, or OutputError if the
+// system refuses.
 Captured run_captured(const std::vector<std::string>& words, const std::filesystem::path& folder);
 
 class NoProgram : public std::exception {

@@ -40,7 +40,7 @@ std::vector<SlurmArray> arrays_in(const fs::path& file) {
   }
 }
 
-// Numbers of the tasks that wait or run; nothing where Slurm does not say. Of a job that it has forgotten it has none.
+// Numbers of the pending or running tasks; nothing if Slurm does not answer. A job that it has forgotten has none.
 std::optional<std::set<std::size_t>> tasks_in_queue(const SlurmArray& array, std::string& reason) {
   std::vector<std::string> words{"squeue", "--noheader", "--array", "--format=%F %K",
                                  "--jobs=" + array.job};
@@ -121,7 +121,7 @@ void require_sbatch() {
 
 SlurmArray submit_slurm_script(const fs::path& folder) {
   const Captured end = run_captured({"sbatch", "--parsable", slurm_script_file}, folder);
-  // "12", of several clusters "12;name"; sites may have more to say.
+  // "12", with several clusters "12;name"; sites may print more.
   std::istringstream lines(end.text);
   SlurmArray array;
   for (std::string line; end.code == 0 && std::getline(lines, line);) {

@@ -1,8 +1,8 @@
-// Which runs of a study are in the hands of Slurm.
+// Which runs of a study are queued or running in Slurm.
 //
-// slurm.json in the study's folder has the arrays that were submitted: {"arrays": [{"job": "12", "cluster": "",
-// "tasks": 2, "runs": ["friction=0.1", ...]}]}, runs dealt out to the tasks as in slurm_script.hpp. Which tasks are
-// still waiting or running only Slurm knows (squeue).
+// slurm.json in the study's folder lists the submitted arrays: {"arrays": [{"job": "12", "cluster": "",
+// "tasks": 2, "runs": ["friction=0.1", ...]}]}, with runs distributed over the tasks as in slurm_script.hpp. Only Slurm
+// knows which tasks are still pending or running (squeue).
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace pulvis {
 
 struct SlurmArray {
   std::string job;      // its number
-  std::string cluster;  // of several; else empty
+  std::string cluster;  // in a multi-cluster set-up; else empty
   std::size_t tasks = 1;
   std::vector<std::string> runs;
 };
@@ -23,14 +23,14 @@ constexpr const char* slurm_arrays_file = "slurm.json";
 
 class SlurmQueue {
  public:
-  // Of a study's folder, which need not be there. Arrays that have ended are forgotten. Where Slurm cannot be asked, all
-  // count as queued, and the terminal is told so.
+  // For a study's folder, which need not exist. Arrays that have ended are dropped. If Slurm cannot be queried, all
+  // count as queued, and a message is printed.
   explicit SlurmQueue(std::filesystem::path folder);
 
-  // Runs of tasks that wait or run, and who has them: "under way: task 3 of Slurm's job 12".
+  // Runs of pending or running tasks, and who has them: "under way: task 3 of Slurm's job 12".
   const std::map<std::string, std::string>& runs() const { return runs_; }
-  void add(const SlurmArray& array);  // slurm.json has it then
-  void write() const;                 // slurm.json of what is left; without any it goes
+  void add(const SlurmArray& array);  // also written to slurm.json
+  void write() const;                 // slurm.json with what is left; removed if empty
 
  private:
   std::filesystem::path folder_;
@@ -38,7 +38,7 @@ class SlurmQueue {
   std::map<std::string, std::string> runs_;
 };
 
-// Submits slurm.sh of this folder. Throws OutputError with sbatch's own words.
+// Submits slurm.sh of this folder. Throws OutputError with sbatch's message.
 SlurmArray submit_slurm_script(const std::filesystem::path& folder);
 void require_sbatch();  // throws OutputError
 

@@ -10,7 +10,7 @@
 namespace pulvis {
 namespace {
 
-constexpr std::size_t most_digits = 6;  // of each part of a time limit
+constexpr std::size_t most_digits = 6;  // per part of a time limit
 
 std::optional<long> whole_number(std::string_view text) {
   long value = 0;
@@ -20,7 +20,7 @@ std::optional<long> whole_number(std::string_view text) {
   return good ? std::optional(value) : std::nullopt;
 }
 
-// "1:30:00" is {1, 30, 0}; empty where a part is no whole number.
+// "1:30:00" is {1, 30, 0}; empty if a part is not an integer.
 std::vector<long> numbers_between_colons(std::string_view text) {
   std::vector<long> numbers;
   for (;;) {
@@ -107,7 +107,7 @@ std::optional<long> time_limit_seconds(const std::string& text) {
   const std::optional<long> days = has_days ? whole_number(text.substr(0, dash)) : 0;
   const std::vector<long> parts = numbers_between_colons(has_days ? text.substr(dash + 1) : text);
   if (!days || parts.empty() || parts.size() > 3) return std::nullopt;
-  // What the first part counts; the next ones count sixtieths of it.
+  // Unit of the first part; each following part counts sixtieths of the one before.
   constexpr long minute = 60, hour = 3600, day = 86400;
   long unit = has_days || parts.size() == 3 ? hour : minute, seconds = *days * day;
   for (const long part : parts) {

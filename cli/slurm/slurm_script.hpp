@@ -1,11 +1,11 @@
-// The script of an array job of Slurm that does the runs of a study (docs/cluster.md).
+// The script of a Slurm array job that does the runs of a study (docs/cluster.md).
 //
-// Runs are dealt out in turn: task i of n does the runs i, i + n, i + 2n, ... of the list. Each task is the program
-// itself, `pulvis study study.toml --run ...`, so that a run on a cluster is the run that a study makes anywhere.
+// Runs are distributed in turn: task i of n does the runs i, i + n, i + 2n, ... of the list. Each task is the program
+// itself, `pulvis study study.toml --run ...`, so that a run on a cluster is identical to a local one.
 //
-// Near its time limit Slurm sends USR1 to the shell alone (--signal=B:). The shell passes it on as TERM, at which runs
-// write a checkpoint, and has its task queued again. A TERM of Slurm's own (scancel, preemption) ends the task for good,
-// or Slurm itself queues it again (--requeue).
+// Near its time limit Slurm sends USR1 to the shell alone (--signal=B:). The shell forwards it as TERM, at which runs
+// write a checkpoint, and requeues its task. A TERM from Slurm itself (scancel, preemption) ends the task for good,
+// or Slurm itself requeues it (--requeue).
 #pragma once
 
 #include <optional>
@@ -15,18 +15,18 @@
 namespace pulvis {
 
 struct SlurmOptions {
-  bool submit = false;  // what the others belong to
+  bool submit = false;  // the other options require it
   bool dry_run = false;
-  std::string partition, time;  // as sbatch has them; empty: the cluster's own
-  int array_size = 1000;  // tasks at most; Slurm allows 1001 where its MaxArraySize is not set
-  std::vector<std::string> more;  // options of sbatch
+  std::string partition, time;  // as in sbatch; empty: the cluster's defaults
+  int array_size = 1000;  // most tasks; Slurm allows 1001 if its MaxArraySize is not set
+  std::vector<std::string> more;  // further options of sbatch
 };
 
 struct SlurmJob {
   std::string name, program;
   std::vector<std::string> runs;
-  int threads = 1;  // of each task
-  int at_once = 0;  // tasks at most; 0: as many as there is room for
+  int threads = 1;  // per task
+  int at_once = 0;  // maximum number of concurrent tasks; 0: no limit
 };
 
 constexpr const char* slurm_script_file = "slurm.sh";
@@ -35,11 +35,11 @@ constexpr const char* slurm_log_folder = "slurm";
 std::size_t task_count(const SlurmOptions& options, std::size_t runs);
 std::string slurm_script(const SlurmJob& job, const SlurmOptions& options);
 
-// A word of the shell that means this text.
+// Quotes this text as one word of the shell.
 std::string shell_word(const std::string& text);
 
-// Seconds of a time limit as sbatch takes it: minutes, minutes:seconds, hours:minutes:seconds, days-hours,
-// days-hours:minutes or days-hours:minutes:seconds. Nothing where it is no such text, or no time at all.
+// Seconds of a time limit in sbatch notation: minutes, minutes:seconds, hours:minutes:seconds, days-hours,
+// days-hours:minutes or days-hours:minutes:seconds. Nothing if the text is not in this form, or is zero.
 std::optional<long> time_limit_seconds(const std::string& text);
 constexpr const char* time_limit_forms =
     "minutes, minutes:seconds, hours:minutes:seconds, days-hours, days-hours:minutes or "

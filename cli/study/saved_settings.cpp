@@ -27,7 +27,7 @@ bool has_bytes(const fs::path& file, const std::string& bytes) {
   return fs::is_regular_file(file, error) && bytes_of(file) == bytes;
 }
 
-// Copies that an earlier state of the settings named, and the folders that were theirs.
+// Removes copies made for an earlier version of the settings, and their folders.
 void remove_others(const fs::path& folder, const char* role, const std::set<fs::path>& kept) {
   std::error_code none;
   if (!fs::is_directory(fs::symlink_status(folder, none))) return;
@@ -57,7 +57,7 @@ void save_settings(const fs::path& file, const char* role, const WholeSettings& 
   std::set<fs::path> kept;
   for (const InputFile& input : settings.inputs) {
     kept.insert(folder / input.copy);
-    kept.insert(input.source);  // it may lie among them, and runs will read it
+    kept.insert(input.source);  // it may be one of them, and runs will read it
   }
   remove_others(folder / "inputs", role, kept);
   write_own(file, role, settings.text);

@@ -1,4 +1,4 @@
-// study.toml, probe.toml or fit.toml of a folder of results, and the copies of the files that it names.
+// study.toml, probe.toml or fit.toml in a results folder, and copies of the files it refers to.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// Copies of an earlier state of the files are replaced, those that are named no longer go; a file that Pulvis did not write is not: ForeignFile.
+// Copies of an earlier version are replaced, unreferenced ones removed; files that Pulvis did not write are left: ForeignFile.
 void save_settings(const std::filesystem::path& file, const char* role,
                    const WholeSettings& settings);
 

@@ -66,7 +66,7 @@ void print_list(const Study& study) {
        counted(study.spec.expects.size(), "expectation"));
 }
 
-// Of the runs that were asked for; says which there are not.
+// Keeps the requested runs; reports those that do not exist.
 bool keep_only(Study& study, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (std::ranges::find(study.runs, name, &StudyRun::name) != study.runs.end()) continue;
@@ -87,7 +87,7 @@ ExitCode tell_interrupted(const StudyRunner& runner) {
   return ExitCode::interrupted;
 }
 
-// Some runs of a study whose folder may be somebody else's at the same time: the tables are his, too.
+// Some runs of a study whose folder may be in use by another process, which also writes the tables.
 ExitCode run_part(const StudyOptions& options, const Study& study, const fs::path& folder) {
   take_interrupts();
   make_folder(folder);
@@ -100,7 +100,7 @@ ExitCode run_part(const StudyOptions& options, const Study& study, const fs::pat
     return tell_end(runner, runs, bad, folder);
   }
   if (runner.has_come_further()) return tell_interrupted(runner);
-  // A task that is queued again for this would never come to an end.
+  // A task requeued because of this would never finish.
   tell(stderr, "pulvis: interrupted before the first step of a run; more time is needed\n");
   return ExitCode::machine;
 }

@@ -8,7 +8,7 @@
 namespace pulvis {
 namespace {
 
-constexpr std::size_t max_points = 1000;  // of a single run's curve
+constexpr std::size_t max_points = 1000;  // per curve of a single run
 constexpr std::size_t mean_points = 300;
 
 struct Curve {
@@ -29,8 +29,8 @@ Curve curve_of(const StudyResult& result, const StudyCurve& wanted) {
   return curve;
 }
 
-// From where x leaves its beginning, as the distance of a target does that rests first, up to the first point that does
-// not lie further on.
+// From where x leaves its initial value, as the distance of a target that is at rest first, up to the first point
+// that does not increase it.
 Curve rising_part(const Curve& curve) {
   std::size_t begin = 0;
   while (begin + 1 < curve.x.size() && curve.x[begin + 1] <= curve.x[begin]) ++begin;

@@ -1,4 +1,4 @@
-// The curves of a study: one a variation, over several seeds their mean, standard deviation and the band between the
+// The curves of a study: one per variation; over several seeds the mean, standard deviation and the band between the
 // smallest and the largest.
 #pragma once
 
@@ -10,7 +10,7 @@ struct StudyLine {
   std::string variation;
   std::size_t runs = 0;
   std::vector<double> x, y;
-  std::vector<double> low, high, deviation;  // over seeds, at the same x; empty of a single run
+  std::vector<double> low, high, deviation;  // over seeds, at the same x; empty for a single run
 };
 
 struct DrawnCurve {
@@ -18,8 +18,8 @@ struct DrawnCurve {
   std::vector<StudyLine> lines;
 };
 
-// Runs that reached their end only. Means over seeds are taken where all have got to; of an abscissa that
-// turns back, up to where it turns first.
+// Only runs that reached their end. Means over seeds are taken over the range that all runs cover; if the abscissa
+// reverses, up to its first reversal.
 std::vector<DrawnCurve> study_curves(const Study& study, const std::vector<StudyResult>& results);
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// Laws of strength that were fitted across the runs, as text: for summary.json, fits.csv, strengths.csv and the
+// Strength laws fitted across the runs, as text: for summary.json, fits.csv, strengths.csv and the
 // terminal.
 #pragma once
 
@@ -11,11 +11,11 @@
 namespace pulvis {
 
 nlohmann::ordered_json fits_json(const std::vector<FittedLaw>& laws);
-std::string fits_csv(const std::vector<FittedLaw>& laws);  // one row a parameter
+std::string fits_csv(const std::vector<FittedLaw>& laws);  // one row per parameter
 std::string strengths_csv(
-    const std::vector<FittedLaw>& laws);  // one row a run, of laws of strength
-std::string sensitivities_csv(const std::vector<FittedLaw>& laws);  // the same, of power laws
+    const std::vector<FittedLaw>& laws);  // one row per run, for strength laws
+std::string sensitivities_csv(const std::vector<FittedLaw>& laws);  // the same, for power laws
 bool is_power(const FittedLaw& law);
-std::string fits_text(const std::vector<FittedLaw>& laws);  // one line a group
+std::string fits_text(const std::vector<FittedLaw>& laws);  // one line per group
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// The folder of a study: whose it is, and who is at work in it.
+// The folder of a study: its owner, and which processes are working in it.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace pulvis {
 
-// Refuses a folder in which files of somebody else, or the study itself, stand where the study would write.
+// Refuses a folder in which foreign files, or the study file itself, are where the study would write.
 void require_own_study(const std::filesystem::path& folder, const std::filesystem::path& study);
 
-// Makes the folder. Two studies in one would take each other's runs away.
+// Creates the folder. Two studies in one folder would interfere with each other's runs.
 FolderLock lock_study(const std::filesystem::path& folder);
 
-// study.toml, and copies of what it names.
+// study.toml, and copies of the files it refers to.
 void save_study(const std::filesystem::path& folder, const Study& study);
 
-// Runs that somebody else does, and who: those that are known, and those whose folder a process is writing into.
+// Runs done by others, and by whom: the known ones, and those whose folder another process is writing to.
 std::map<std::string, std::string> runs_elsewhere(const std::filesystem::path& folder,
                                                   const Study& study,
                                                   std::map<std::string, std::string> known);

@@ -26,10 +26,10 @@ struct Running {
   Time::time_point since;
 };
 
-// After fork() only what is safe in a signal handler may be called: everything is made ready before.
+// After fork() only async-signal-safe calls are allowed: everything is prepared before.
 [[noreturn]] void become(char* const* arguments, int log, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(1);  // it died in between
+  if (getppid() != parent) _exit(1);  // the parent died in between
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
   execv(this_program, arguments);
@@ -61,7 +61,7 @@ bool ended(const Running& running, JobEnd& end) {
   return true;
 }
 
-// Whatever goes wrong here, no child is left behind without somebody who waits for it.
+// On any error here, all children are still waited for.
 struct Children {
   std::vector<Running> running;
   ~Children() {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* slurm_group = "On a cluster with Slurm (docs/cluster.md)";
 
-// What stands on a line of the script as it is.
+// Text that is inserted verbatim into a line of the script.
 const CLI::Validator one_line(
     [](const std::string& text) {
       const bool good = !text.empty() && printable(text) == text;
@@ -24,7 +24,7 @@ const CLI::Validator time_limit(
     },
     "", "time_limit");
 
-// Those by which a task knows its runs and its folder are not for others to set.
+// Options that tell a task its runs and its folder may not be set by users.
 const CLI::Validator other_option(
     [](const std::string& text) {
       if (!text.starts_with('-'))

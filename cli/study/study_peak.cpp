@@ -9,7 +9,7 @@
 namespace pulvis {
 namespace {
 
-// The sample with the highest relative density; none where there is no number.
+// The sample with the highest relative density; none if all are NaN.
 std::optional<std::size_t> densest(const std::vector<double>& density) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < density.size(); ++i)

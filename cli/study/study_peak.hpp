@@ -1,4 +1,4 @@
-// What a compaction has reached at its highest relative density: columns of a study.
+// Values of a compaction at its highest relative density: columns of a study.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace pulvis {
 
-// peak/relative_density and, at the sample that has it, forces, pressure, transmission and stress ratios; nothing of
-// runs that are not in a die of four plane tools.
+// peak/relative_density and, at that sample, forces, pressure, transmission and stress ratios; nothing for
+// runs without a die of four plane tools.
 std::vector<Figure> peak_values(const StudyResult& result);
 
 }  // namespace pulvis

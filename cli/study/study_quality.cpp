@@ -19,7 +19,7 @@ std::vector<std::string> loop_flags(const Json& summary) {
   return lines;
 }
 
-// "hourglass energy 5.4% (limit 3%)": what to do about it is in the report of the run.
+// "hourglass energy 5.4% (limit 3%)": advice is in the report of the run.
 std::string without_advice(const std::string& line) { return line.substr(0, line.find("): ") + 1); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Whether the numbers of a run can be relied on: its quality card, judged for the table of a study.
+// Whether a run's numbers can be relied on: its quality card, evaluated for the table of a study.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace pulvis {
 
 // One line for each value beyond its limit, as in "hourglass energy 4.1% (limit 3%)" (`quality` of summary.json), and each
-// friction loop that has no plateau; empty: nothing to object to.
+// friction loop without a plateau; empty: no objections.
 std::vector<std::string> quality_flags(const StudyResult& result);
 
 }  // namespace pulvis

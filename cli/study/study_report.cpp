@@ -23,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t thumbnail_pixels =
-    3'000'000;  // of all together: bytes before they are deflated
+    3'000'000;  // all together, in bytes before deflation
 
 Json run_json(const Study& study, const StudyResult& result) {
   Json varied = Json::object();
@@ -96,7 +96,7 @@ Json curves_json(const std::vector<DrawnCurve>& curves) {
   return list;
 }
 
-// The last frame of every run, as far as there is room; colours of one field have one scale.
+// The last frame of every run, as far as space allows; each field has a common colour scale.
 Json with_thumbnails(Json head, const std::vector<StudyResult>& results) {
   const int side = thumbnail_side(results.size(), thumbnail_pixels);
   if (side == 0) return head;
@@ -129,7 +129,7 @@ Json with_thumbnails(Json head, const std::vector<StudyResult>& results) {
   return head;
 }
 
-// In the page the numbers of all lines are one packed list; each line says how many it has.
+// In the page the numbers of all lines form one packed list; each line stores its count.
 ReportData page_data(const Study& study, Json head, const std::vector<DrawnCurve>& curves) {
   std::vector<float> numbers;
   const auto put = [&](const std::vector<double>& values) {
@@ -160,7 +160,7 @@ ReportData page_data(const Study& study, Json head, const std::vector<DrawnCurve
           {{"numbers", encoded(numbers)}}};
 }
 
-// Those without a law are of the same study before it was changed.
+// Files without a fitted law are left over from the study before it was changed.
 void write_fits(const std::filesystem::path& folder, const std::vector<FittedLaw>& fits) {
   const auto write = [&](const char* name, bool any, const auto& text) {
     any ? write_own(folder / name, role::study, text(fits))

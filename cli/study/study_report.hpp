@@ -1,13 +1,13 @@
-// What a study leaves beside its runs:
-//   study.csv     one row a run: what is varied, and its values
-//   variations.csv  one row a variation: mean and standard deviation over its seeds
-//   effects.csv   of every varied key and level the mean over all runs that have it, and its standard deviation
-//   summary.json  the same with everything of each run's summary that was looked up, and the verdicts
+// Output files of a study, besides its runs:
+//   study.csv     one row per run: varied keys and values
+//   variations.csv  one row per variation: mean and standard deviation over its seeds
+//   effects.csv   for every varied key and level the mean over all runs that have it, and its standard deviation
+//   summary.json  the same, with everything that was read from each run's summary, and the verdicts
 //   curves.json   the curves as drawn: [{title, x, y, x_unit, y_unit, lines: [{variation, runs, x, y,
 //                 low, high}]}], SI; low, high and standard_deviation where there are several seeds
-//   fits.csv, strengths.csv  where the study has a [[fit]]: the parameters that were found, and the strength of every
+//   fits.csv, strengths.csv  if the study has a [[fit]]: the fitted parameters, and the strength of every
 //                 run with its probability of failure or its porosity
-//   report.html   table, curves, spread and verdicts in one page, with links to the runs' own reports
+//   report.html   table, curves, scatter and verdicts in one page, with links to the runs' own reports
 #pragma once
 
 #include <vector>

@@ -49,7 +49,7 @@ bool ended_by_itself(const std::string& outcome) {
 
 bool is_met(const Json& verdict) { return verdict.contains("met") && verdict["met"] == true; }
 
-// "2 of 5"; nothing where the scene expects nothing.
+// "2 of 5"; nothing if the scene has no expectations.
 std::string expectations_met(const Json& summary) {
   if (!summary.contains("expectations")) return "";
   const Json& all = summary["expectations"];
@@ -90,7 +90,7 @@ void add_forces(std::vector<Figure>& figures, const StudyResult& result) {
       {"top_pressure_max", "Pa", largest(result.series("pressure/" + name(cell->top)))});
 }
 
-// Laws of compaction: what each found, and how far off it is.
+// Compaction laws: the fitted parameters of each, and its misfit.
 void add_fits(std::vector<Figure>& figures, const StudyResult& result) {
   if (!result.summary.contains("fits")) return;
   for (const Json& law : result.summary["fits"]["laws"]) {
@@ -123,7 +123,7 @@ Json afm_figure(const Json& summary, const std::string& name) {
   return summary.contains("values") ? number_in(summary["values"], name.c_str()) : Json();
 }
 
-// Nothing to say of a run that left no summary.
+// Empty for a run that left no summary.
 std::string quality_text(const StudyResult& result) {
   if (result.summary.empty()) return "";
   const std::vector<std::string> flags = quality_flags(result);
@@ -249,7 +249,7 @@ std::string varied_value(const StudyRun& run, const std::string& key) {
 
 std::string study_csv(const Study& study, const std::vector<StudyResult>& results) {
   const std::vector<std::string> keys = varied_keys(study);
-  std::vector<std::string> columns;  // figures of any run, in the order of the first that has them
+  std::vector<std::string> columns;  // figures of any run, in order of first occurrence
   std::vector<std::map<std::string, Json>> rows;
   for (const StudyResult& result : results) {
     rows.emplace_back();

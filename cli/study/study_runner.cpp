@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Time = std::chrono::steady_clock;
 
-// Runs at once and threads of each, within the processors.
+// Number of concurrent runs and threads of each, within the processors.
 StudyTimes shares(const RunnerOptions& options, std::size_t runs) {
   const int cores = oneapi::tbb::info::default_concurrency();
   const int wanted = std::max(1, static_cast<int>(std::min<std::size_t>(runs, 1024)));
@@ -56,7 +56,7 @@ std::string failure_of(const JobEnd& end, const fs::path& log) {
   return fmt::format("exit code {}: {}", end.code, last_line(log));
 }
 
-// Who runs what is not finished, where that is not this study.
+// Who has an unfinished run, if not this study.
 std::string who_has(const StudyResult& result, const RunnerOptions& options) {
   const auto known = options.elsewhere.find(result.run->name);
   if (known != options.elsewhere.end()) return known->second;
@@ -72,7 +72,7 @@ void require_own_run(const fs::path& folder) {
   require_own_or_none(folder / "log.txt", role::study);
 }
 
-// Its first line says what is run; what the run prints follows.
+// Its first line names the command; the run's output follows.
 void begin_log(const fs::path& log, const Job& job) {
   std::string line = "pulvis";
   for (const std::string& word : job.arguments) line += " " + word;
@@ -130,7 +130,7 @@ class StudyRunner::Parts {
   std::vector<StudyResult>& read() {
     for (StudyResult& result : results_) {
       read_result(result);
-      // A run that was killed between its summary and its report.
+      // A run that was killed after writing its summary but before its report.
       if (result.kept && !elsewhere_.contains(result.run->name) &&
           !fs::exists(result.folder / "report.html") && fs::exists(result.folder / "run.h5"))
         write_report(result.folder);
@@ -192,7 +192,7 @@ class StudyRunner::Parts {
     return job;
   }
 
-  // An old summary.json goes before anything else does: with it a half-finished run would look finished.
+  // The old summary.json is removed first: with it a half-finished run would look finished.
   void begin(std::size_t job) {
     const fs::path& folder = results_[waiting_[job]].folder;
     make_folder(folder);
@@ -242,8 +242,8 @@ class StudyRunner::Parts {
   std::map<std::string, std::string> elsewhere_;
   bool terminal_, open_ = false;
   std::vector<StudyResult> results_;
-  std::vector<std::size_t> waiting_;  // positions in results_, of those to run
-  std::vector<std::size_t> running_;  // positions in waiting_
+  std::vector<std::size_t> waiting_;  // indices in results_, of those to run
+  std::vector<std::size_t> running_;  // indices in waiting_
   std::size_t done_ = 0;
   StudyTimes times_;
   Time::time_point start_ = Time::now(), shown_ = start_;

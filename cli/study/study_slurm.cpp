@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As StudyRunner finds them; nothing is started.
+// As StudyRunner determines them; nothing is started.
 std::vector<std::string> runs_to_submit(const Study& study, const fs::path& folder,
                                         const SlurmQueue& queue) {
   RunnerOptions options;

@@ -1,4 +1,4 @@
-// pulvis study --slurm: what a study has to do, handed to Slurm.
+// pulvis study --slurm: hands the runs of a study over to Slurm.
 #pragma once
 
 #include "cli/study/study.hpp"
@@ -6,8 +6,8 @@
 
 namespace pulvis {
 
-// Submits all runs that are not finished and that nobody has, or with --dry-run prints how. The results folder holds then
-// study.toml with its inputs, which the tasks read: what is changed in the study afterwards does not reach them.
+// Submits all runs that are unfinished and not running elsewhere; with --dry-run prints how. The results folder then
+// holds study.toml with its inputs, which the tasks read: later changes to the study do not affect them.
 ExitCode submit_study(const StudyOptions& options, const Study& study,
                       const std::filesystem::path& folder);
 

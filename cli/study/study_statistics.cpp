@@ -19,7 +19,7 @@ struct RunRow {
   std::vector<Figure> values;
 };
 
-// Numbers with a unit; counts, names and the time that the machine took are no results.
+// Numbers with a unit; counts, names and wall time are not results.
 bool is_result(const Figure& value) {
   return !value.unit.empty() && value.value.is_number() && value.name != "wall_seconds";
 }
@@ -48,7 +48,7 @@ StudySample sample_of(const std::vector<double>& values) {
   return sample;
 }
 
-// Of each value that any of the rows has, in the order of the first.
+// Samples of every value that any of the rows has, in order of first occurrence.
 std::vector<NamedSample> samples_of(const std::vector<const RunRow*>& rows) {
   std::vector<NamedSample> samples;
   std::map<std::string, std::vector<double>> numbers;
@@ -76,7 +76,7 @@ std::vector<std::string> levels_of(const std::vector<RunRow>& rows, std::size_t 
   return levels;
 }
 
-// How often the others' settings stand beside each level: alike for all levels, or the effect holds theirs, too.
+// Whether all combinations of the other settings occur equally often per level: else their effect is included.
 bool is_balanced(const std::vector<RunRow>& rows, std::size_t key,
                  const std::vector<std::string>& levels) {
   std::map<std::vector<std::string>, std::map<std::string, int>> counts;
@@ -96,7 +96,7 @@ bool is_balanced(const std::vector<RunRow>& rows, std::size_t key,
   return std::ranges::all_of(counts, even);
 }
 
-// Of runs of different scenes only where each of them sets the key: elsewhere the scenes would be compared.
+// For runs of different scenes only if each of them sets the key: otherwise the scenes would be compared.
 bool has_effect(const std::vector<RunRow>& rows, std::size_t key) {
   const auto scene = [](const RunRow& row) { return row.result->run->file; };
   const bool one_scene = std::ranges::all_of(

@@ -9,11 +9,11 @@
 
 namespace pulvis {
 
-// Runs that did not reach their end count nowhere.
+// Runs that did not reach their end are not counted.
 struct StudySample {
   std::size_t count = 0;
   double mean = 0;
-  double deviation = 0;  // standard deviation, n - 1; 0 of one
+  double deviation = 0;  // standard deviation, n - 1; 0 for one
 };
 
 struct NamedSample {
@@ -24,26 +24,26 @@ struct NamedSample {
 struct VariationStatistics {
   std::string variation;
   std::vector<std::string> settings;  // of each varied key, in the order of varied_keys
-  std::size_t runs = 0, of = 0;       // that reached their end, and all
+  std::size_t runs = 0, of = 0;       // runs that reached their end, and all runs
   std::vector<NamedSample> values;
 };
 
 struct EffectLevel {
-  std::string level;  // what the key is set to; empty: it is as in the scene
+  std::string level;  // value of the key; empty: as in the scene
   std::size_t runs = 0;
   std::vector<NamedSample> values;
 };
 
-// The mean over all runs that have a level, whatever their other keys: the marginal mean.
+// The mean over all runs with a given level, whatever their other keys: the marginal mean.
 struct MainEffect {
   std::string key;
-  bool balanced = true;  // every level stands beside every combination of the other keys as often
+  bool balanced = true;  // every level occurs equally often with each combination of other keys
   std::vector<EffectLevel> levels;
 };
 
 struct StudyStatistics {
   std::vector<VariationStatistics> variations;
-  std::vector<MainEffect> effects;  // of keys with two levels or more
+  std::vector<MainEffect> effects;  // of keys with at least two levels
 };
 
 StudyStatistics statistics_of(const Study& study, const std::vector<StudyResult>& results);

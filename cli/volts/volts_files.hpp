@@ -1,4 +1,4 @@
-// What the way from an AFM's volts to friction leaves in its folder and prints.
+// Output files and messages of the conversion from an AFM's volts to friction.
 #pragma once
 
 #include <filesystem>
@@ -16,12 +16,12 @@ struct VoltsReduction {
   volts::Reduced reduced;
 };
 
-// Of what the settings name; throws SceneError.
+// From the files that the settings name; throws SceneError.
 VoltsReduction volts_reduction(const lab::LoadedSettings& loaded);
 
 std::vector<std::string> volts_files();  // that are written
 
-// What summary.json holds, all in SI units.
+// Content of summary.json, all in SI units.
 nlohmann::ordered_json volts_json(const VoltsReduction& reduction);
 
 void write_volts(const std::filesystem::path& folder, const VoltsReduction& reduction);

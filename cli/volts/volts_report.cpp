@@ -1,4 +1,4 @@
-// report.html of the way from an AFM's volts to friction: force curves, loops, the line of friction, and what
+// report.html of the conversion from AFM volts to friction: force curves, loops, the friction line, and what
 // contributes to its uncertainty. cli/report/page/volts.js draws them.
 #include "cli/volts/volts_report.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_points = 500;  // of a curve
+constexpr std::size_t most_points = 500;  // per curve
 constexpr std::size_t most_curves = 6;
 
 Json thin(const std::vector<double>& values) {
@@ -32,7 +32,7 @@ Json fit_json(const volts::Way& way, double from, double until) {
   return json;
 }
 
-// The line of the contact from where it meets the line of no force to the turning point.
+// The contact line from its intersection with the zero-force line to the turning point.
 Json way_json(const volts::Way& way, double turn) {
   const double touch = way.contact.middle - way.contact.value / way.contact.slope;
   return fit_json(way, touch, turn);

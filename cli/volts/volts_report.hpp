@@ -1,4 +1,4 @@
-// The page of the way from an AFM's volts to friction.
+// The report page of the conversion from an AFM's volts to friction.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,8 @@
-// Columns of deformable bodies in three dimensions: nodes and elements. Columns of particles (moduli, energies, time step)
-// are those of two dimensions (components/body.hpp).
+// Columns of deformable bodies in three dimensions: nodes and elements. Particle columns (moduli, energies, time step)
+// are shared with two dimensions (components/body.hpp).
 //
-// Elements are 8-node hexahedra with one point, whose twelve hourglass modes are stabilised, or with eight
-// (components/space/formulation.hpp).
+// Elements are 8-node hexahedra with one integration point and stabilisation of the twelve hourglass modes, or with
+// eight (components/space/formulation.hpp).
 #pragma once
 
 #include "components/entities.hpp"
@@ -25,7 +25,7 @@ struct ContactForce : Component<BoundaryNode, double, 3> {
                                       "of other particles and tools, on the node"};
 };
 
-// ---- only where a material has bulk damping ------------------------------------------------------
+// ---- only if a material has bulk damping ---------------------------------------------------------
 struct DampingForce : Component<Node, double, 3> {
   static constexpr ComponentInfo info{"damping_force", "N",
                                       "of bulk damping, on the node; part of the internal force"};
@@ -53,7 +53,7 @@ struct PlasticStrain : Component<Element, double, Points> {
   static constexpr ComponentInfo info{"plastic_strain", "-", "accumulated; never decreases"};
 };
 
-// ---- only where elements have one point ---------------------------------------------------------
+// ---- only for one-point elements -----------------------------------------------------------------
 struct PlasticHourglass : Component<Element, double, 12> {
   static constexpr ComponentInfo info{
       "plastic_hourglass", "-",

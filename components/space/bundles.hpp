@@ -7,7 +7,7 @@
 
 namespace pulvis::space {
 
-// Who stands where, and the mesh that all particles of a chunk share.
+// Location of each particle, and the mesh that all particles of a chunk share.
 struct Meshes {
   Read<Bodies> bodies;
   Read<Shapes> shapes;
@@ -21,7 +21,7 @@ struct Motion {  // of the nodes
   Read<Position> position;
   Read<Velocity> velocity;
 };
-// Forces on the nodes. Those of contact are apart, and only where anything can touch.
+// Nodal forces. Contact forces are kept separately, and exist only if the scene has contact.
 template <template <class> class Mode>
 struct NodalForces {
   Mode<InternalForce> internal;

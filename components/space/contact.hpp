@@ -1,8 +1,8 @@
-// Columns of contact in three dimensions: the smooth surfaces, and the candidates, where they may touch. A candidate is one
-// face of a particle (the sampled side, 4 x 4 Gauss points) against one other particle or tool. Both particles of a pair
+// Columns of contact in three dimensions: the smooth surfaces, and the candidate pairs that may touch. A candidate is one
+// face of a particle (the sampled side, 4 x 4 Gauss points) paired with one other particle or tool. Both particles of a pair
 // sample each other: the contact is unbiased.
 //
-// Pairs, touches and the sums of blocks are those of two dimensions (components/contact.hpp), as are the rules
+// Pairs, touches and block sums are shared with two dimensions (components/contact.hpp), as are the settings
 // and the index of rows (components/run_state.hpp). Bodies::Slot::first_control is a particle's first Bezier point.
 #pragma once
 
@@ -23,10 +23,10 @@ namespace pulvis::space {
 
 inline constexpr int face_points = Shape::gauss_points;  // two lanes
 inline constexpr int patch_points = 16;
-inline constexpr int face_numbers = 3 * patch_points;  // x of a face's Bezier points, y, z
+inline constexpr int face_numbers = 3 * patch_points;  // x of a face's Bezier points, then y, z
 
 // ---- surfaces -----------------------------------------------------------------------------------
-// Faces share the points on their sides: Shape::Face::point has their numbers.
+// Faces share the points on their sides: Shape::Face::point gives their numbers.
 struct SurfacePosition : Component<ParticleSurface, double, 3> {
   static constexpr ComponentInfo info{"position", "m", "of a Bezier point"};
 };
@@ -41,13 +41,13 @@ struct FaceForce : Component<SurfaceFace, double, face_numbers> {
                                       "of all contacts, on a face's Bezier points: all x, y, z"};
   static constexpr bool scratch = true;
 };
-// The numbers of a face's sixteen Bezier points in one of these columns.
+// The values at a face's sixteen Bezier points in one of these columns.
 struct PatchNumbers {
   const double* first;         // of the particle's first point
   const std::int32_t* number;  // Shape::Face::number
   double operator()(int k, int p) const { return first[number[p] + k]; }
 };
-// Between the nodes and these points, either way, eight particles at a time: the net, a point of it for each node, and the points.
+// Between the nodes and these points, in both directions, eight particles at a time: the net (a point per node), and the points.
 struct NetPosition : Component<BoundaryNode, double, 3> {
   static constexpr ComponentInfo info{"net_position", "m", "of a point of the control net"};
   static constexpr bool scratch = true;
@@ -73,13 +73,13 @@ struct ContactLaw : Component<At, double, 4> {
   static constexpr ComponentInfo info{"law", "SI", "kappa, Coulomb's mu, damping, 1/face size"};
   enum Number {
     stiffness,  // Pa/m, kappa of the pair
-    friction,   // -, Coulomb coefficient of the pair; 0 where the scene has none
-    damping,    // Pa s/m; 0 where the scene has none
+    friction,   // -, Coulomb coefficient of the pair; 0 if the scene has none
+    damping,    // Pa s/m; 0 if the scene has none
     inv_size    // 1/m, 1/size of the sampled face
   };
 };
-// What rests by itself: a point against another particle, of which a few touch as a rule; a half of the points against a
-// tool. Those of points are floats, never above the travel that is meant: all of a row are one line of memory.
+// Points become inactive one by one against another particle, where usually few touch; half a row at a time against a
+// tool. Point values are floats, rounded down: those of a row fit in one cache line.
 template <class At, bool Points = std::is_same_v<At, FaceContact>>
 struct Activation
     : Component<At, std::conditional_t<Points, float, double>, Points ? face_points : 2> {
@@ -91,7 +91,7 @@ struct PointForce : Component<FaceToolContact, double, 3 * face_points> {
   static constexpr ComponentInfo info{"point_force", "N",
                                       "on the sampled face: x of every point, y, z"};
 };
-// Of each point of a row against another particle, side by side: a point that touches is a line of memory or two.
+// Data per point of a row against another particle, contiguous: a touching point takes one or two cache lines.
 struct ContactPoint : Component<FaceContact, double, 5 * face_points> {
   static constexpr ComponentInfo info{"contact_point", "SI",
                                       "of each point: face of the other particle + u, v of the "
@@ -100,7 +100,7 @@ struct ContactPoint : Component<FaceContact, double, 5 * face_points> {
     face_u,      // -, face + u, 0 <= u < 1
     v,           // -
     spring,      // m, its x
-    numbers = 5  // of a point
+    numbers = 5  // per point
   };
 };
 // Only in scenes with output.contacts.
@@ -109,12 +109,12 @@ struct ContactPointForce : Component<FaceContact, double, 3 * face_points> {
                                       "on the sampled face: x y z of each point"};
 };
 
-// ---- only where the scene has friction -----------------------------------------------------------
+// ---- only if the scene has friction --------------------------------------------------------------
 struct ElasticSlip : Component<FaceToolContact, double, 3 * face_points> {
   static constexpr ComponentInfo info{"elastic_slip", "m",
                                       "stretch of the tangential springs, x of all, y, z: history"};
 };
-// ---- only where a pair's friction is more than Coulomb's coefficient ------------------------------
+// ---- only if the friction of a pair is more than a Coulomb coefficient ----------------------------
 template <class At>
 struct SlipWeakening : Component<At, double, face_points> {
   static constexpr ComponentInfo info{"slip_weakening", "-",
@@ -122,19 +122,19 @@ struct SlipWeakening : Component<At, double, face_points> {
 };
 
 // ---- pairs of particles ------------------------------------------------------------------------------
-// The rows of one particle against one other. Made with the rows, which stand in this order: (particle, other, face).
+// The rows of one particle against one other. Built with the rows, which are sorted by (particle, other, face).
 struct FacePairs {
   static constexpr const char* resource_name = "face_pairs";
   std::vector<std::int32_t> begin{0};     // [pairs + 1] into rows
   std::vector<std::int32_t> other_begin;  // [slots + 1] into of_other
-  std::vector<std::int32_t> of_other;     // pairs that have a particle as the other one
+  std::vector<std::int32_t> of_other;     // pairs with this particle as the other one
 
   int count() const { return static_cast<int>(begin.size()) - 1; }
-  // The first pair whose rows begin there or later.
+  // The first pair whose rows begin at this row or later.
   int from_row(std::int32_t row) const {
     return static_cast<int>(std::ranges::lower_bound(begin, row) - begin.begin());
   }
-  // From the keys of the rows: slot, face, other of each; `begins`: slots + 1.
+  // From the keys of the rows: slot, face, other for each; `begins`: slots + 1.
   void list(std::span<const std::int32_t> keys, std::size_t begins) {
     std::vector<std::int32_t> other;  // [pairs]
     begin.assign(1, 0);
@@ -159,16 +159,16 @@ struct FacePairs {
   }
 };
 
-// What the points of each pair do to the faces of both particles: made anew in every step.
+// Loads from the points of each pair on the faces of both particles: recomputed in every step.
 struct PairLoads {
   static constexpr const char* resource_name = "pair_loads";
   struct alignas(64) Load {
     std::array<double, face_numbers> force;  // N, on the face's Bezier points: all x, y, z
-    Load() {}                                // set when the face has borne its last point
+    Load() {}                                // set once the last point of the face has been added
   };
   struct Pair {
-    std::vector<std::array<double, 3>> own;  // N, on the points that touch, row after row
-    std::vector<std::int32_t> face;          // of the other particle: those that bear something
+    std::vector<std::array<double, 3>> own;  // N, on the touching points, row after row
+    std::vector<std::int32_t> face;          // loaded faces of the other particle
     std::vector<Load> load;                  // [face]
 
     void clear() {
@@ -183,8 +183,8 @@ struct PairLoads {
   void state(Bytes&) {}
 };
 
-// ---- tools that are no planes -----------------------------------------------------------------------
-// Triangles of a tool that a face can touch: in TriangleLists, from there.
+// ---- tools that are not planes ----------------------------------------------------------------------
+// Tool triangles that a face can touch: a range in TriangleLists.
 struct TriangleRange : Component<FaceToolContact, std::int32_t, 2> {
   static constexpr ComponentInfo info{"triangles", "-", "first in the list, and the end"};
 };
@@ -200,7 +200,7 @@ struct ShapedBodies {
     return entry(shapes->list, entry(bodies->slots, slot).shape);
   }
   const Shape& shape_of(Chunk chunk) const { return shape_of(ChunkLane(chunk, 0).slot()); }
-  // Of the particle's first point in the columns of ParticleSurface: of its first number.
+  // Index of the first number of the particle's first point in the columns of ParticleSurface.
   std::ptrdiff_t surface(int slot) const {
     return 3 * std::ptrdiff_t{entry(bodies->slots, slot).first_control};
   }

@@ -1,5 +1,5 @@
-// The element formulations of a scene in three dimensions. Both are 8-node hexahedra; the systems of the elements are
-// templates of them.
+// The element formulations of a scene in three dimensions. Both are 8-node hexahedra; the element systems are
+// templates on the formulation.
 #pragma once
 
 #include <stdexcept>
@@ -8,21 +8,21 @@
 
 namespace pulvis::space {
 
-// One point, with the mean gradient of the element, and the twelve modes that it cannot see
+// One point with the mean gradient of the element, and stabilisation of the twelve hourglass modes
 // (systems/space/body/hourglass_kernel.hpp).
 struct OnePoint {
-  static constexpr int points = 1;  // with a deviator and a plastic state each
+  static constexpr int points = 1;  // each with its own deviator and plastic state
   static constexpr bool stabilised = true;
 };
 
-// 2 x 2 x 2 Gauss points, one dilatation for the whole element (mean dilatation): the reference.
+// 2 x 2 x 2 Gauss points with one dilatation for the whole element (mean dilatation): the reference.
 struct EightPoint {
   static constexpr int points = 8;
   static constexpr bool stabilised = false;
 };
 
-// What a scene's formulation decides: visit(F{}), F the struct above. four_point, full integration in two dimensions,
-// stands for eight.
+// Maps a scene's formulation to a type: visit(F{}), F one of the structs above. four_point, full integration in
+// two dimensions, means eight points here.
 template <class Visit>
 decltype(auto) with_hexahedra(Formulation formulation, const Visit& visit) {
   switch (formulation) {

@@ -1,4 +1,4 @@
-// What a scene in three dimensions can ask to be observed of its particles. Written on sampled steps only; nothing in a
+// What a scene in three dimensions can output about its particles. Written in sampled steps only; nothing in a
 // step reads it.
 #pragma once
 
@@ -28,14 +28,14 @@ struct ParticleCentre : Component<Particle, double, 3> {
 };
 
 // ---- output.contacts --------------------------------------------------------------------------------
-// All that one particle does to another, or a tool to a particle: the sum of their contact points.
+// Resultant of one particle on another, or of a tool on a particle: the sum over their contact points.
 struct ContactLink {
   std::int32_t first = 0;   // number of the particle that `force` acts on
   std::int32_t second = 0;  // number of the other particle, > first; or the tool
-  Point point{};            // m, mean of the contact points, weighted with their forces
-  Point normal{};           // unit vector into the first particle, weighted with the normal forces
+  Point point{};            // m, mean of the contact points, weighted by force
+  Point normal{};           // unit vector into the first particle, weighted by normal force
   Point force{};            // N
-  double area = 0;          // m^2, of the surface that touches
+  double area = 0;          // m^2, area of the contact
 
   double normal_force() const {
     return force[0] * normal[0] + force[1] * normal[1] + force[2] * normal[2];
@@ -53,7 +53,7 @@ struct ContactLink {
 
 struct ContactNetwork {
   static constexpr const char* resource_name = "contact_network";
-  std::vector<ContactLink> pairs;  // each once, sorted by numbers
+  std::vector<ContactLink> pairs;  // each pair once, sorted by numbers
   std::vector<ContactLink> tools;
 
   template <class Bytes>
@@ -65,17 +65,17 @@ struct ContactNetwork {
 // ---- output.density_cells ---------------------------------------------------------------------------
 struct DensityGrid {
   static constexpr const char* resource_name = "density_grid";
-  // The face of a punch: distances from its axis, and heights over its middle, along its normal, m.
+  // The face of a punch: distances from its axis, and heights above its centre, along its normal, m.
   using Profile = std::vector<std::array<double, 2>>;
 
   std::array<int, 3> cells{};           // along x, y, z
   DieRoom between;                      // the tools
-  std::array<Profile, 2> bottom_top{};  // of a round room; flat: empty
+  std::array<Profile, 2> bottom_top{};  // of a round room; empty if flat
 
   // As last observed.
   std::array<double, 3> low{}, high{};  // m
-  std::vector<double> filled;           // m^3, [z * y * x]: of the particles in a cell
-  std::vector<double> room;             // m^3, of the cell between the tools
+  std::vector<double> filled;           // m^3, [z * y * x]: particle volume in a cell
+  std::vector<double> room;             // m^3, volume of the cell between the tools
 
   template <class Bytes>
   void state(Bytes& bytes) {

@@ -1,4 +1,4 @@
-// Shapes of rigid tools in three dimensions. What is fixed of a tool stands relative to its position (ToolPosition).
+// Shapes of rigid tools in three dimensions. Fixed geometry is given relative to the tool's position (ToolPosition).
 #pragma once
 
 #include <array>
@@ -13,35 +13,35 @@
 
 namespace pulvis::space {
 
-// A closed surface of triangles, counter-clockwise as seen from outside.
+// A closed surface of triangles, counter-clockwise seen from outside.
 struct TriangleMesh {
   struct Triangle {
     std::array<Point, 3> corner;  // m
-    // Outward unit vectors: of the triangle; of its edges (from corner k on) and corners, between those of all that meet
-    // there (weighted with their angles: Baerentzen & Aanaes 2005), which tell inside from outside where these are nearest.
+    // Outward unit normals: of the triangle; of its edges (edge k starts at corner k) and corners, averaged over all
+    // adjacent triangles (angle-weighted: Baerentzen & Aanaes 2005), used for the inside test near edges and corners.
     Point normal;
     std::array<Point, 3> edge_normal, corner_normal;
   };
   struct
-      Node {  // of a binary tree of boxes: of the triangles [first, first + count); halves where count is 0
+      Node {  // of a binary tree of boxes: leaf: triangles [first, first + count); inner node: count 0
     std::array<double, 3> low{}, high{};
     std::int32_t first = 0,
                  count =
-                     0;  // of an inner node, `first` is its second half; the first one follows it
+                     0;  // in an inner node, `first` is its second child; the first one comes next
   };
-  std::vector<Triangle> triangles;  // in the order of the tree
+  std::vector<Triangle> triangles;  // in tree order
   std::vector<Node> tree;
 };
 
 struct ToolShapes {
   static constexpr const char* resource_name = "space_tool_shapes";
   static constexpr bool fixed = true;
-  // A die is the inside of a round hole along the tool's normal, a punch a body of revolution about it.
+  // A die is the inside of a round hole along the tool's normal, a punch a body of revolution about that normal.
   enum class Kind { plane, die, punch, mesh };
   struct Shape {
     Kind kind = Kind::plane;
     double radius = 0;     // m, of a die
-    ToolSurface meridian;  // of a punch: x the radius, y along the normal, mirrored at the axis
+    ToolSurface meridian;  // of a punch: x is the radius, y along the normal, mirrored at the axis
     TriangleMesh mesh;
   };
   std::vector<Shape> of_tool;
@@ -63,16 +63,16 @@ struct ToolSurfaces {
   }
 };
 
-// Triangles of tools that candidates can touch, made with the rows: each has a range of them.
+// Tool triangles that candidates can touch, built with the rows: each row has a range of them.
 struct TriangleLists {
   static constexpr const char* resource_name = "triangle_lists";
   std::vector<std::int32_t> triangles;
 
-  // Those of a row to `list`. `range`: first and end.
+  // Appends the triangles of a row to `list`. `range`: first and end.
   void append(const std::int32_t* range, std::vector<std::int32_t>& list) const {
     list.insert(list.end(), triangles.begin() + range[0], triangles.begin() + range[1]);
   }
-  // The ranges, as long as they are, one after the other: of rows whose triangles were put together in their order.
+  // Makes the ranges consecutive, keeping their lengths: for rows whose triangles were concatenated in row order.
   static void make_consecutive(std::span<std::int32_t> ranges) {
     std::int32_t end = 0;
     for (std::size_t k = 0; k < ranges.size(); k += 2) {

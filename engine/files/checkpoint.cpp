@@ -32,7 +32,7 @@ struct Content {
   std::uint64_t bytes = 0, checksum = 0;
 };
 
-// Of all that follows the head.
+// Checksum and size of everything after the head.
 Content content_of(const FileDescriptor& file, const fs::path& path) {
   std::vector<std::byte> piece(std::size_t{1} << 20);
   Xxh3 checksum;
@@ -95,7 +95,7 @@ std::string column_name(const ColumnBase& column) {
   return "/columns/" + column.entity + "/" + column.info.name;
 }
 
-// Calls take(name, bytes) for all that a world has to keep.
+// Calls take(name, bytes) for everything in a world that must be saved.
 template <class Take>
 void for_each_part(const World& world, const Take& take, const ColumnVisit& visit = {}) {
   for (const ColumnBase* column : world.columns()) {
@@ -192,7 +192,7 @@ std::vector<fs::path> checkpoints_in(const fs::path& folder, const char* ending)
     const std::string name = entry.path().filename().string();
     if (name.starts_with("checkpoint-") && name.ends_with(ending)) found.push_back(entry.path());
   }
-  std::ranges::sort(found, std::greater());  // as many digits in every name
+  std::ranges::sort(found, std::greater());  // all names have the same number of digits
   return found;
 }
 

@@ -1,15 +1,15 @@
-// Checkpoints: the whole state of a run in one file, from which it goes on as if it had never stopped.
+// Checkpoints: the complete state of a run in one file, from which it continues as if it had never stopped.
 //
-// <folder>/checkpoint-000000001234.h5, the number is the step; state-<stage>.h5, kept at the end of a stage:
-//   512 bytes of text       "pulvis checkpoint", size and XXH3 of all that follows (HDF5's user block)
+// <folder>/checkpoint-000000001234.h5, where the number is the step; state-<stage>.h5, written at the end of a stage:
+//   512 bytes of text       "pulvis checkpoint", size and XXH3 of everything that follows (HDF5's user block)
 //   /                       version, commit, scene_hash, powder_hash, run, step, time
 //   /columns/<place>/<name> bytes of every column that is not transient
 //   /resources/<name>       bytes of every resource that is not fixed
-//   /run/<name>             bytes of what else the run carries on
+//   /run/<name>             bytes of the other data the run needs to continue
 //
-// A file is written under another name, brought to the disk and only then given its own, so that a
-// checkpoint is there as a whole or not at all. Nothing of a file is believed before its checksum has been
-// found right: whatever happened to it, HDF5 never sees a damaged one.
+// A file is written under a temporary name, flushed to disk and only then renamed, so that a
+// checkpoint is either complete or absent. Nothing in a file is trusted before its checksum has been
+// verified: whatever happened to it, HDF5 never sees a damaged one.
 #pragma once
 
 #include <cstdint>
@@ -35,11 +35,11 @@ struct CheckpointInfo {
 
 using StateParts = std::map<std::string, std::vector<std::byte>>;
 
-// What a checkpoint would hold of `world`, by its name there: kept in memory, to be written later.
+// What a checkpoint of `world` would contain, by name: kept in memory, to be written later.
 StateParts state_of(const World& world);
 
-// Afterwards the folder holds this checkpoint and the one before, no older ones of this run.
-// `fetch` is called with every column before it is written, and `leave` after it: of a world that holds one at a time.
+// Afterwards the folder holds this checkpoint and the previous one, but no older ones of this run.
+// `fetch` is called for every column before it is written, and `leave` after it: for a world that holds one at a time.
 struct ColumnVisit {
   std::function<void(const ColumnBase&)> fetch, leave;
 };
@@ -48,24 +48,24 @@ void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo&
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
                       const StateParts& world, const StateParts& run);
 
-// The same as a state that other runs may begin with; an old one of that name goes.
+// The same as a state from which other runs may start; replaces an old one of that name.
 void write_state_file(const std::filesystem::path& file, const CheckpointInfo& info,
                       const World& world, const ColumnVisit& visit = {});
 
-// The newest first.
+// Newest first.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder,
                                                   const char* ending = ".h5");
-// Those of Pulvis's own, whatever run they are of; halves that a killed program left, too.
+// All those written by Pulvis, from any run; also partial files left by a killed program.
 void remove_checkpoints(const std::filesystem::path& folder);
 void remove_unfinished_checkpoints(const std::filesystem::path& folder);
 
-// It is not what was written: cut short, changed, or no checkpoint at all.
+// The file is not as written: truncated, modified, or not a checkpoint at all.
 class DamagedCheckpoint : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// An earlier version of the program wrote it.
+// Written by an earlier version of the program.
 class OtherFormat : public DamagedCheckpoint {
  public:
   using DamagedCheckpoint::DamagedCheckpoint;
@@ -77,14 +77,14 @@ class Checkpoint {
 
   const CheckpointInfo& info() const { return info_; }
   const std::filesystem::path& file() const { return file_.path(); }
-  // `world` was made from the same scene. Throws BadState where it has other columns or resources; those of `left_alone` stay
-  // as they are.
+  // `world` must be built from the same scene. Throws BadState if it has other columns or resources; those in `left_alone`
+  // are not changed.
   void restore(World& world, const std::set<std::string>& left_alone = {}) const;
-  // Bytes of one column or resource by its name here: "node/position", "clock".
+  // Bytes of one column or resource by its name in the file: "node/position", "clock".
   bool has_column(const std::string& name) const { return file_.contains("/columns/" + name); }
   std::vector<std::byte> column(const std::string& name) const;
   std::vector<std::byte> resource(const std::string& name) const;
-  // Throws BadState where `world` has other columns or resources, apart from resources of `left_alone`.
+  // Throws BadState if `world` has other columns or resources, apart from the resources in `left_alone`.
   void require_same_parts(const World& world, const std::set<std::string>& left_alone = {}) const;
   std::vector<std::byte> run(const std::string& name) const;
   bool has_run(const std::string& name) const { return file_.contains("/run/" + name); }

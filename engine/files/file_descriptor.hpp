@@ -1,4 +1,4 @@
-// A file of the operating system that closes itself, and the folder whose names are brought to the disk.
+// An operating-system file that closes itself, and flushing of a folder's entries to disk.
 #pragma once
 
 #include <fcntl.h>
@@ -28,7 +28,7 @@ class FileDescriptor {
   int number_ = -1;
 };
 
-// New names in a folder survive a loss of power only after this. Some file systems refuse it: no error.
+// New names in a folder survive a power failure only after this. Lack of support is not an error.
 inline void sync_folder(const std::filesystem::path& folder) {
   const FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened) fsync(opened.get());

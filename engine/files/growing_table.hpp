@@ -1,5 +1,5 @@
-// A table of run.h5 that grows by rows: a group of 1-D datasets, one a column. New rows wait in memory until the whole
-// table is written anew, beside the old one, which then gives way to it (see engine/files/recorder.hpp).
+// A table of run.h5 that grows by rows: a group of 1-D datasets, one per column. New rows wait in memory until the
+// whole table is rewritten next to the old one, which it then replaces (see engine/files/recorder.hpp).
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,11 @@ class GrowingTable {
   bool has_news() const { return waiting() > 0; }
 
   void add(std::span<const double> row);
-  // Into a new file: without rows.
+  // Creates the table in a new file, without rows.
   void make(hdf5::File& file) const { write(file, group()); }
-  // With the rows that waited, as group() + ".next".
+  // Rewrites the table, including the waiting rows, as group() + ".next".
   void renew(hdf5::File& file);
-  // The same with the first `rows` of what an earlier program wrote.
+  // The same with only the first `rows` rows written by an earlier program.
   void cut(hdf5::File& file, std::int64_t rows);
 
  private:

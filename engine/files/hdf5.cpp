@@ -18,7 +18,7 @@ namespace {
 
 static_assert(sizeof(Id) == sizeof(hid_t));
 
-// HDF5's constants are macros that cast in the old style.
+// HDF5's constants are macros with C-style casts.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 constexpr hid_t defaults = H5P_DEFAULT;
@@ -33,27 +33,27 @@ constexpr std::uint64_t superblock_bytes = 96;  // of the default file version
 constexpr unsigned root_links = 60;
 constexpr unsigned root_name_bytes = 12;
 
-// A collection of texts is one page then, which changes with one write.
+// Each global heap for strings is then one page, which changes with one write.
 void align_to_pages(const Handle& access) {
   H5Pset_alignment(access.get(), page_bytes, page_bytes);
 }
 
-// A group has its names in a heap, unless it counts its links: that heap loses room with each name that is
-// removed, and grows into other pages. Links of a group that counts them lie beside its attributes.
+// A group keeps its names in a heap, unless it tracks creation order: that heap loses space with each name
+// removed, and grows into other pages. A group that tracks it stores links next to its attributes.
 void keep_links_with_attributes(const Handle& creation) {
   H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED);
   H5Pset_link_phase_change(creation.get(), root_links, 0);
   H5Pset_est_link_info(creation.get(), root_links, root_name_bytes);
 }
 
-// HDF5 prints nothing, and closes nothing at the program's exit: after a full disk its own clean-up
-// would run into the half-written file again and crash. Every File closes itself.
+// HDF5 prints nothing, and closes nothing at program exit: after a full disk its own clean-up
+// would write to the incomplete file again and crash. Every File closes itself.
 void prepare_library() {
   [[maybe_unused]] static const herr_t before_anything_else = H5dont_atexit();
   H5Eset_auto2(error_stack, nullptr, nullptr);
 }
 
-// "... error message = 'No space left on device', ..." holds the system's own words: keep these.
+// "... error message = 'No space left on device', ..." contains the system's message: extract it.
 std::string system_words(const std::string& text) {
   static constexpr std::string_view lead = "error message = '";
   const auto begin = text.find(lead);
@@ -73,7 +73,7 @@ std::string reason() {
   return innermost.empty() ? "HDF5 gave no reason" : system_words(innermost);
 }
 
-// A named pipe would keep HDF5 waiting for a writer.
+// A named pipe would make HDF5 wait for a writer.
 void refuse_what_is_no_file(const std::filesystem::path& path) {
   try {
     require_regular_file(path);
@@ -237,7 +237,7 @@ void File::write_any(const std::string& dataset, Id type, const void* values, st
   }
   const Handle links = with_groups_on_the_way();
   const Handle space = space_of(shape);
-  const bool pack = packing == Packing::shuffle_gzip && count > 0;  // no chunk may be empty
+  const bool pack = packing == Packing::shuffle_gzip && count > 0;  // empty chunks are not allowed
   const Handle layout = pack ? packed_in_chunks(shape) : Handle(H5Pcreate(H5P_DATASET_CREATE));
   const Handle made(checked(H5Dcreate2(handle_.get(), dataset.c_str(), type, space.get(),
                                        links.get(), layout.get(), defaults),
@@ -336,7 +336,7 @@ void File::set_any(const std::string& object, const std::string& name, Id type, 
 
 bool File::contains(const std::string& object) const {
   for (auto end = object.find('/', 1);; end = object.find('/', end + 1)) {
-    const std::string part = object.substr(0, end);  // H5Lexists fails where a parent is missing
+    const std::string part = object.substr(0, end);  // H5Lexists fails if a parent is missing
     if (part != "/" && H5Lexists(handle_.get(), part.c_str(), defaults) <= 0) return false;
     if (end == std::string::npos) return true;
   }

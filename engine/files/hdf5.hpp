@@ -1,10 +1,10 @@
-// A thin RAII wrapper of the HDF5 C library: what the recorder, the checkpoint and the report need
-// of it, and no more. The C header stays inside hdf5.cpp, so that nobody else sees its macros.
+// A thin RAII wrapper of the HDF5 C library: only what the recorder, the checkpoint and the report
+// need. The C header is included only in hdf5.cpp, so that its macros do not leak out.
 //
-// Every call that fails throws OutputError with the file, the operation and HDF5's innermost
-// reason; HDF5's own printing to stderr is off. Paths inside a file are absolute
-// ("/frames/000000/position"); missing groups on the way are made. The default file version is
-// kept: newer ones are refused by plain readers after a crash.
+// Every failing call throws OutputError with the file, the operation and HDF5's innermost
+// error message; HDF5's own printing to stderr is off. Paths inside a file are absolute
+// ("/frames/000000/position"); missing parent groups are created. The default file version is
+// kept: files with newer ones cannot be opened by plain readers after a crash.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ namespace pulvis::hdf5 {
 using Id = std::int64_t;  // hid_t
 using Shape = std::vector<std::uint64_t>;
 
-// Owns one HDF5 identifier of any kind. Closing one cannot fail in a way anybody could act upon,
-// but for a file, which File::close() handles.
+// Owns one HDF5 identifier of any kind. A failure to close it cannot be handled in any useful way,
+// except for a file, which File::close() handles.
 class Handle {
  public:
   Handle() = default;
@@ -38,31 +38,31 @@ class Handle {
   Id id_ = -1;
 };
 
-enum class Packing { none, shuffle_gzip };  // the latter for meshes: it gains a hundredfold
+enum class Packing { none, shuffle_gzip };  // the latter for meshes: about a hundred times smaller
 
-enum class Stored { real, whole };  // of numbers that are handed over as doubles
+enum class Stored { real, whole };  // for numbers passed as doubles
 
 class File {
  public:
-  // An existing file is replaced. The first `user_block` bytes (0, or a power of two from 512) are left
+  // Replaces an existing file. The first `user_block` bytes (0, or a power of two from 512) are left
   // to the caller.
   static File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
-  // The same, laid out so that links and attributes of "/" lie in the 4096 bytes behind the user block (as
-  // many, too): with open_to_change() they change at one blow (engine/files/journaled_file.hpp).
+  // The same, but links and attributes of "/" are placed in the 4096 bytes after the user block (which has
+  // 4096 bytes, too): with open_to_change() they change atomically (engine/files/journaled_file.hpp).
   static File create_to_change(const std::filesystem::path& path, std::uint64_t user_block);
   static File open(const std::filesystem::path& path);  // read only
-  // Changes come with a flush as a whole, or not at all, and others may read meanwhile; see
-  // engine/files/journaled_file.hpp. Opening repairs what a killed program has left.
+  // Changes reach the file as a whole at a flush, or not at all, and others may read meanwhile; see
+  // engine/files/journaled_file.hpp. Opening repairs the file after a killed program.
   static File open_to_change(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
-  void flush();  // to the disk: H5Fflush and fsync
-  void close();  // throws where the last bytes cannot be written; the destructor does not
+  void flush();  // to disk: H5Fflush and fsync
+  void close();  // throws if the last bytes cannot be written; the destructor does not
 
-  // What comes next is written to new places, texts too: HDF5 would put them into heaps that it still has in
-  // mind, and enlarge those, though what counts refers to them.
+  // What is written next goes to new places, strings too: HDF5 would otherwise put them into heaps that it has
+  // cached, and enlarge those, although committed data refers to them.
   void begin_change();
-  // Flushes it. std::logic_error where "/" does not lie in one page, so that the change might be seen half done.
+  // Flushes the change. std::logic_error if "/" is not in one page, as readers might see a partial change.
   void commit_change();
 
   // Writing. `object` is the path of a group or dataset.
@@ -72,7 +72,7 @@ class File {
   void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
              Packing packing = Packing::none);
   void write(const std::string& dataset, std::span<const std::byte> bytes);
-  // A series of 1-D: those first `kept` rows of another one (none: 0 rows), then `values`.
+  // A 1-D series: the first `kept` rows of another one (none: 0 rows), then `values`.
   void write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
                     std::span<const double> values, Stored stored = Stored::real);
   void set_attribute(const std::string& object, const std::string& name, double value);
@@ -81,7 +81,7 @@ class File {
   void set_attribute(const std::string& object, const std::string& name, std::string_view value);
 
   void link(const std::string& object,
-            const std::string& name);  // a second name of the same object
+            const std::string& name);  // a second name for the same object
   void rename(const std::string& object, const std::string& name);
   void remove(const std::string& object);
   void remove_attribute(const std::string& object, const std::string& name);
@@ -89,7 +89,7 @@ class File {
   // Reading.
   bool contains(const std::string& object) const;
   bool is_group(const std::string& object) const;
-  std::vector<std::string> children(const std::string& group) const;  // in the order of their names
+  std::vector<std::string> children(const std::string& group) const;  // sorted by name
   std::vector<std::string> datasets_below(const std::string& group) const;  // "tool/top/force_y"
   Shape shape(const std::string& dataset) const;
   std::vector<double> read_doubles(const std::string& dataset) const;

@@ -1,4 +1,4 @@
-// Changes that come at one blow: what File does about HDF5's own memory of the file, and about its first page.
+// Atomic changes: how File deals with HDF5's metadata cache, and with the first page of the file.
 #include <hdf5.h>
 
 #include <stdexcept>
@@ -22,7 +22,7 @@ void File::commit_change() {
   flush();
 }
 
-// HDF5 knows of a heap as long as it is in its cache of metadata: that is emptied by making it small for a moment.
+// HDF5 reuses a heap as long as it is in its metadata cache: flush the cache by shrinking it for a moment.
 void File::begin_change() {
   H5AC_cache_config_t usual{};
   usual.version = H5AC__CURR_CACHE_CONFIG_VERSION;
@@ -34,7 +34,7 @@ void File::begin_change() {
   small.flash_incr_mode = H5C_flash_incr__off;
   small.decr_mode = H5C_decr__off;
   checked(H5Fset_mdc_config(handle_.get(), &small), "prepare", "the file");
-  contains("/mesh");  // the next look at anything drops what is too much
+  contains("/mesh");  // the next access evicts the excess entries
   usual.set_initial_size = true;
   checked(H5Fset_mdc_config(handle_.get(), &usual), "prepare", "the file");
 }

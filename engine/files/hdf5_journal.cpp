@@ -24,7 +24,7 @@ const Driven& driven(const H5FD_t* file) { return *static_cast<const Driven*>(fi
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wold-style-cast"
-// In the form in which HDF5's own driver tells what the system said.
+// In the format that HDF5's own driver uses for system errors.
 herr_t failure_told(const std::system_error& error) {
   H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_VFL, H5E_WRITEERROR,
            "journaled file: %s: error message = '%s'", error.what(),
@@ -56,7 +56,7 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
   return opened;
 }
 
-// What HDF5 could not write as a whole never becomes a commit.
+// Data that HDF5 could not write completely is never committed.
 template <class Action>
 herr_t attempt_change(H5FD_t* file, const Action& action) {
   const herr_t result = attempt(action);
@@ -111,7 +111,7 @@ herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size
 }
 
 herr_t flush(H5FD_t* file, hid_t, hbool_t) {
-  // Not the half of a frame either, when the file is closed after the disk was full.
+  // No partial frame either, if the file is closed after a full disk.
   return attempt_change(file, [&] {
     if (driven(file).is_broken) throw std::system_error(EIO, std::generic_category(), "commit");
     driven(file).file.commit();

@@ -37,7 +37,7 @@ void HistoryCsv::flush() {
   require_name();
 }
 
-// What was deleted or replaced meanwhile would go on taking lines that nobody will ever read.
+// If the file was deleted or replaced meanwhile, lines would be written that nobody will ever read.
 void HistoryCsv::require_name() const {
   struct stat own {
   }, named{};

@@ -1,5 +1,5 @@
-// history.csv: the history as a table for a spreadsheet, with the same numbers as run.h5 (17
-// digits, so that reading them back gives the same bits). First column what the samples follow, header
+// history.csv: the history as a table for spreadsheets, with the same numbers as run.h5 (17
+// digits, so that reading them back gives the same bits). First column: sampling variable; header
 // "name [unit]".
 #pragma once
 
@@ -34,7 +34,7 @@ class HistoryCsv {
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Closer> file_;
-  Xxh3 checksum_;  // of what was written
+  Xxh3 checksum_;  // of the text written so far
   std::uint64_t bytes_ = 0;
 };
 

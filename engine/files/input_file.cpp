@@ -22,7 +22,7 @@ const char* kind_of(mode_t mode) {
   return "is not a regular file";
 }
 
-// Without waiting for whoever would write into a pipe.
+// Without waiting for a writer if it is a pipe.
 FileDescriptor opened(const std::filesystem::path& path) {
   FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (!file && (errno == ENOENT || errno == ENOTDIR)) throw UnfitInput("there is no such file");
@@ -43,7 +43,7 @@ std::string size_text(std::size_t bytes) {
 
 void require_regular_file(const std::filesystem::path& path) { opened(path); }
 
-// Sizes that file systems tell are not believed: some files of /proc have none and never end.
+// Sizes reported by the file system are not trusted: some files in /proc report none and never end.
 std::string text_of_input(const std::filesystem::path& path, std::size_t max_bytes) {
   const FileDescriptor file = opened(path);
   std::string text;

@@ -1,5 +1,5 @@
-// Files that a user names are opened here: regular ones (links followed) of bounded size. A pipe would wait for a
-// writer, a device would never end.
+// Opens files named by a user: only regular ones (links are followed) of limited size. A pipe would wait for a
+// writer, and a device would never end.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// Its message says what the path is: "is a folder", "there is no such file".
+// Its message says what is wrong with the path: "is a folder", "there is no such file".
 class UnfitInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -31,7 +31,7 @@ void write_all(int file, std::uint64_t at, std::span<const std::byte> bytes) {
   }
 }
 
-// As many as there are.
+// Reads as many bytes as there are.
 std::size_t read_some(int file, std::uint64_t at, std::span<std::byte> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
@@ -53,11 +53,11 @@ std::uint64_t size_on_disk(int file) {
 
 }  // namespace
 
-// The journal: this, then so many times a page's number and its bytes, then the XXH3 of all before.
+// The journal: this head, then number and bytes of each page, then the XXH3 of everything before.
 struct JournalHead {
   std::uint64_t mark = journal_mark;
   std::uint64_t end = 0;   // of the bytes that pages may change
-  std::uint64_t size = 0;  // of the file afterwards
+  std::uint64_t size = 0;  // of the file after the commit
   std::uint64_t pages = 0;
 };
 
@@ -141,7 +141,7 @@ bool JournaledFile::is_on_disk(std::uint64_t index, const Page& page) const {
   return there == page;
 }
 
-// The lowest one, which says what counts, last.
+// The lowest page, which makes the change effective, is written last.
 void JournaledFile::put_pages_in_place(std::uint64_t end) {
   for (auto page = changed_.rbegin(); page != changed_.rend(); ++page) {
     if (page->first == changed_.begin()->first) require_done(fsync(file_.get()) == 0, "flush");
@@ -181,7 +181,7 @@ void JournaledFile::recover() {
       head.pages != (content - sizeof head) / entry ||
       checksum != xxh3(std::span(bytes).first(content)))
     return;
-  if (size_on_disk(file_.get()) < head.size) return;  // not the file that it belongs to
+  if (size_on_disk(file_.get()) < head.size) return;  // the journal belongs to another file
   for (std::size_t at = sizeof head; at < content; at += entry) {
     std::uint64_t index = 0;
     std::memcpy(&index, bytes.data() + at, sizeof index);
@@ -193,7 +193,7 @@ void JournaledFile::recover() {
 }
 
 void JournaledFile::close() {
-  // A commit that failed half way leaves its journal to whoever opens the file next.
+  // A commit that failed half way leaves its journal for whoever opens the file next.
   if (file_ && changed_.empty()) unlink(journal_path().c_str());
   changed_.clear();
   file_ = FileDescriptor();

@@ -1,14 +1,14 @@
-// A file that changes from one whole state to the next, whatever kills the program in between.
+// A file that changes atomically from one consistent state to the next, even if the program is killed.
 //
-// What is written behind the last commit's end goes straight to the file: nothing that counts refers to it
-// yet. What would change bytes before that end is kept in memory, and reads see it. commit() brings it
-// to the disk as <file>.journal first and puts it into its places then. A journal that is found whole is
-// put into its places again when the file is opened; one that is not belongs to a commit that never was.
+// Data beyond the end of the last commit is written straight to the file: no committed data refers to it
+// yet. Changes to bytes before that end are kept in memory, and reads see them. commit() first writes them
+// to disk as <file>.journal and then to their places in the file. When the file is opened, a complete journal
+// is replayed; an incomplete one belongs to a commit that never happened and is ignored.
 //
-// Somebody who reads the file without its journal finds a whole state at any moment, too, if its writer keeps to
-// a rule: of the bytes that count since the last commit only those of one page change, the lowest that does,
-// which is put into its place last (one write, which no kill can cut); or bytes within another page that mean
-// the same before and after.
+// Readers of the file without its journal also find a consistent state at any moment, if its writer follows
+// one rule: of the bytes committed before, only those in one page change, the lowest changed page,
+// which is written last (by one write, which a kill cannot interrupt); or bytes within another page whose
+// meaning is the same before and after.
 #pragma once
 
 #include <array>
@@ -26,20 +26,20 @@ namespace pulvis {
 // All failures are std::system_error.
 class JournaledFile {
  public:
-  enum class Open { existing, empty };  // empty: made, or emptied
+  enum class Open { existing, empty };  // empty: created, or truncated
   JournaledFile(const std::filesystem::path& path, Open how);
 
-  void read(std::uint64_t at, std::span<std::byte> bytes) const;  // zeros behind the end
+  void read(std::uint64_t at, std::span<std::byte> bytes) const;  // zeros beyond the end
   void write(std::uint64_t at, std::span<const std::byte> bytes);
   void resize(std::uint64_t size) { size_ = size; }
   std::uint64_t size() const { return size_; }
 
   void commit();
-  // What was written since the last commit is forgotten.
+  // Discards what was written since the last commit.
   void close();
 
   int descriptor() const { return file_.get(); }
-  // For HDF5, which takes the address of a descriptor.
+  // For HDF5, which needs the address of a descriptor.
   int* descriptor_address() { return &number_; }
 
  private:

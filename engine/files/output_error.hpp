@@ -1,5 +1,5 @@
-// OutputError: the machine failed the run's output (disk full, no permission, broken file). Kept
-// apart from errors in a scene because the program leaves with another exit code.
+// OutputError: the system failed to write output (disk full, no permission, broken file). Separate
+// from errors in a scene because the program exits with a different code.
 #pragma once
 
 #include <filesystem>

@@ -46,7 +46,7 @@ std::string text_of(const Line& line) {
                      line.name);
 }
 
-// What may be in the file: the last line that holds, and what was about to be written since.
+// What may be in the file: the last valid line, and what was about to be written since.
 std::vector<Line> lines_of(const fs::path& file, std::string_view of) {
   std::ifstream list(folder_of(file) / list_name);
   std::vector<Line> lines;
@@ -71,7 +71,7 @@ void add_line(const fs::path& file, const Line& line) {
     fail_to(list, "write");
 }
 
-// A regular file, not what a link leads to.
+// Opens a regular file, without following links.
 FileDescriptor open_regular(const fs::path& file, std::uint64_t& bytes) {
   FileDescriptor opened(open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
@@ -98,7 +98,7 @@ bool fits(const FileDescriptor& file, std::uint64_t bytes, const Line& line) {
   return long_enough && begins_with(file, line);
 }
 
-// How files begin that say themselves what they are; empty: the list tells.
+// The first bytes of files that identify themselves; empty: the list decides.
 std::string_view own_beginning(const std::string& name) {
   if (name == "run.h5" || name == "run.h5.new") return "pulvis run";
   if (name == "run.h5.journal") return "PLVJNL";
@@ -107,7 +107,7 @@ std::string_view own_beginning(const std::string& name) {
   return {};
 }
 
-// What a program that was killed at once leaves: nothing yet.
+// A program killed immediately leaves an empty file.
 bool may_be_empty(const std::string& name) {
   return name.ends_with(".new") || name.ends_with(".journal");
 }
@@ -157,7 +157,7 @@ bool is_own(const fs::path& file, std::string_view of) {
 void require_own_or_none(const fs::path& file, std::string_view of) {
   if (!is_there(file) || is_own(file, of)) return;
   if (!is_there(file))
-    return;  // its folder went away between the two looks: who writes will name that
+    return;  // its folder was removed between the two checks: whoever writes will report that
   throw ForeignFile(
       file, "write it",
       fmt::format(
@@ -230,7 +230,7 @@ void remove_own_below(const fs::path& folder, std::string_view of) {
   for (const auto& entry : fs::directory_iterator(folder, error)) remove_own(entry.path(), of);
   const auto left = std::distance(fs::directory_iterator(folder, error), fs::directory_iterator());
   if (left == 1) fs::remove(folder / list_name, error);
-  fs::remove(folder, error);  // only an empty one goes
+  fs::remove(folder, error);  // only removes an empty folder
 }
 
 }  // namespace pulvis

@@ -1,5 +1,5 @@
-// What a run tells the recorder about itself: the names, units and meanings of its results, the
-// mesh they live on, and where they came from.
+// What a run tells the recorder about itself: names, units and meanings of its results, the
+// mesh they are defined on, and where they came from.
 #pragma once
 
 #include <cstdint>
@@ -9,44 +9,44 @@
 
 namespace pulvis {
 
-struct SeriesInfo {     // one series of the history: a number a sample
-  std::string name;     // slashes make groups: "tool/top/force_y"
-  std::string unit;     // SI, "-" where there is none
-  std::string meaning;  // a line for the reader
-  bool whole = false;   // whole numbers, and stored as such: of tables only
+struct SeriesInfo {     // one series of the history: one number per sample
+  std::string name;     // slashes create groups: "tool/top/force_y"
+  std::string unit;     // SI, "-" if dimensionless
+  std::string meaning;  // one line for the reader
+  bool whole = false;   // integers, and stored as such: only in tables
 };
 
-// How far the pixels of a picture are apart, m; 0: they have no size.
+// Spacing of the pixels of an image, m; 0: no physical size.
 struct PixelSpacing {
-  double along = 0, across = 0;  // of a line; from line to line
+  double along = 0, across = 0;  // along a line; from line to line
 };
 
-// Rows of their own, which come when they come: column "x" of table "cracks" is /cracks/x of run.h5.
+// A table whose rows are added as events occur: column "x" of table "cracks" is /cracks/x of run.h5.
 struct TableInfo {
   std::string name;
   std::vector<SeriesInfo> columns;
 };
 
-// What the samples follow: the first column of history.csv; /history/time of run.h5 has its unit.
+// The sampling variable: the first column of history.csv; /history/time of run.h5 has its unit.
 inline const SeriesInfo simulated_time{"time", "s", "simulated time"};
 
-// `list`: rows of their own, as many as there are at that time.
+// `list`: separate rows, whose number may change over time.
 enum class FieldPlace { node, cell, particle, list };
 
-struct FieldInfo {  // one field of the frames: `components` numbers a place
+struct FieldInfo {  // one field of the frames: `components` numbers per place
   std::string name;
   std::string unit;
   std::string meaning;
   FieldPlace place = FieldPlace::cell;
   int components = 1;
-  bool whole = false;  // whole numbers, and stored as such
+  bool whole = false;  // integers, and stored as such
 };
 
-// The values of a frame's fields, asked for one after the other: the components of a place together.
+// The values of a frame's fields, requested one after the other: the components of a place are contiguous.
 using FrameValues = std::function<std::vector<double>(std::size_t field)>;
 
-// A whole number of every particle that does not change: /particles/<name>. Where numbers are positions in a list
-// of names, its attribute `names` has that list, one a line.
+// A constant integer per particle: /particles/<name>. If the numbers are positions in a list
+// of names, its attribute `names` holds that list, one per line.
 struct ParticleTag {
   std::string name, meaning;
   std::vector<std::int32_t> values;  // [particles]
@@ -55,18 +55,18 @@ struct ParticleTag {
 
 inline bool is_named(const ParticleTag& tag) { return !tag.names.empty(); }
 
-// Lines around the tools, for pictures: rows of the field `tools/outline` in each frame are their ends.
+// Outlines of the tools, for visualisation: their end points are rows of the field `tools/outline` in each frame.
 struct ToolLines {
   std::vector<std::string> names;  // of the tools
   std::vector<std::int32_t> ends;  // [lines * 2]
   std::vector<std::int32_t> tool;  // [lines], position in `names`
-  std::uint64_t points() const {   // each tool's lines close
+  std::uint64_t points() const {   // the lines of each tool form a closed loop
     return tool.size();
   }
 };
 
-// Surfaces of the tools in space, for pictures: four corners a piece, rows of the field `tools/outline` in each frame; a
-// triangle repeats its last one. Seen from the powder the corners run counter-clockwise.
+// Tool surfaces in space, for visualisation: four corners per piece, rows of field `tools/outline` in each frame;
+// a triangle repeats its last corner. Corners are counter-clockwise seen from the powder.
 struct ToolFaces {
   std::vector<std::string> names;     // of the tools
   std::vector<std::string> kinds;     // of the tools: plane, die, punch, stl
@@ -75,7 +75,7 @@ struct ToolFaces {
   std::uint64_t points = 0;           // rows of `tools/outline`
 };
 
-struct RunMesh {                            // fixed over the run
+struct RunMesh {                            // constant during the run
   std::vector<std::int32_t> quads;          // [cells * 4], node numbers, counter-clockwise
   std::vector<std::int32_t> cell_particle;  // [cells]
   std::vector<std::int32_t> node_particle;  // [nodes]
@@ -83,7 +83,7 @@ struct RunMesh {                            // fixed over the run
   std::vector<std::int32_t> hexahedra = {};  // [cells * 8] instead of quads: a mesh in space
   std::vector<ParticleTag> tags = {};
   ToolLines tools = {};
-  ToolFaces tool_faces = {};  // of a mesh in space, instead of lines
+  ToolFaces tool_faces = {};  // for a mesh in space, instead of lines
   int dimension() const { return hexahedra.empty() ? 2 : 3; }
 };
 

@@ -19,18 +19,18 @@
 namespace pulvis {
 namespace {
 
-// run.h5 starts with this much text, before what is HDF5: by it Pulvis knows its file.
+// run.h5 starts with this much text, before the HDF5 part: it identifies the file as Pulvis's own.
 constexpr std::uint64_t user_block_bytes = 4096;
 
-// With a frame the history is written anew, and every table that has grown, unless it is larger than this and has grown by less than an eighth.
+// With a frame, the history and every grown table are rewritten, unless they are larger than this and have grown by less than an eighth.
 constexpr std::uint64_t small_history_bytes = std::uint64_t{1} << 20;
 
-// A commit lists every frame anew. The first frames get one each; later ones share it while commits would take
-// more than this part of the run.
+// A commit lists every frame anew. The first frames get one each; later ones share one if commits would take
+// more than this fraction of the run time.
 constexpr std::int64_t frames_with_a_commit_each = 100;
 constexpr double share_of_commits = 1.0 / 32;
 
-// Which run it is: no two are the same. No part of the state.
+// Identifies the run: unique. Not part of the state.
 std::string new_run_id(const std::filesystem::path& folder) {
   std::array<std::uint64_t, 2> bits{};
   if (getrandom(bits.data(), sizeof bits, 0) != static_cast<ssize_t>(sizeof bits))
@@ -38,7 +38,7 @@ std::string new_run_id(const std::filesystem::path& folder) {
   return fmt::format("{:016x}{:016x}", bits[0], bits[1]);
 }
 
-// Marks the file as Pulvis's before anything else is in it.
+// Marks the file as Pulvis's own before anything else is written.
 hdf5::File marked_file(const std::filesystem::path& path) {
   hdf5::File file = hdf5::File::create_to_change(path, user_block_bytes);
   write_head(path, "pulvis run 1\n");
@@ -81,7 +81,7 @@ std::vector<double> with_zero_third(const std::vector<double>& plane) {
   return space;
 }
 
-// A file beyond the allowed size would end the program: it shall be an error like any other.
+// Exceeding the file size limit would kill the program: turn it into an ordinary error.
 void survive_a_full_quota() {
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);
@@ -116,7 +116,7 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
   put_in_place(folder);
 }
 
-// From its first moment on run.h5 can be read, whatever happens.
+// run.h5 is readable from its first moment on, whatever happens.
 void Recorder::put_in_place(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "run.h5";
   std::error_code error;
@@ -145,7 +145,7 @@ Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
   write_csv_again();
 }
 
-// What is younger than `position` is not taken along into what replaces it.
+// Data after `position` is not copied to the replacement.
 void Recorder::cut(const RecorderPosition& position) {
   const auto rows = static_cast<std::uint64_t>(position.samples);
   const std::uint64_t rows_there = file_.shape("/history/time").front();
@@ -160,13 +160,13 @@ void Recorder::cut(const RecorderPosition& position) {
     const std::string group = "/frames" + frame_name(frames_);
     xdmf_.add(file_.number_attribute(group, "time"), group);
   }
-  if (there > 0) xdmf_.write();  // first: it names no frame that is cut off
+  if (there > 0) xdmf_.write();  // first: it then refers to no removed frame
   samples_ = position.samples;
   begin_change();
   link_frames();
   write_history("/history.next", rows);
   if (file_.has_attribute("/", "outcome")) file_.remove_attribute("/", "outcome");
-  if (file_.contains("/images")) file_.remove("/images");  // made anew when the run ends
+  if (file_.contains("/images")) file_.remove("/images");  // recreated when the run ends
   std::vector<std::string> renewed{"/frames", "/history"};
   require(position.rows.size() == tables_.size(), "a position counts the rows of every table");
   for (std::size_t i = 0; i < tables_.size(); ++i) {
@@ -189,14 +189,14 @@ void Recorder::link_frames() {
   has_new_frames_ = true;
 }
 
-// Nothing that run.h5 refers to changes before this, nor anything but its first page with it.
+// Nothing that run.h5 refers to changes before this; the change itself affects only its first page.
 void Recorder::replace(const std::vector<std::string>& groups) {
   for (const std::string& group : groups) {
     file_.rename(group, group + ".old");
     file_.rename(group + ".next", group);
   }
   for (const std::string& group : groups)
-    file_.remove(group + ".old");  // last: its place is free now
+    file_.remove(group + ".old");  // last: its space is free now
   file_.commit_change();
   has_new_frames_ = is_changing_ = false;
 }
@@ -214,7 +214,7 @@ void Recorder::write_csv_again() {
   csv_.flush();
 }
 
-// With the frames of the change that is under way, if there are any.
+// Includes the frames of the current change, if any.
 void Recorder::commit(Extent extent) {
   const Clock::time_point begin = Clock::now();
   begin_change();
@@ -257,12 +257,12 @@ Recorder::~Recorder() {
   if (!open_) return;
   try {
     if (is_half_)
-      file_.remove("/frames.next");  // with all that came since the last commit
+      file_.remove("/frames.next");  // with everything since the last commit
     else
       position();
     csv_.close();
     file_.close();
-  } catch (const std::exception&) {  // the first failure was already thrown from sample or frame
+  } catch (const std::exception&) {  // the first failure was already thrown by sample or frame
   }
 }
 
@@ -283,7 +283,7 @@ void Recorder::write_attributes(const RunAttributes& attributes) {
   file_.set_attribute("/", "threads", std::int64_t{attributes.threads});
 }
 
-// The first `kept` rows of /history, and the samples since.
+// The first `kept` rows of /history, and the samples since then.
 void Recorder::write_history(const std::string& group, std::uint64_t kept) {
   const auto write = [&](const SeriesInfo& series, const std::string& name,
                          const std::vector<double>& values) {
@@ -338,7 +338,7 @@ void Recorder::frame(double time, std::int64_t step, const FrameValues& values) 
   if (is_commit_due()) commit(Extent::due);
 }
 
-// The new group of frames, to begin with those that there are.
+// The new group of frames, starting with the existing ones.
 void Recorder::begin_frames() {
   if (has_new_frames_) return;
   const Clock::time_point begin = Clock::now();

@@ -1,29 +1,29 @@
-// Recorder: writes what a run hands it into the run's folder: run.h5 (all of it), run.xdmf (the
-// frames, for ParaView and meshio) and history.csv (the history, for a spreadsheet). It knows
-// names, units and numbers, and no physics.
+// Recorder: writes the results of a run into its folder: run.h5 (everything), run.xdmf (the
+// frames, for ParaView and meshio) and history.csv (the history, for spreadsheets). It knows
+// names, units and numbers, but no physics.
 //
-// run.h5 4096 bytes of text     "pulvis run 1": Pulvis's own file
-//        /                      run (another one of every run), version, commit, title, scene_hash, seed, threads, then outcome
+// run.h5 4096 bytes of text     "pulvis run 1": marks the file as Pulvis's own
+//        /                      run (unique for every run), version, commit, title, scene_hash, seed, threads, finally outcome
 //        /mesh/<name>           quads [cells,4] (hexahedra [cells,8] in space), cell_particle, node_particle, reference [nodes,2 or 3]
-//        /particles/<name>      [particles] number, material, class; `names`: what the numbers stand for, one a line
+//        /particles/<name>      [particles] number, material, class; `names`: what the numbers stand for, one per line
 //        /mesh/cell_<name>      [cells] material and class for each cell
 //        /tools/lines           [lines, 2] which rows of a frame's tools/outline are joined; /tools/line_tool [lines]
 //        /tools/quads           [pieces, 4] instead in space: corners of surfaces; /tools/quad_tool [pieces]
-//        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
-//                               complete = 1, written last: a frame without it is not to be read
-//        /history/<name>        one 1-D dataset a series; /history/time
-//        /<table>/<name>        one 1-D dataset a column, where the run has tables: rows come with the history
-//        /images/<name>         [lines, pixels], of a raster; attributes pixel_width, pixel_height in m
+//        /frames/000000/<field> [places] or [places, components]; the group has time, step, and
+//                               complete = 1, written last: a frame without it must not be read
+//        /history/<name>        one 1-D dataset per series; /history/time
+//        /<table>/<name>        one 1-D dataset per column, if the run has tables: rows are written with the history
+//        /images/<name>         [lines, pixels], a raster image; attributes pixel_width, pixel_height in m
 // Every dataset has the attributes unit and meaning, a field also place (node, cell, particle, list) and
 // components. A field of nodes or cells with two components is stored with a third one of zeros, because
-// XDMF has no plane vectors (components = 2 tells); `position` is not. XDMF shows these fields only.
+// XDMF has no plane vectors (components = 2 indicates this); `position` is not. XDMF shows these fields only.
 //
-// After frame() returns, the frame and every sample before it are on the disk: a killed run loses only what came
-// later. From the hundredth frame on that holds for frames that take their time; those that come so fast that
-// commits would take more than a thirtieth of the run share one, position() and finish() at the latest. run.h5 can
-// be read at any time, while the run writes, too, and wherever it is killed: frames come with new groups /frames
-// and /history, which replace the old ones at one blow. (Of a history beyond a megabyte the newest samples may be
-// in history.csv alone.) All failures of the machine are OutputError.
+// After frame() returns, the frame and every sample before it are on disk: a killed run loses only later
+// data. From the hundredth frame on this holds only if frames are far enough apart; if they are so frequent that
+// commits would take more than a thirtieth of the run, they share one, at the latest in position() and finish(). run.h5 can
+// be read at any time, even while the run writes, and wherever it is killed: frames come with new groups /frames
+// and /history, which replace the old ones atomically. (If the history exceeds a megabyte, the newest samples may be
+// in history.csv only.) All system failures are reported as OutputError.
 #pragma once
 
 #include <chrono>
@@ -55,44 +55,44 @@ struct RecorderPosition {
 
 class Recorder {
  public:
-  // `folder` exists (open_run_folder made it). `position` (node, as many components as the mesh has
+  // `folder` exists (created by open_run_folder). `position` (node, as many components as the mesh has
   // dimensions) is the first field.
   Recorder(std::filesystem::path folder, const RunAttributes& attributes, const RunMesh& mesh,
            std::vector<SeriesInfo> series, std::vector<FieldInfo> fields,
            const SeriesInfo& abscissa = simulated_time, std::vector<TableInfo> tables = {});
-  // Goes on with the files of a run that stopped: what was written after `position` is cut off.
+  // Continues the files of a stopped run: whatever was written after `position` is cut off.
   Recorder(std::filesystem::path folder, const RunMesh& mesh, std::vector<SeriesInfo> series,
            std::vector<FieldInfo> fields, const RecorderPosition& position,
            const SeriesInfo& abscissa = simulated_time, std::vector<TableInfo> tables = {});
 
-  // Everything so far is on the disk then.
+  // Commits everything so far to disk.
   RecorderPosition position();
 
-  // One history row: a value a series, in their order. Kept in memory until the next frame.
+  // One history row: one value per series, in order. Kept in memory until the next frame.
   void sample(double time, std::span<const double> values);
 
-  // One row of the table of that position: a value a column. Kept in memory until the next frame.
+  // One row of the table at that position: one value per column. Kept in memory until the next frame.
   void row(std::size_t table, std::span<const double> values);
-  // How many the table has.
+  // Number of rows of the table.
   std::int64_t rows(std::size_t table) const;
 
-  // One frame. Of what has a wrong length nothing is kept.
+  // One frame. If any field has a wrong length, nothing is kept.
   void frame(double time, std::int64_t step, const FrameValues& values);
   void frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
 
-  // A picture, row by row: [lines, pixels]. Where its pixels have a size, it is kept as pixel_width, pixel_height (m).
+  // An image, row by row: [lines, pixels]. If its pixels have a physical size, it is stored as pixel_width, pixel_height (m).
   void image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
              std::span<const double> values, const PixelSpacing& spacing = {});
 
-  // Writes what is left and closes the files; `outcome` says in words how the run ended. Without it
-  // the destructor does the same as well as it can, and run.h5 has no outcome.
+  // Writes what is left and closes the files; `outcome` says in words how the run ended. Without this call
+  // the destructor does the same as far as possible, and run.h5 has no outcome.
   void finish(std::string_view outcome = "done");
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   std::int64_t frames() const { return frames_; }
-  // In run.h5 as the attribute `run` and in the checkpoints: they belong together.
+  // The attribute `run` of run.h5 and of the checkpoints: shows that they belong together.
   const std::string& run_id() const { return run_id_; }
 
  private:
@@ -102,7 +102,7 @@ class Recorder {
   void put_in_place(const std::filesystem::path& folder);
   void begin_change();
   void begin_frames();
-  enum class Extent { due, whole };  // of what has come since
+  enum class Extent { due, whole };  // how much of the new data to commit
   void commit(Extent extent);
   bool is_commit_due() const;
   void check_length(const FieldInfo& field, std::size_t values) const;
@@ -126,15 +126,15 @@ class Recorder {
   Xdmf xdmf_;
   SeriesInfo abscissa_;
   std::string run_id_;
-  std::vector<std::uint64_t> places_;         // how many of each FieldPlace there are
+  std::vector<std::uint64_t> places_;         // number of places for each FieldPlace
   std::vector<double> pending_time_;          // samples not yet in run.h5
   std::vector<std::vector<double>> pending_;  // [series][sample]
   std::vector<GrowingTable> tables_;
   std::int64_t frames_ = 0, samples_ = 0;              // samples: in run.h5
   bool is_changing_ = false, has_new_frames_ = false;  // since the last commit
-  bool is_half_ = false;                               // the frame that is being written
+  bool is_half_ = false;                               // a frame is being written
   Clock::time_point committed_ = Clock::now();
-  Clock::duration linking_{}, cost_{};  // of the last commit: the frames it lists, and all of it
+  Clock::duration linking_{}, cost_{};  // of the last commit: linking of its frames, and the total
   bool open_ = true;
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folders that create_directories would have to make, the innermost first.
+// The folders that create_directories would have to create, innermost first.
 std::vector<fs::path> missing_folders(const fs::path& folder) {
   std::vector<fs::path> missing;
   std::error_code ignored;
@@ -29,10 +29,10 @@ std::vector<fs::path> missing_folders(const fs::path& folder) {
 
 void take_away(const std::vector<fs::path>& folders) {
   std::error_code ignored;
-  for (const auto& folder : folders) fs::remove(folder, ignored);  // only an empty one goes
+  for (const auto& folder : folders) fs::remove(folder, ignored);  // only removes empty folders
 }
 
-// Permissions, read-only mounts and quotas differ: only writing a file tells. Nobody has one of this name.
+// Permissions, read-only mounts and quotas: only a trial write can tell. Uses an unused file name.
 std::error_code try_to_write(const fs::path& folder) {
   std::string probe = (folder / ".pulvis-probe-XXXXXX").string();
   const FileDescriptor file(mkstemp(probe.data()));
@@ -42,7 +42,7 @@ std::error_code try_to_write(const fs::path& folder) {
   return {};
 }
 
-// What somebody may want of a run, and wants to be asked for.
+// Files of a run that must not be deleted without asking.
 bool is_result(const std::string& name) {
   for (const char* const own :
        {"run.h5", "run.xdmf", "history.csv", "summary.json", "report.html", "scene.toml"})
@@ -65,7 +65,7 @@ std::vector<fs::path> files_of_a_run(const fs::path& folder) {
   return found;
 }
 
-// Checkpoints and halves of files alone are no run that anybody could miss.
+// Checkpoints and partial files alone are not a result that anybody could miss.
 std::string result_in(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "run.h5", ignored)) return "run.h5";

@@ -1,4 +1,4 @@
-// The folder a run writes into: made, or refused, before anything else is written.
+// The output folder of a run: created, or refused, before anything else is written.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,17 @@
 
 namespace pulvis {
 
-// The folder already holds a run, and the caller did not say it may be replaced.
+// The folder already holds a run, and the caller did not allow replacing it.
 class RunFolderTaken : public OutputError {
  public:
   using OutputError::OutputError;
 };
 
-// While it lives, no other process gets a lock of the same folder; it goes with the process, however that
-// ends, and leaves no file behind. A file system that knows no locks gives one to everybody.
+// As long as it exists, no other process gets a lock of the same folder; it ends with the process, however that
+// ends, and leaves no file behind. A file system without locks grants one to everybody.
 class FolderLock {
  public:
-  // Throws RunFolderTaken; `taken` says by whom.
+  // Throws RunFolderTaken; `taken` names the holder.
   explicit FolderLock(const std::filesystem::path& folder,
                       const char* taken = "another run is writing into it");
 
@@ -26,23 +26,23 @@ class FolderLock {
   FileDescriptor folder_;
 };
 
-// Whether some process has such a lock now; false of a folder that is not there. Who takes one at that very moment is
-// refused: ask only about folders in which nothing is about to start.
+// Whether some process holds such a lock now; false for a missing folder. A process that requests one at that moment
+// is refused: only ask about folders in which nothing is about to start.
 bool is_locked(const std::filesystem::path& folder);
 
-// Makes the folder, parents included, and checks that files can be written into it. One that holds a file where
-// the run will write its own, and that no run wrote, is refused (ForeignFile: engine/files/own_files.hpp), and one with
+// Creates the folder, including parents, and checks that files can be written into it. A folder with a file where
+// the run will write one, but that no run wrote, is refused (ForeignFile: engine/files/own_files.hpp), so is one with
 // results of a run unless `overwrite`. Then the old run's own files (run.h5, run.xdmf, history.csv, summary.json,
-// report.html, scene.toml, checkpoint-*.h5, state-*.h5, what `figure` drew in pictures/) go and others stay. A refusal
-// leaves everything as it was: what this call made is taken away again.
+// report.html, scene.toml, checkpoint-*.h5, state-*.h5, what `figure` drew in pictures/) are removed, others stay. A
+// refusal leaves everything as it was: whatever this call created is removed again.
 FolderLock open_run_folder(const std::filesystem::path& folder, bool overwrite = false);
-// Only that: made, parents included, and files can be written into it.
+// Only that part: created, including parents, and files can be written into it.
 void make_results_folder(const std::filesystem::path& folder);
-// The first half of that refusal.
+// Refuses (ForeignFile) a folder that has other files where the run will write.
 void require_own_files(const std::filesystem::path& folder);
-// Only what a run that goes on writes anew.
+// Checks only the files that a continued run rewrites.
 void require_own_results(const std::filesystem::path& folder);
-// None of a run's files there is `read`, by whatever path it is reached.
+// Checks that none of the run's output files is `read`, by whatever path it is reached.
 void require_not_read(const std::filesystem::path& folder, const std::filesystem::path& read);
 
 }  // namespace pulvis

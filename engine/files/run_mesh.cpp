@@ -28,7 +28,7 @@ void write_tag(hdf5::File& file, const RunMesh& mesh, const ParticleTag& tag) {
   write(of_particles, tag.values);
   file.set_attribute(of_particles, "place", std::string_view("particle"));
   file.set_attribute(of_particles, "components", std::int64_t{1});
-  if (!is_named(tag)) return;  // /mesh/cell_particle has the numbers
+  if (!is_named(tag)) return;  // /mesh/cell_particle already has the numbers
   std::vector<std::int32_t> of_cells;
   for (const std::int32_t p : mesh.cell_particle)
     of_cells.push_back(tag.values.at(static_cast<std::size_t>(p)));

@@ -1,4 +1,4 @@
-// What run.h5 has once: the mesh, what its particles are, and the lines around the tools.
+// What run.h5 contains once: the mesh, the properties of its particles, and the tool outlines.
 #pragma once
 
 #include "engine/files/hdf5.hpp"
@@ -6,7 +6,7 @@
 
 namespace pulvis {
 
-// /mesh, and /particles and /tools where the mesh has them.
+// /mesh, and also /particles and /tools if the mesh has them.
 void write_mesh(hdf5::File& file, const RunMesh& mesh);
 
 }  // namespace pulvis

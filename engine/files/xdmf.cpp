@@ -26,7 +26,7 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-// Not Tensor6, whose components readers take for xx xy xz yy yz zz: those of a stress stand as xx yy zz xy yz zx.
+// Not Tensor6, which readers interpret as xx xy xz yy yz zz: stresses are stored as xx yy zz xy yz zx.
 const char* attribute_type(int components) {
   if (components == 1) return "Scalar";
   if (components == 3) return "Vector";

@@ -1,10 +1,10 @@
 // run.xdmf: tells ParaView and meshio how to read the frames of run.h5 as one moving mesh, and the outlines of the
-// tools, in space their surfaces, as another.
+// tools (in space their surfaces) as another.
 //
-// One Uniform grid a frame, each with its own geometry, and every item a whole dataset: readers do
-// not agree on hyperslabs. The file is replaced as a whole with new frames (written beside and
-// renamed), so that somebody looking on never meets half of it. Fields of particles are left out:
-// the format has places for nodes and cells only.
+// One Uniform grid per frame, each with its own geometry, and every item a whole dataset: readers
+// differ in their support of hyperslabs. With new frames the file is replaced as a whole (written to a temporary
+// file and renamed), so that nobody ever reads a partial file. Particle fields are omitted:
+// the format supports only nodes and cells.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace pulvis {
 
 class Xdmf {
  public:
-  // `heavy` is the HDF5 file's name as seen from the folder of `path`.
+  // `heavy` is the name of the HDF5 file relative to the folder of `path`.
   Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
        const std::vector<FieldInfo>& fields);
   void add(double time, const std::string& group);  // group: "/frames/000000"
@@ -39,17 +39,17 @@ class Xdmf {
   std::string heavy_;
   std::uint64_t nodes_, cells_;
   bool in_space_;
-  std::uint64_t tool_pieces_;  // lines, in space surfaces of four corners
+  std::uint64_t tool_pieces_;  // lines; in space, four-corner surfaces
   std::uint64_t tool_points_;
   std::vector<FieldInfo> fields_;
-  std::vector<std::string> tags_;   // of the particles, one a cell
-  std::string grids_, tool_grids_;  // the text of the frames so far
+  std::vector<std::string> tags_;   // of the particles, one per cell
+  std::string grids_, tool_grids_;  // XML text of the frames so far
   bool is_noted_ = false;
 };
 
-bool is_of_mesh(const FieldInfo& field);  // a number of rows that stays, and a place in the picture
+bool is_of_mesh(const FieldInfo& field);  // constant number of rows, and shown in XDMF
 
-// The components a field is stored with: plane vectors get a third one, as XDMF knows no others.
+// The components a field is stored with: plane vectors get a third one, as XDMF has only those.
 int stored_components(const FieldInfo& field);
 
 }  // namespace pulvis

@@ -1,5 +1,5 @@
-// XXH3, 64 bits (the library xxHash): tells whether bytes are those that were written, and names a state or a
-// scene by a number. The same on every machine. Not against malice.
+// XXH3, 64 bits (library xxHash): detects whether bytes have changed since they were written, and identifies
+// a state or scene by a number. The same on every machine. No protection against tampering.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ struct XXH3_state_s;
 
 namespace pulvis {
 
-// Of bytes that come in pieces: however they are cut, they hash as in one.
+// Hash of data that arrives in pieces: the result does not depend on how it is split.
 class Xxh3 {
  public:
   Xxh3();
@@ -25,7 +25,7 @@ class Xxh3 {
   std::unique_ptr<XXH3_state_s, Release> state_;
 };
 
-// Goes on from another hash where one is given.
+// Continues from another hash if one is given.
 std::uint64_t xxh3(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 
 }  // namespace pulvis

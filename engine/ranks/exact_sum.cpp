@@ -27,7 +27,7 @@ void ExactSum::add(double term) {
   }
   if (exponent != 0) mantissa |= std::uint64_t{1} << 52;
   if (mantissa == 0) return;
-  const int position = std::max(exponent, 1) - 1;  // in bits, of the mantissa's last one
+  const int position = std::max(exponent, 1) - 1;  // in bits, of the last bit of the mantissa
   const auto digit = static_cast<std::size_t>(position / 32);
   const Wide shifted = Wide{mantissa} << position % 32;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -45,7 +45,7 @@ void ExactSum::add(const ExactSum& other) {
   terms_ = 1;
 }
 
-// Every digit but the last from 0 to 2^32 - 1; the last has the sign.
+// Normalises every digit but the last to 0 ... 2^32 - 1; the last carries the sign.
 void ExactSum::carry() {
   for (std::size_t i = 0; i + 1 < digits; ++i) {
     const std::int64_t over = number_[i] >> 32;  // rounds down
@@ -82,8 +82,8 @@ double ExactSum::value() const {
   std::size_t top = digits;
   while (top > 0 && sum.number_[top - 1] == 0) --top;
   if (top == 0) return 0;
-  // The leading digits as one number, and whether anything is left below: rounded to nearest as a whole. Sums that a double
-  // does not resolve to its full width have no digits below these.
+  // The leading digits as one number, and whether anything is left below: rounded to nearest as a whole. Subnormal sums
+  // have no digits below these.
   constexpr std::size_t leading = 3;
   const std::size_t first = top > leading ? top - leading : 0;
   Wide head = 0;
@@ -93,7 +93,7 @@ double ExactSum::value() const {
       head |= 1;
       break;
     }
-  // So few units are a double's own bits; threads that take the smallest doubles for zero would lose them here.
+  // For so few units these are the bits of the double itself; threads that flush denormals would lose them here.
   const bool is_own_bits = first == 0 && head < Wide{1} << 53;
   const double size =
       is_own_bits ? std::bit_cast<double>(static_cast<std::uint64_t>(head))

@@ -21,7 +21,7 @@ struct Setting {
 struct Preset {
   const char* outline;
   std::vector<Setting> settings;
-  std::vector<const char*> sizes;  // further keys that say how fine the mesh is
+  std::vector<const char*> sizes;  // other keys that determine the mesh size
 };
 
 const std::vector<Preset>& presets() {
@@ -62,7 +62,7 @@ Table* mesh_of(Table& particle, const document::Origin& origin) {
   return particle.back().value.as<Table>();
 }
 
-// Grains are too small for the counts of a particle.
+// Grains are too small for the element counts of a particle.
 void refuse_counts(Table& particle, const Preset& preset, Problems& problems, std::size_t number) {
   Entry* mesh = document::find(particle, "mesh");
   if (mesh == nullptr || mesh->value.as<Table>() == nullptr) return;
@@ -72,7 +72,7 @@ void refuse_counts(Table& particle, const Preset& preset, Problems& problems, st
                    "has no effect on grains, allowed: size, or grains.edges");
 }
 
-// True when the particle's mesh came from the preset.
+// True if the particle's mesh came from the preset.
 bool fill_mesh(Value& element, std::size_t at, std::size_t number, Problems& problems) {
   Table* particle = element.as<Table>();
   const std::string* outline =

@@ -1,4 +1,4 @@
-// How fine a mesh is that a scene does not describe: the scene's `accuracy`, justified by the measured error
+// Mesh resolution where a scene does not specify it: the scene's `accuracy`, justified by the measured error
 // against run time in docs/accuracy.md.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace pulvis {
 
-// Writes the mesh of every particle that gives no size of it into the tree. An `accuracy` that no particle
-// makes use of is a problem.
+// Writes the mesh of every particle that gives no mesh size into the tree. An `accuracy` that no particle
+// uses is a problem.
 void fill_meshes(document::Table& root, Problems& problems);
 
 }  // namespace pulvis

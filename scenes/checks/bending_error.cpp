@@ -10,12 +10,12 @@ namespace pulvis {
 namespace {
 
 constexpr double min_slenderness = 3;  // squat bodies hardly bend
-constexpr double max_error = 0.1;      // more is told
+constexpr double max_error = 0.1;      // larger errors are reported
 constexpr double good_error = 0.02;
 
 struct Rows {
   int across = 0;
-  double aspect = 0;  // -, length along the body over height of an element
+  double aspect = 0;  // -, element length along the body over its height
 };
 
 std::optional<Rows> rows_of(const ParticleSpec& particle) {

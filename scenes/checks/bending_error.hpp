@@ -1,12 +1,12 @@
-// How wrong elements bend that are few across a slender body.
+// The bending error of a slender body with few elements across it.
 //
-// Law      of n equal rows of quads, r = their length along the body over their height, against the beam:
+// Law      of n equal rows of quads, r = element length (along the body) over height, against the beam:
 //            four-point  ((4/3 + r^2) (1 - nu)/2 - 1)/n^2
 //            standard    ((1 - nu)^2/(1 - 2 nu) - 1 + r^2 (1 - nu)/2)/n^2
-//            one-point   nothing: its bending is that of a fibre (systems/body/hourglass_kernel.hpp)
-//          A quad that bends keeps its sides straight, which is a shear strain of r times the fibre's: r^2.
-//          The mean dilatation takes the pressure out of bending, which leaves a fibre the modulus 4/3 mu
-//          instead of E'. Held to runs in tests/physics/bending_test.cpp
+//            one-point   none: it bends like a fibre (systems/body/hourglass_kernel.hpp)
+//          A quad in bending keeps its sides straight: its shear strain is r times the fibre's, hence r^2.
+//          The mean dilatation removes pressure from bending, which leaves a fibre the modulus 4/3 mu
+//          instead of E'. Verified against runs in tests/physics/bending_test.cpp
 // Valid    small strains, rows across a rectangle or layers of a ring
 #pragma once
 
@@ -18,10 +18,10 @@
 
 namespace pulvis {
 
-// -, of the bending stiffness: > 0, too stiff. None for particles that are no slender rectangles or rings.
+// -, relative error of the bending stiffness: > 0, too stiff. None unless a slender rectangle or ring.
 std::optional<double> bending_error(const Scene& scene, const ParticleSpec& particle);
 
-// One line for each particle class whose bending is off by more than a tenth.
+// One line for each particle class whose bending stiffness is wrong by more than 10 %.
 std::vector<std::string> bending_warnings(const Scene& scene);
 
 }  // namespace pulvis

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double edges_in_zone = 3;
 constexpr double zone_factor = 0.88;
-constexpr double largest_reach = 0.5;  // that a scene may ask for
+constexpr double largest_reach = 0.5;  // maximum that a scene may specify
 
 std::string what_would_bond(const BondTotals::Gap& nearest, const World& world) {
   const ContactIndex* index = world.has<ContactIndex>() ? &world.resource<ContactIndex>() : nullptr;
@@ -28,7 +28,7 @@ std::string what_would_bond(const BondTotals::Gap& nearest, const World& world) 
                      "none of their surfaces face each other within {:.4g} m, the search distance "
                      "of this `reach`, allowed: bodies that touch at the start, or a larger reach",
                      index->skin + index->reach);
-  const double needed = 1.001 * nearest.share;  // as it is printed, it must do
+  const double needed = 1.001 * nearest.share;  // must still suffice as printed
   if (needed > largest_reach)
     return fmt::format(
         "the nearest surfaces are {:.4g} m apart, {:.3g} of their edge length, allowed: bodies "
@@ -38,12 +38,12 @@ std::string what_would_bond(const BondTotals::Gap& nearest, const World& world) 
                      nearest.width, needed);
 }
 
-// ---- how long interfaces are ---------------------------------------------------------------------------
-// One side's bonded edges along one neighbour.
+// ---- length of interfaces ------------------------------------------------------------------------------
+// One side's bonded edges with one neighbour.
 struct Interface {
   int edges = 0;
   double length = 0;   // m
-  double longest = 0;  // m, edge
+  double longest = 0;  // m, longest edge
 };
 struct InterfaceKey {
   int law, slot, other;
@@ -76,7 +76,7 @@ double plane_strain_modulus(const MaterialSpec& m) {
   return m.youngs_modulus / (1 - m.poissons_ratio * m.poissons_ratio);
 }
 
-// m, of the law between the two materials; a tool does not give.
+// m, for the law between the two materials; tools are rigid.
 double zone_length(const Scene& scene, const BondRules::Law& law, int material, int other) {
   double modulus = plane_strain_modulus(entry(scene.materials, material));
   if (other >= 0) modulus = std::min(modulus, plane_strain_modulus(entry(scene.materials, other)));

@@ -102,7 +102,7 @@ class CellChecks {
     unused(drive, path);
   }
 
-  // Keys of strains without any, and of stresses.
+  // Keys for strains without any strain, and likewise for stresses.
   void unused(const CellDriveSpec& drive, const std::string& path) {
     const bool strains =
         drive.strain_xx || drive.strain_yy || drive.strain_xy || drive.rotation != 0;
@@ -117,7 +117,7 @@ class CellChecks {
       only_with(key, stresses, "a stress");
   }
 
-  // Of a scene without a cell.
+  // For a scene without a cell.
   void walls(const StageSpec& stage, const std::string& path) {
     const auto die = die_cell(scene_);
     if (!die)

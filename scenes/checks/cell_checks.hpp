@@ -1,4 +1,4 @@
-// Periodic cells: what a scene may ask of them.
+// Periodic cells: checks that a scene's settings are allowed.
 #pragma once
 
 #include "scenes/language/problem.hpp"

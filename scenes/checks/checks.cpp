@@ -28,7 +28,7 @@ constexpr std::int64_t max_particles = 1'000'000;
 constexpr std::int64_t max_quads_a_particle = 1'000'000;
 constexpr int max_edges_without_rings = 20;
 constexpr int min_edges_of_a_ring = 8;
-constexpr double min_sine = 0.2;                 // of an element's corners: 12 degrees
+constexpr double min_sine = 0.2;                 // at an element's corners: 12 degrees
 constexpr std::int64_t max_quads = 200'000'000;  // at 600 bytes each: 120 GB
 
 class Checks {
@@ -55,7 +55,7 @@ class Checks {
     return found == origins_.end() ? document::Origin{{1, 1}, -1} : found->second;
   }
 
-  // A default has no place of its own: its table's is told, or the table's above.
+  // A default has no source location: report that of its table, or of the table above.
   document::Origin nearest_origin(std::string path) const {
     while (origins_.count(path) == 0 && path.find('.') != std::string::npos)
       path.erase(path.rfind('.'));
@@ -82,7 +82,7 @@ class Checks {
     if (scene_.stages.empty()) refuse_missing("stage", "at least one [[stage]]");
   }
 
-  // A file is read once for all that needs its outline.
+  // A file is read once for all particles that need its outline.
   void points_files() {
     for (std::size_t i = 0; i < scene_.particles.size(); ++i)
       if (auto* outline = std::get_if<PointsOutline>(&scene_.particles[i].outline))
@@ -111,7 +111,7 @@ class Checks {
   template <class AnyOutline>
   bool is_good(const std::string& path, const AnyOutline& outline) {
     if constexpr (std::is_same_v<AnyOutline, PointsOutline>)
-      if (outline.points.empty()) return false;  // its file is refused already
+      if (outline.points.empty()) return false;  // its file has already been refused
     if constexpr (requires { faults_of(outline); }) {
       const std::vector<OutlineFault> faults = faults_of(outline);
       for (const OutlineFault& fault : faults) refuse(path + fault.key, fault.message);
@@ -133,7 +133,7 @@ class Checks {
       refuse(path + "mesh.phase", "has no effect on grains, allowed: 0 deg");
   }
 
-  // The wanted size decides on the counts.
+  // The requested size determines the counts.
   bool size_alone(const std::string& path, const ParticleSpec& particle) {
     if (!particle.mesh_size) return true;
     for (const char* count : {"boundary_edges", "rings", "columns", "rows"})
@@ -144,8 +144,8 @@ class Checks {
     return true;
   }
 
-  // Without rings the two edges beside a corner of the core lie on the outline, and their element has
-  // nearly 180 degrees there.
+  // Without rings, the two edges next to a core corner lie on the outline, and their element has an
+  // angle of nearly 180 degrees there.
   void check(const std::string& path, const DiscOutline&, const MeshSpec& spec) {
     const auto& mesh = std::get<DiscMesh>(spec);
     if (mesh.core == DiscMesh::Core::coarse) {
@@ -195,7 +195,7 @@ class Checks {
       refuse(path + "mesh.rings", "a ring needs at least one ring of elements, allowed: >= 1");
   }
 
-  // Only where the counts are good: the mesh is made to see how good its elements are.
+  // Only if the counts are valid: the mesh is generated to check the quality of its elements.
   template <class CurvedOutline>
   void check(const std::string& path, const CurvedOutline& outline, const MeshSpec& spec) {
     const auto& mesh = std::get<StarMesh>(spec);
@@ -217,7 +217,7 @@ class Checks {
     }
   }
 
-  // Of the disc and the rounded rectangle: of all cores with as long a rim the square one has most.
+  // For the disc and the rounded rectangle: of all cores with equal rim, the square has most quads.
   static std::int64_t with_core(int boundary_edges, int rings) {
     const std::int64_t side = boundary_edges / 4;
     return side * side + std::int64_t{rings} * boundary_edges;
@@ -244,7 +244,7 @@ class Checks {
 
   std::int64_t quads_of(int particle) const {
     const ParticleSpec& spec = scene_.particles[static_cast<std::size_t>(particle)];
-    return spec.grains ? 0 : quads(spec.mesh);  // grains are bounded in number
+    return spec.grains ? 0 : quads(spec.mesh);  // the number of grains is limited
   }
 
   void counts() {

@@ -1,5 +1,5 @@
-// Checks of [[expect]]: series that exist, bounds that do not contradict each other, scenes to compare
-// with that can be read.
+// Checks of [[expect]]: the series exist, bounds do not contradict each other, and scenes to compare
+// with can be read.
 #pragma once
 
 #include <functional>
@@ -11,20 +11,20 @@
 
 namespace pulvis {
 
-// Figures of a whole run that an expectation may name like a series.
+// Values for a whole run that an expectation may name like a series.
 inline constexpr const char* figures_of_a_run[] = {"energy_balance_error", "kinetic_ratio"};
 bool is_figure_of_a_run(const std::string& name);
 
-// Every series of a run that an expectation may name: the history, and the momentum.
+// Every series of a run that an expectation may name: history columns and momentum.
 std::vector<SeriesInfo> expectable_series(const Scene& scene);
 
-// Turns a bound written with a unit into a number in `unit` ("-": none). Returns what is wrong with it, as
-// "what, allowed: ..."; nothing where it will do.
+// Converts a bound written with a unit to a number in `unit` ("-": none). Returns what is wrong, as
+// "what, allowed: ..."; an empty string if it is valid.
 std::string settle_bound(std::optional<ExpectSpec::Bound>& bound, const std::string& unit);
 
 std::filesystem::path other_scene(const Scene& scene, const ExpectSpec& expect);
 
-// Also turns bounds with a unit into numbers. `read_other` reads a scene without what it expects.
+// Also converts bounds with a unit to numbers. `read_other` reads a scene without its expectations.
 void complete_and_check_expectations(
     Scene& scene, const std::function<Scene(const std::filesystem::path&)>& read_other,
     const schema::Origins& origins, Problems& problems);

@@ -16,7 +16,7 @@ struct Ratio {
   double first_size;  // m
   const char* second;
   double second_size;  // m
-  double least;        // -, of the first over the second
+  double least;        // -, usual minimum of the first over the second
   const char* why;
 };
 
@@ -37,7 +37,7 @@ std::string unusual_stiffness(const Scene& scene) {
       k, softest, stiffest);
 }
 
-// A ball touches a slope beside its axis, where the load twists the lever.
+// A sphere touches a slope off its axis, where the load twists the lever.
 std::string ball_on_slope(const Scene& scene) {
   const AfmScene& afm = *scene.afm;
   const bool slope = afm.target && afm.target->shape == TargetSpec::Shape::plane &&

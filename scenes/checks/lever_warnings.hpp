@@ -1,4 +1,4 @@
-// What a lever may have wrong though each of its values is allowed: mostly a unit.
+// Likely mistakes in a lever whose values are all allowed: mostly a wrong unit.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace pulvis {
 
-// N/m, of the beam or the two arms of a V, normal to its plane: E w t^3/(4 L^3). None of a meshed lever.
+// N/m, of the beam or the two arms of a V, normal to its plane: E w t^3/(4 L^3). None if meshed.
 std::optional<double> rough_stiffness(const Scene& scene);
 
-// One line each, with the ratio that is unusual. None of a meshed lever.
+// One line for each unusual ratio. None for a meshed lever.
 std::vector<std::string> lever_warnings(const Scene& scene);
 
 }  // namespace pulvis

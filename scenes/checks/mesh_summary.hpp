@@ -1,4 +1,4 @@
-// What `check` says of the meshes.
+// What `check` reports about the meshes.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// A line for each class of particles.
+// One line for each particle class.
 std::string mesh_summary(const Scene& scene);
 
 }  // namespace pulvis

@@ -1,7 +1,7 @@
-// check_overlaps: FCL's broad phase finds the pairs whose boxes meet. Between rounded boxes the depth has a
-// formula, which is exact where iterations (GJK, about 1e-6) would not tell touching from overlapping.
-// Other outlines are looked at as inscribed polygons in convex pieces (scenes/packing/rigid_contact): two that touch
-// are not refused, and an overlap below twice the polygons' deviation is not seen.
+// check_overlaps: FCL's broad phase finds the pairs whose boxes intersect. Between rounded boxes the depth has a
+// closed form, which is exact where iterations (GJK, about 1e-6) could not distinguish contact from overlap.
+// Other outlines are treated as inscribed polygons in convex pieces (scenes/packing/rigid_contact): touching ones
+// are not refused, and an overlap below twice the polygons' deviation is not detected.
 #include "scenes/checks/overlaps.hpp"
 
 #include "scenes/checks/surface_overlap.hpp"
@@ -42,7 +42,7 @@ struct Overlap {
   double depth;       // m
 };
 
-// The box itself, or one around an outline that is none, for the broad phase.
+// The box itself, or the box around any other outline, for the broad phase.
 RoundedBox box_around(const Outline& outline) {
   if (const auto box = rounded_box(outline)) return *box;
   Vec2 half = Vec2::Zero();
@@ -57,7 +57,7 @@ Vec2 half_size(const Outline& outline) {
 
 double size_of(const Outline& outline) { return 2 * half_size(outline).minCoeff(); }
 
-// For the broad phase, which asks for its box only.
+// For the broad phase, which only requests its box.
 Geometry geometry(const Outline& outline, double depth) {
   const RoundedBox box = box_around(outline);
   if (box.half.isZero(0)) return std::make_shared<fcl::Cylinder<double>>(box.radius, depth);
@@ -72,7 +72,7 @@ Pose pose(const BodySpec& body) {
   return result;
 }
 
-// How far a body reaches behind the tool's surface.
+// How far a body extends behind the tool's surface.
 double depth_behind(const ToolSpec& tool, const BodySpec& body, const OutlineReach& reach) {
   return reach.along(body.angle, -tool.normal) - (body.position - tool.point).dot(tool.normal);
 }
@@ -106,14 +106,14 @@ class OverlapSearch {
     found_.clear();
     tree_.collide(this, [](Object* a, Object* b, void* self) {
       static_cast<OverlapSearch*>(self)->pair(*a, *b);
-      return false;  // go on
+      return false;  // continue the query
     });
     return sorted();
   }
 
   std::size_t pairs() const { return pairs_; }
 
-  // Turned round, the tool has every particle in front of it.
+  // If flipped, the tool would have every particle in front of it.
   bool is_reversed(const ToolSpec& tool) const {
     if (tool.shape == ToolSpec::Shape::polyline) {
       const std::vector<Vec2> points(tool.points.rbegin(), tool.points.rend());
@@ -130,7 +130,7 @@ class OverlapSearch {
     });
   }
 
-  // The tools are asked one by one: the boxes of oblique planes are infinite, which a tree cannot
+  // Tools are checked one by one: the boxes of oblique planes are infinite, which a tree cannot
   // balance.
   std::vector<Overlap> with_tools() {
     found_.clear();
@@ -154,7 +154,7 @@ class OverlapSearch {
     return Object(std::make_shared<fcl::Halfspace<double>>(normal, tool.normal.dot(tool.point)));
   }
 
-  // std::less orders any two pointers, also such that do not point into one array.
+  // std::less orders any two pointers, even those into different arrays.
   bool is_particle(const Object& object) const {
     const std::less<const Object*> before;
     return !before(&object, objects_.data()) && before(&object, objects_.data() + objects_.size());
@@ -194,7 +194,7 @@ class OverlapSearch {
     if (overlap > allowed(i)) found_.push_back({i, tool_, overlap});
   }
 
-  // Every particle is asked: one that lies deep in the tool is near none of its pieces.
+  // All particles are checked: one that lies deep inside the tool is near none of its pieces.
   void behind_polyline(const ToolSpec& tool) {
     const ToolSurface surface = make_surface(tool.points, tool.rounding);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -218,19 +218,19 @@ class OverlapSearch {
   const Scene& scene_;
   const std::vector<BodySpec>& bodies_;
   std::vector<Object> objects_;  // by particle number
-  std::vector<double> sizes_;    // by class, as what follows
+  std::vector<double> sizes_;    // by class, as are the following
   std::vector<OutlineReach> reaches_;
   std::vector<std::vector<Vec2>> polygons_;  // empty for a rounded box
   OutlineDepths depths_;
   fcl::DynamicAABBTreeCollisionManager<double> tree_;
   std::vector<Overlap> found_;
   std::size_t tool_ = 0;
-  std::size_t pairs_ = 0;  // whose boxes meet
+  std::size_t pairs_ = 0;  // with intersecting boxes
 };
 
 class Report {
  public:
-  // `count` particles, and behind them images of all.
+  // `count` particles, followed by all their images.
   Report(const Scene& scene, const std::vector<BodySpec>& bodies, std::size_t count)
       : scene_(scene), bodies_(bodies), count_(count) {}
 
@@ -290,7 +290,7 @@ class Report {
                          last ? "there are more overlaps that are not listed" : message});
   }
 
-  // A packing's particles share its mark, so the mark tells where a particle comes from.
+  // All particles of a packing share its mark, so the mark identifies the source of a particle.
   std::string key_of(const BodySpec& body) const {
     for (std::size_t i = 0; i < scene_.packings.size(); ++i)
       if (scene_.packings[i].mark == body.mark) return fmt::format("packing[{}]", i);
@@ -317,7 +317,7 @@ class Report {
 
 namespace {
 
-// The bodies, and behind them their images beyond the borders of the cell.
+// The bodies, followed by their images across the cell boundaries.
 std::vector<BodySpec> with_images(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::vector<BodySpec> all = bodies;
   if (!scene.cell) return all;

@@ -1,4 +1,4 @@
-// Whether the particles have room where they are.
+// Checks that the particles do not overlap as placed.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace pulvis {
 
 // Throws SceneError when particles overlap each other or a tool, naming both, the depth, and the
-// place of the scene that put the particle there. Returns how many pairs of particles were near enough to be looked at.
+// line of the scene that placed the particle. Returns how many pairs of particles were close enough to be checked.
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis

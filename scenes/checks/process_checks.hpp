@@ -1,4 +1,4 @@
-// Checks of stages and frictions that do not depend on the dimension.
+// Checks of stages and friction entries that do not depend on the dimension.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace pulvis {
 
-// `moves`, `drives`: how many prescribed moves, and what else (servos, driven cells) moves tools in the stage. `movers`: the
-// tables that can, for a refusal.
+// `moves`, `drives`: the number of prescribed moves, and of other tool motions (servos, driven cells), in the stage.
+// `movers`: the tables that can move tools, for the error message.
 void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t drives,
                       const std::string& movers, const std::string& path, const Refuse& refuse);
 
 void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
                      const Refuse& refuse);
 
-// What is declared and not referred to.
+// Refuses what is declared but never referenced.
 void refuse_unused(const std::string& path, const std::string& name, const std::string& user,
                    const Refuse& refuse);
 

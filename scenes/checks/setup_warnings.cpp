@@ -13,19 +13,19 @@
 namespace pulvis {
 namespace {
 
-constexpr double quasi_static = 0.01;  // -, largest share of the strength
+constexpr double quasi_static = 0.01;  // -, maximum fraction of the strength
 constexpr double elastic_strain = 0.01;
 
 double strength_of(const MaterialSpec& m) {
   return m.yield_stress.value_or(elastic_strain * m.youngs_modulus);
 }
 
-// m/s, where the ramps at both ends take their share of the stage.
+// m/s, allowing for the fraction of the stage taken by the ramps at both ends.
 double highest_speed(const MoveSpec& move, double duration) {
   return move.displacement.norm() / (duration * (1 - move.ramp));
 }
 
-// Away from the powder a tool presses nothing.
+// A tool that moves away from the powder exerts no pressure.
 bool leaves(const ToolSpec& tool, const MoveSpec& move) {
   return tool.shape == ToolSpec::Shape::constraint || move.displacement.dot(face_normal(tool)) < 0;
 }
@@ -51,7 +51,7 @@ struct Extent {
   double right = -std::numeric_limits<double>::infinity();
 };
 
-// The room that packings are made for: of a lattice its cells.
+// The room that packings are generated for: for a lattice, its cells.
 std::optional<Extent> room_of(const PackingSpec& packing) {
   double width = packing.width;
   if (is_lattice(packing)) width = packing.columns * packing.spacing;
@@ -59,7 +59,7 @@ std::optional<Extent> room_of(const PackingSpec& packing) {
   return Extent{packing.corner.x(), packing.corner.x() + width};
 }
 
-// A wall that stands beside the room of the packing: behind its border, or in front of it.
+// A wall that is not at the boundary of the packing's room: behind it, or in front of it.
 std::string wall_apart(const Scene& scene) {
   const auto die = die_sides(scene);
   if (!die || scene.packings.size() != 1 || scene.initial_state) return "";

@@ -7,7 +7,7 @@
 namespace pulvis {
 namespace {
 
-// Why the scene cannot begin with it; empty: it can.
+// Why the scene cannot start from it; empty if it can.
 std::string unfit_state(const std::filesystem::path& file, std::uint64_t powder_hash) {
   const std::string allowed = "allowed: a state-*.h5 file saved by a run (stage.keep_state)";
   if (!std::filesystem::is_regular_file(file))

@@ -1,4 +1,4 @@
-// The state that a scene begins with: whether it is one, and of the same powder.
+// The initial state of a scene: whether the file is a valid state, and of the same powder.
 #pragma once
 
 #include <cstdint>

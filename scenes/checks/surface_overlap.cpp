@@ -14,13 +14,13 @@ namespace {
 
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
-// Of a point from a rectangle around the origin: < 0 inside.
+// Of a point from a rectangle about the origin: < 0 inside.
 double distance_to_rectangle(const Vec2& at, const Vec2& half) {
   const Vec2 beyond = at.cwiseAbs() - half;
   return beyond.maxCoeff() <= 0 ? beyond.maxCoeff() : beyond.cwiseMax(0).norm();
 }
 
-// How deep the middle of the part of a straight piece that lies in the rectangle is in it. a, t: in the
+// Depth in the rectangle of the midpoint of that part of a straight piece that lies inside it. a, t: in the
 // rectangle's frame.
 double piercing_depth(const Vec2& a, const Vec2& t, double low, double high, const Vec2& half) {
   for (int k = 0; k < 2; ++k) {
@@ -58,8 +58,8 @@ double signed_distance(const ToolSurface& surface, const Vec2& at) {
       .distance;
 }
 
-// Deepest of the box's corners in the tool, the tool's corners in the box, and straight pieces that pass right
-// through it; apart, minus the distance. A rounded box is its box, grown by its radius.
+// Maximum depth of the box's corners in the tool, the tool's corners in the box, and straight pieces that pass
+// through it; if apart, minus the distance. A rounded box is its box expanded by its radius.
 double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
                      const RoundedBox& outline) {
   const Vec2& half = outline.half;
@@ -78,7 +78,7 @@ double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angl
   return outline.radius + depth;
 }
 
-// The same of a polygon whose sides are short: a piece that passes through it leaves corners of it behind.
+// The same for a polygon with short sides: a piece that passes through it leaves some of its corners behind.
 double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
                      const std::vector<Vec2>& polygon) {
   const Eigen::Matrix2d turn = rotation(angle);

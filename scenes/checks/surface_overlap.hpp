@@ -1,4 +1,4 @@
-// How deep a placed outline reaches into a polyline tool: m, > 0 in overlap, exact when they just touch.
+// How deep a placed outline penetrates a polyline tool: m, > 0 in overlap, exact when they just touch.
 #pragma once
 
 #include "components/surface.hpp"

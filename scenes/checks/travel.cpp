@@ -14,9 +14,9 @@
 namespace pulvis {
 namespace {
 
-constexpr double densest = 1.5;  // -, beyond it a scene is refused; soft elastic solids stand less
+constexpr double densest = 1.5;  // -, denser scenes are refused; soft elastic solids withstand less
 
-// Of the sides left, right, bottom, top: their x or y.
+// For the sides left, right, bottom, top: their x or y.
 using Sides = std::array<double, 4>;
 
 double area_of(const Sides& sides) {
@@ -47,7 +47,7 @@ bool is_prescribed(const StageSpec& stage) {
                               [](const MoveSpec& m) { return m.stiffness.has_value(); });
 }
 
-// Four planes about all the powder, one on each side.
+// Four planes around the whole powder, one on each side.
 std::optional<DieSides> flat_die(const Scene& scene) {
   if (scene.initial_state || scene.cell) return std::nullopt;
   for (const ToolSpec& tool : scene.tools)
@@ -69,7 +69,7 @@ Sides moved(const Sides& sides, const DieSides& die, const StageSpec& stage, dou
   return result;
 }
 
-// -, share of the stage at which the die's area is the powder's.
+// -, fraction of the stage at which the die's area equals the powder's.
 double share_until(double area, const Sides& sides, const DieSides& die, const StageSpec& stage) {
   double low = 0, high = 1;
   for (int i = 0; i < 60; ++i) {
@@ -107,7 +107,7 @@ std::string described(const Scene& scene, const FullDensity& full) {
       scene.tools[static_cast<std::size_t>(full.tool)].name, full.travel, full.until_full, density);
 }
 
-// Pa, at which the softest particles yield; infinite for elastic ones.
+// Pa, yield stress of the softest particles; infinite for elastic ones.
 double yield_of(const Scene& scene) {
   double yield = std::numeric_limits<double>::infinity();
   for (const MaterialSpec& material : scene.materials)
@@ -122,7 +122,7 @@ double bulk_modulus(const Scene& scene) {
   return bulk;
 }
 
-// Of scenes that show what a health check sees.
+// For scenes that demonstrate what a health check detects.
 bool is_to_stop(const Scene& scene) {
   return std::ranges::any_of(scene.expects, &ExpectSpec::stops);
 }
@@ -170,7 +170,7 @@ std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<B
   const auto full = full_density(scene, bodies);
   if (!full) return {};
   const double pressure = bulk_modulus(scene) * full->volume_strain();
-  constexpr double times_yield = 3;  // powder that is nearly dense stands as much anyway
+  constexpr double times_yield = 3;  // nearly dense powder bears this much anyway
   constexpr double elastic = 0.05;   // -, volume strain
   if (full->volume_strain() < elastic && pressure < times_yield * yield_of(scene)) return {};
   return {

@@ -1,7 +1,7 @@
-// How far the walls of a die travel, against the room that the powder itself takes.
+// How far the walls of a die travel, compared with the room that the solid itself takes up.
 //
-// A die of four planes has at every moment the area between them. Where that falls below the area of the particles the
-// relative density passes 1: there are no pores left, and only elastic compression of the solid gives way.
+// A die of four planes encloses a known area at every instant. Where it falls below the area of the particles, the
+// relative density exceeds 1: no pores are left, and only the solid's elastic compression can yield room.
 #pragma once
 
 #include <optional>
@@ -12,28 +12,28 @@
 
 namespace pulvis {
 
-// The first stage in which prescribed moves alone take the die to full density.
+// The first stage in which prescribed moves alone bring the die to full density.
 struct FullDensity {
   int stage = 0;
-  int tool = 0;           // that travels farthest into the die
-  double travel = 0;      // m, of it over the stage
-  double until_full = 0;  // m, of it when the relative density is 1
-  double density = 0;     // -, at the end of the stage; infinite where the die has no room left
+  int tool = 0;           // the one that travels farthest into the die
+  double travel = 0;      // m, of that tool over the stage
+  double until_full = 0;  // m, of that tool until the relative density is 1
+  double density = 0;     // -, at the end of the stage; infinite if the die has no room left
   double volume_strain() const { return 1 - 1 / density; }  // elastic, of the solid
 };
 
-// None where the die is no rectangle of planes, or where forces, drives that give, an `until` or an initial state
+// None if the die is not a rectangle of planes, or if forces, compliant drives, an `until` or an initial state
 // decide how far a tool gets before full density.
 std::optional<FullDensity> full_density(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 // -, of a die of four planes at its start; none for other scenes.
 std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// Throws SceneError where no solid stands the travel: the density passes 1.5, or tools meet. Not where the scene
-// expects that the run stops.
+// Throws SceneError where no solid could withstand the travel: the density exceeds 1.5, or tools meet. Not if the
+// scene expects the run to stop.
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// A line where the pressure beyond full density passes what the particles yield at.
+// One line if the pressure beyond full density exceeds the yield stress of the particles.
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis

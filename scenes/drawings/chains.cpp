@@ -13,7 +13,7 @@ namespace pulvis::drawing {
 namespace {
 
 constexpr std::size_t outline_points = 256;
-constexpr double meeting = 1e-5;  // of the drawing's diagonal: ends this near are one point
+constexpr double meeting = 1e-5;  // of the drawing's diagonal: ends this close are the same point
 
 constexpr double smallest = 1e-12, largest = 1000;  // m, across an outline
 
@@ -27,7 +27,7 @@ double diagonal(const std::vector<Chain>& chains) {
   return (high - low).norm();
 }
 
-// Turns `chain` so that it begins at `end`, if one of its ends is there.
+// Reverses `chain` if necessary so that it begins at `end`; false if neither of its ends is there.
 bool begins_at(Chain& chain, const Vec2& end, double near) {
   if ((chain.points.front() - end).norm() <= near) return true;
   if ((chain.points.back() - end).norm() > near) return false;
@@ -191,7 +191,7 @@ bool Selection::takes(const std::string& name) {
 }
 
 void Selection::require_found() const {
-  constexpr std::size_t most = 12;  // of a drawing with names for all its parts
+  constexpr std::size_t most = 12;  // names listed, of a drawing with a name for every part
   if (empty() || found_) return;
   const std::vector<std::string> first(
       names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(std::min(most, names_.size())));

@@ -1,5 +1,5 @@
-// What drawings are made of: chains of points, sampled finely from lines and curves, and the one closed outline among
-// them.
+// Building blocks of drawings: chains of points, finely sampled from lines and curves, and the single closed outline
+// formed by them.
 #pragma once
 
 #include <functional>
@@ -18,30 +18,30 @@ struct BadDrawing : std::runtime_error {
 struct Chain {
   std::vector<Vec2> points;
   bool closed = false;
-  std::string layer;  // or what else the drawing calls it
+  std::string layer;  // or another name that the drawing gives it
 };
 
-inline constexpr int curve_pieces = 64;  // of each curved part
+inline constexpr int curve_pieces = 64;  // per curved segment
 
-// Adds the points of a curve over (0, 1], the first of which is there already.
+// Adds the points of a curve over (0, 1]; its first point is already there.
 void add_curve(std::vector<Vec2>& points, const std::function<Vec2(double)>& at);
-// From the last point; angles counter-clockwise, rad.
+// Continues from the last point; angles counter-clockwise, rad.
 void add_arc(std::vector<Vec2>& points, const Vec2& centre, double radius, double from,
              double turn);
 
-// Chains whose ends meet are one.
+// Merges chains whose ends meet.
 std::vector<Chain> joined(std::vector<Chain> chains);
 
-// What of a drawing is meant: all of it, or what a layer or group of one name holds.
+// Which part of a drawing is selected: all of it, or the layer or group of one name.
 class Selection {
  public:
   explicit Selection(std::string layer = {}) : layer_(std::move(layer)) {}
 
   bool empty() const { return layer_.empty(); }
   const std::string& layer() const { return layer_; }
-  // Whether what bears this name is meant; it is remembered as one that there is.
+  // Whether the item of this name is selected; the name is remembered as existing.
   bool takes(const std::string& name);
-  // Refuses a layer that nothing bears; none of the drawing's if nothing has been asked for.
+  // Refuses a layer name that does not occur in the drawing, if one was requested.
   void require_found() const;
 
  private:
@@ -50,11 +50,11 @@ class Selection {
   bool found_ = false;
 };
 
-// The one closed outline, as points that are evenly apart along it. Refused are drawings with none or several, and
-// outlines that cross themselves.
+// The only closed outline, as points evenly spaced along it. Refuses drawings with none or several, and
+// outlines that intersect themselves.
 std::vector<Vec2> only_outline(const std::vector<Chain>& chains);
 
-// The one open line: its corners, and the points of its curves. Refused are drawings with others, and closed ones.
+// The only open line: its corners, and the points of its curves. Refuses drawings with others, and closed lines.
 std::vector<Vec2> only_line(const std::vector<Chain>& chains);
 
 }  // namespace pulvis::drawing

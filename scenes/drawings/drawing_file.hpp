@@ -1,4 +1,4 @@
-// Drawings by the endings of their files.
+// Reads drawings; the file extension selects the format.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace pulvis::drawing {
 
 bool is_drawing(const std::filesystem::path& path);
 
-// `text` is what the file holds; `unit` and `layer`: svg_outline.hpp, dxf_outline.hpp.
+// `text` is the content of the file; `unit` and `layer`: svg_outline.hpp, dxf_outline.hpp.
 std::vector<Chain> chains_in(const std::filesystem::path& path, const std::string& text,
                              const std::string& unit, const std::string& layer);
 

@@ -1,4 +1,4 @@
-// A DXF file is a list of pairs: a line with the code of a group, and one with its value. An entity begins with code 0.
+// A DXF file is a list of pairs: a line with a group code, and one with its value. An entity begins with code 0.
 #include "scenes/drawings/dxf_outline.hpp"
 
 #include <fmt/format.h>
@@ -119,7 +119,7 @@ double scale_of(int code, const std::string& unit) {
   }
 }
 
-// An arc of a polyline: `bulge` is the tangent of a quarter of its angle.
+// An arc segment of a polyline: `bulge` is the tangent of a quarter of its angle.
 void add_bulge(std::vector<Vec2>& points, const Vec2& end, double bulge) {
   const Vec2 start = points.back(), along = end - start;
   if (bulge == 0 || along.norm() == 0) {
@@ -172,7 +172,7 @@ Chain arc_of(const Entity& entity) {
   return chain;
 }
 
-// A B-spline by de Boor's rule, with weights.
+// A B-spline by de Boor's algorithm, with weights.
 class Spline {
  public:
   explicit Spline(const Entity& entity) : degree_(entity.whole(71)) {
@@ -236,7 +236,7 @@ std::optional<Chain> chain_of(const Entity& entity) {
   for (const char* const drawn : {"POLYLINE", "ELLIPSE", "INSERT"})
     if (entity.kind == drawn)
       throw BadDrawing(fmt::format("a {}, allowed: LINE, ARC, CIRCLE, LWPOLYLINE, SPLINE", drawn));
-  return std::nullopt;  // a point, a text, a dimension
+  return std::nullopt;  // a point, text or dimension
 }
 
 }  // namespace

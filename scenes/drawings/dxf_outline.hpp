@@ -7,8 +7,8 @@
 
 namespace pulvis::drawing {
 
-// `unit`: of a length of 1 in the drawing, where its header has no $INSUNITS; empty: it must. `layer`: the
-// layer that is meant; empty: all.
+// `unit`: length unit of the drawing if its header has no $INSUNITS; empty: it must have it. `layer`: the
+// layer to read; empty: all.
 std::vector<Chain> chains_of_dxf(const std::string& text, const std::string& unit,
                                  const std::string& layer = {});
 

@@ -17,7 +17,7 @@
 namespace pulvis::drawing {
 namespace {
 
-// Numbers and letters of attributes: "M0,0l3-4.5e1".
+// Reads numbers and letters of attributes: "M0,0l3-4.5e1".
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : rest_(text) {}
@@ -26,7 +26,7 @@ class Scanner {
     skip();
     return rest_.empty();
   }
-  char letter() {  // 0: none is here
+  char letter() {  // 0: none at this position
     skip();
     const char c = rest_.empty() ? '\0' : rest_.front();
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -49,7 +49,7 @@ class Scanner {
     rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
   }
-  bool flag() {  // of an arc: may stand without a blank behind it
+  bool flag() {  // arc flag: needs no blank after it
     skip();
     if (rest_.empty() || (rest_.front() != '0' && rest_.front() != '1'))
       throw BadDrawing("a flag of an arc that is neither 0 nor 1");
@@ -75,7 +75,7 @@ class Scanner {
   std::string_view rest_;
 };
 
-// x -> a x + offset, as transform="..." has it.
+// x -> a x + offset, as in transform="...".
 struct Map {
   std::array<double, 6> m{1, 0, 0, 1, 0, 0};
   Vec2 operator()(const Vec2& p) const {
@@ -165,7 +165,7 @@ void add_elliptic(std::vector<Vec2>& points, const Arc& arc, const Vec2& end) {
   points.back() = end;
 }
 
-// The chains of a path's d.
+// Reads the chains of a path's d attribute.
 class PathReader {
  public:
   explicit PathReader(const char* d) : scanner_(d) {}
@@ -324,7 +324,7 @@ bool is_selected(const pugi::xml_node& node, Selection& selection) {
   return selection.takes(node.attribute("id").value()) || by_label;
 }
 
-// What is drawn, not what is defined for use elsewhere. Nested groups are few; the depth is bounded for the stack.
+// Collects what is drawn, not what is only defined for reuse. The nesting depth is limited to protect the stack.
 class Collector {
  public:
   explicit Collector(const std::string& layer) : selection_(layer) {}
@@ -347,7 +347,7 @@ class Collector {
     for (const pugi::xml_node& node : parent.children()) {
       const std::string_view kind = node.name();
       const bool is_meant = is_selected(node, selection_) || place.is_meant;
-      if (!is_meant && kind != "g") continue;  // whatever it is
+      if (!is_meant && kind != "g") continue;  // whatever it contains
       const Map own = map.after(map_of(node.attribute("transform").value()));
       const std::string name = called(node).empty() ? layer : called(node);
       if (kind == "g") collect(node, own, name, {place.depth + 1, is_meant});
@@ -367,7 +367,7 @@ class Collector {
   std::vector<Chain> chains_;
 };
 
-// Metres for a length of 1 in the drawing: by its width in a unit, "40mm", over that of its viewBox.
+// Metres per unit length of the drawing: its width with a unit, "40mm", divided by that of its viewBox.
 double scale_of(const pugi::xml_node& svg, const std::string& unit) {
   Scanner width(svg.attribute("width").value());
   std::optional<double> size;
@@ -406,7 +406,7 @@ std::vector<Chain> chains_of_svg(const std::string& text, const std::string& uni
         fmt::format("not an SVG file: {} at byte {}", parsed.description(), parsed.offset));
   if (!svg) throw BadDrawing("not an SVG file: its root element is a different one, allowed: svg");
   const double scale = scale_of(svg, unit);
-  return Collector(layer).chains_in(svg, Map{{scale, 0, 0, -scale, 0, 0}});  // y points down there
+  return Collector(layer).chains_in(svg, Map{{scale, 0, 0, -scale, 0, 0}});  // y points down in SVG
 }
 
 }  // namespace pulvis::drawing

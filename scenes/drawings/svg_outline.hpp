@@ -7,8 +7,8 @@
 
 namespace pulvis::drawing {
 
-// `unit`: of a length of 1 in the drawing, where its size does not say it ("um"); empty: it must. `layer`: the id or
-// Inkscape's label of the group or shape that is meant; empty: all.
+// `unit`: length unit of the drawing if its size does not give it ("um"); empty: the size must. `layer`: the id or
+// Inkscape label of the group or shape to read; empty: all.
 std::vector<Chain> chains_of_svg(const std::string& text, const std::string& unit,
                                  const std::string& layer = {});
 

@@ -34,7 +34,7 @@ void GaussNewton::ask(const Point& point) {
       if (beside[k] >= p.low && beside[k] <= p.high && is_allowed_(beside)) break;
       beside[k] = point[k];
     }
-    if (beside[k] == point[k]) {  // hemmed in on both sides
+    if (beside[k] == point[k]) {  // no step is allowed on either side
       state_ = State::gave_up;
       return;
     }

@@ -1,9 +1,9 @@
-// Few parameters of something that is dear to evaluate, fitted to residuals by Gauss and Newton's method with damping.
+// Fits a few parameters of a function that is expensive to evaluate by damped Gauss-Newton iterations.
 //
-// Source   Levenberg (1944), Marquardt (1963): (J'J + lambda diag(J'J)) d = -J' r; lambda falls by ten with every round that
-//          gains and rises by ten with every one that does not
-// Rounds   a point and, beside it, one more for each parameter, which gives J by differences: all of a round can run at once
-// End      when the next move is a small share of every parameter's step
+// Source   Levenberg (1944), Marquardt (1963): (J'J + lambda diag(J'J)) d = -J' r; lambda falls tenfold with every round
+//          that improves the fit and rises tenfold with every one that does not
+// Rounds   a point plus one neighbour per parameter, which give J by differences: all points of a round can run in parallel
+// End      when the next move is a small fraction of every parameter's step
 #pragma once
 
 #include <Eigen/Dense>
@@ -14,7 +14,7 @@ namespace pulvis {
 
 struct FreeParameter {
   double start = 0, low = 0, high = 0;
-  double step = 0;  // of the differences
+  double step = 0;  // for the differences
 };
 
 class GaussNewton {
@@ -23,18 +23,18 @@ class GaussNewton {
   using Allowed = std::function<bool(const Point&)>;
   enum class State { going, converged, gave_up };
 
-  // `tolerance`: share of a step. Points that are not allowed are not asked for; `start` is.
+  // `tolerance`: fraction of a step. Points outside the bounds are never requested; `start` always is.
   GaussNewton(std::vector<FreeParameter> parameters, double tolerance, int max_rounds,
               Allowed is_allowed);
 
   State state() const { return state_; }
   int rounds() const { return rounds_; }
-  // The points of this round: the one in question, then one beside it for each parameter.
+  // The points of this round: the current one, then one neighbour for each parameter.
   const std::vector<Point>& asks() const { return asks_; }
-  // Residuals of each of them, all of one length.
+  // Residuals of each of them, all of the same length.
   void tell(const std::vector<Eigen::VectorXd>& residuals);
 
-  // The best so far, once told.
+  // The best point so far, once residuals have been passed in.
   const Point& best() const { return best_; }
   const Eigen::VectorXd& residuals() const { return residuals_; }
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }

@@ -1,5 +1,5 @@
-// A fit of a simulated sliding-plate test to a measured one: which keys of a scene are sought, and what the simulation is
-// held against.
+// A fit of a simulated sliding-plate test to a measured one: which keys of a scene are fitted, and the measurement
+// that the simulation is compared with.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct SoughtKey {  // [[parameter]]
   SourceMark mark = {};
 
   std::string short_name() const;           // "coefficient" of "friction[0].coefficient"
-  std::string setting(double value) const;  // as --set takes it
+  std::string setting(double value) const;  // as used by --set
 };
 
 struct PlateMeasured {  // [measured]
@@ -57,7 +57,7 @@ struct PlateFit {
   std::vector<std::string> settings_at(const std::vector<double>& values) const;
 };
 
-// Everything that is wrong is thrown as one SceneError before anything runs.
+// All errors are thrown as one SceneError before anything runs.
 PlateFit load_plate_fit(const std::filesystem::path& file,
                         const std::vector<std::string>& overrides = {});
 

@@ -1,5 +1,5 @@
 // Random sites, Lloyd's relaxation (Lloyd 1982: every site moves to the centre of its cell), and the cells cut by the
-// outline. Elongated grains are equal ones of a plane that is stretched afterwards.
+// outline. Elongated grains are equiaxed grains of a plane that is stretched afterwards.
 #include "scenes/grains/cut_cells.hpp"
 
 #include <Eigen/LU>
@@ -60,7 +60,7 @@ class CutOutline {
   }
 
   struct Crossing {
-    double t, s;  // share of the way from p to q; m along the outline
+    double t, s;  // fraction of the segment from p to q; m along the outline
   };
   std::vector<Crossing> crossings(const Vec2& p, const Vec2& q) const {
     std::vector<Crossing> found;
@@ -109,10 +109,10 @@ class CutCells {
  private:
   struct Piece {  // of a cell's side, inside the outline
     int from, to, neighbour;
-    bool enters = false, leaves = false;  // the particle
+    bool enters = false, leaves = false;  // the particle, at its start or end
   };
 
-  // Vertices where the side between two cells crosses the outline, from the cell of the lower number's first vertex.
+  // Vertices where the side between two cells crosses the outline, in the direction of the lower-numbered cell.
   const std::vector<int>& crossings_of(std::size_t cell, const VoronoiCells::Side& side, int end) {
     const int own = static_cast<int>(cell);
     const std::pair key(std::min(own, side.neighbour), std::max(own, side.neighbour));
@@ -162,7 +162,7 @@ class CutCells {
     return to > from ? to - from : to + outline_.length() - from;
   }
 
-  // The piece that follows where one leaves the particle: where the outline enters the cell's border again.
+  // The next piece after one that leaves the particle: where the outline enters the cell's boundary again.
   std::size_t next_entry(const std::vector<Piece>& pieces, const Piece& last) const {
     std::size_t best = pieces.size();
     double shortest = std::numeric_limits<double>::max();
@@ -185,7 +185,7 @@ class CutCells {
     for (const int corner : between) grain.push_back({corner, GrainMap::outside});
   }
 
-  // A chord and an arc: three sides make a polygon.
+  // A chord and an arc: three sides are needed for a polygon.
   void split_outside(std::vector<GrainMap::Side>& grain) {
     const std::size_t side = grain[0].neighbour == GrainMap::outside ? 0 : 1;
     const double from = place(grain[side].vertex), to = place(grain[1 - side].vertex);
@@ -243,7 +243,7 @@ Lump lump_of(const GrainMap& map, const std::vector<GrainMap::Side>& grain) {
   return {area > 0 ? Vec2(at(0) + moment / area) : at(0), area};
 }
 
-// Of a cell in several parts the largest counts.
+// For a cell in several parts the largest one counts.
 void relax(const CutOutline& outline, std::vector<Vec2>& sites) {
   CutCells cut(outline, sites);
   const std::vector<std::size_t> cells = cut.cell_of_grain();
@@ -257,7 +257,7 @@ void relax(const CutOutline& outline, std::vector<Vec2>& sites) {
   }
 }
 
-// Sides name cells until here.
+// Until here the sides refer to cells.
 void name_grains(GrainMap& map, const std::vector<std::size_t>& cell_of_grain) {
   const auto has = [&](std::size_t grain, int from, int to) {
     const auto& sides = map.grains[grain];

@@ -8,10 +8,10 @@
 namespace pulvis {
 
 struct Tessellation {
-  int grains = 2;           // wanted; where cells are cut in two by a notch there are more
+  int grains = 2;           // requested; there are more where a notch cuts cells in two
   int relaxation = 0;       // steps of Lloyd's method
   double aspect_ratio = 1;  // of the grains, length over width
-  double direction = 0;     // rad, of their length
+  double direction = 0;     // rad, of their long axis
   std::uint64_t seed = 1;
 };
 

@@ -19,7 +19,7 @@ const GrainMap::Vertex& vertex_of(const GrainMap& map, int number) {
 
 int end_of(const Grain& grain, std::size_t side) { return grain[(side + 1) % grain.size()].vertex; }
 
-// The grains beside a side of nothing meet there.
+// The grains on either side of a vanished grain become neighbours.
 void take_out_of(Grain& grain, std::size_t number, GrainMap& map) {
   for (std::size_t i = 0; i < grain.size(); ++i) {
     const int behind = grain[i].neighbour;
@@ -35,7 +35,7 @@ class Joining {
  public:
   Joining(GrainMap& map, const OutlineCurve& outline) : map_(map), outline_(outline) {}
 
-  // The shortest side below `least` that can go.
+  // Collapses the shortest side below `least` that can be removed.
   bool join_shortest(double least) {
     double shortest = least;
     std::optional<std::pair<int, int>> ends;
@@ -117,7 +117,7 @@ class Division {
       while (edges_of(g) < fewest) add(g, longest(g, outline), 1);
   }
 
-  // One more edge on the way from every odd grain to the outline: a tree of neighbours, from its leaves.
+  // Adds one edge on the path from every odd grain to the outline: a tree of neighbours, leaves first.
   void make_even() {
     const std::size_t none = map_.grains.size();
     std::vector<std::size_t> way_out(map_.grains.size(), none), order;

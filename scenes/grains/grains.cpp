@@ -20,8 +20,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double least_side = 0.5;    // of the mesh's edges: shorter faces are no faces
-constexpr double least_sine = 0.2;    // of a mesh's corners
+constexpr double least_side = 0.5;    // of the mesh's edge length: shorter faces are removed
+constexpr double least_sine = 0.2;    // minimum sine of a mesh corner
 constexpr double least_share = 0.05;  // of the mean area
 constexpr int attempts = 40;
 constexpr int max_grains = 4096;  // of a particle
@@ -62,14 +62,14 @@ class Cutter {
         particle_(particle),
         curve_(std::make_shared<const OutlineCurve>(any_curve(particle.outline))) {}
 
-  // Grains in the circle of the particle's mean grain.
+  // From the diameter of the circle with the mean grain's area.
   static int number_of(const GrainsSpec& grains, double area) {
     if (grains.number) return *grains.number;
     return static_cast<int>(std::clamp(std::round(4 * area / (pi * *grains.size * *grains.size)),
                                        0.0, max_grains + 1.0));
   }
 
-  // False where no tessellation came out that can be meshed.
+  // False if no tessellation that can be meshed was found.
   bool add_variant(int variant) {
     const GrainsSpec& grains = *particle_.grains;
     const int number = number_of(grains, curve_->area());
@@ -130,7 +130,7 @@ class Cutter {
   std::shared_ptr<const OutlineCurve> curve_;
 };
 
-// Of one class its particles have their variants by chance; one that stands alone has the first.
+// Particles of a class get random variants; a single particle gets the first.
 std::size_t variant_of(const Scene& scene, const ParticleSpec& particle, std::size_t number) {
   return mixed(scene.seed, number) % particle.tessellations.size();
 }

@@ -1,4 +1,4 @@
-// Particles that are made of grains.
+// Particles made of grains.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace pulvis {
 
-// Cuts every class that asks for it: ParticleSpec::tessellations and Scene::grains. After the packings are filled, whose
-// particles may have sizes of their own.
+// Divides every class that asks for it: ParticleSpec::tessellations and Scene::grains. Called after the packings are
+// filled, whose particles may have individual sizes.
 void make_grains(Scene& scene, const schema::Origins& origins, Problems& problems);
 
-// Every grain as a body, in the order of the particles; a particle of one piece is one of its own. BodySpec::parent is
+// Every grain as a body, in the order of the particles; a particle without grains is one body. BodySpec::parent is
 // the number of the particle.
 std::vector<BodySpec> grains_of(const Scene& scene, const std::vector<BodySpec>& particles);
 

@@ -15,9 +15,9 @@ using Diagram = boost::polygon::voronoi_diagram<double>;
 using Site = boost::polygon::point_data<std::int32_t>;
 
 constexpr int guards = 16;
-constexpr double guard_radius = 4;  // of the sites'
+constexpr double guard_radius = 4;  // of the radius of the sites
 constexpr double grid =
-    1 << 28;  // cells of the site's grid in a guard radius: it counts in integers
+    1 << 28;  // integer grid cells in a guard radius: Boost's Voronoi uses integers
 
 }  // namespace
 
@@ -45,7 +45,7 @@ VoronoiCells voronoi_cells(const std::vector<Vec2>& sites, double radius) {
     return at->second;
   };
   for (const auto& cell : diagram.cells()) {
-    if (cell.source_index() >= sites.size()) continue;  // a guard's
+    if (cell.source_index() >= sites.size()) continue;  // a guard site
     const Diagram::edge_type* edge = cell.incident_edge();
     do {
       result.cells[cell.source_index()].push_back(

@@ -22,7 +22,7 @@ inline Range within(double low, double high) { return {low, high, false, false};
 inline Range above(double low, double high) { return {low, high, true, false}; }
 inline Range between(double low, double high) { return {low, high, true, true}; }
 
-// Setters for the usual case of one member.
+// Setters for the common case of one member.
 template <class Spec>
 auto to(double Spec::*member) {
   return [member](Spec& spec, const Decoded& value) { spec.*member = value.number; };
@@ -64,7 +64,7 @@ auto index_to(int Spec::*member) {
   return [member](Spec& spec, const Decoded& value) { spec.*member = value.index; };
 }
 
-// For a key with one allowed value: it says what the scene means and leaves nothing to store.
+// For a key with one allowed value: it documents the scene and stores nothing.
 template <class Spec>
 void nothing(Spec&, const Decoded&) {}
 

@@ -1,11 +1,11 @@
-// Declaration of bonds: what holds together until it breaks.
+// Declaration of bonds, which hold until they break.
 #include "scenes/keys/declare.hpp"
 #include "scenes/keys/tables.hpp"
 
 namespace pulvis::schema {
 namespace {
 
-const Words of_bonds{"initial", "pressed"};  // not of adhesion, which has no memory
+const Words of_bonds{"initial", "pressed"};  // not for adhesion, which has no history
 
 Key<BondSpec> strength_key(const char* name, std::optional<double> BondSpec::*member,
                            const char* doc) {

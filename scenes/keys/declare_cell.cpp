@@ -1,4 +1,4 @@
-// Declaration of the periodic cell and of how a stage deforms it.
+// Declaration of the periodic cell and of its deformation by a stage.
 #include "scenes/keys/declare.hpp"
 #include "scenes/keys/tables.hpp"
 

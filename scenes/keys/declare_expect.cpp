@@ -1,4 +1,4 @@
-// Declarations of what must hold of a run.
+// Declarations of the expectations that a run must meet.
 #include "scenes/keys/declare.hpp"
 
 namespace pulvis::schema {

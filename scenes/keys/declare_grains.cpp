@@ -1,4 +1,4 @@
-// Declaration of grains: what a particle is made of.
+// Declaration of grains, of which a particle consists.
 #include "scenes/keys/declare.hpp"
 #include "scenes/keys/tables.hpp"
 

@@ -1,11 +1,11 @@
-// Declarations of how a material flows: its hardening and rate laws.
+// Declarations of plastic flow: hardening and rate laws.
 #include "scenes/keys/declare.hpp"
 #include "systems/laws/flow_law.hpp"
 
 namespace pulvis::schema {
 namespace {
 
-// The words of `law` have the order of the variant.
+// The words of `law` are in the order of the variant.
 template <std::size_t... I, class Law>
 void choose(Law& law, std::size_t index, std::index_sequence<I...>) {
   ((I == index ? void(law.template emplace<I>()) : void()), ...);
@@ -16,7 +16,7 @@ void choose(Law& law, int index) {
          std::make_index_sequence<std::variant_size_v<Law>>());
 }
 
-// A constant of the law that was chosen.
+// A constant of the selected law.
 template <class Law>
 auto hardening_to(double Law::*constant) {
   return [=](FlowLaw& flow, const Decoded& value) {

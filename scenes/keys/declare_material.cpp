@@ -1,4 +1,4 @@
-// Declarations of materials, but for how they harden.
+// Declarations of materials, except for their hardening.
 #include "scenes/keys/declare.hpp"
 #include "scenes/materials/library.hpp"
 

@@ -6,7 +6,7 @@
 namespace pulvis::schema {
 namespace {
 
-// A key of every mesh that has the member: the one chosen does, only_for sees to that.
+// A key of every mesh that has the member: only_for ensures that the selected one does.
 template <class Set>
 auto mesh_to(Set set) {
   return [set](ParticleSpec& particle, const Decoded& value) {

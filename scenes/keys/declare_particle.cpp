@@ -12,8 +12,8 @@ void emplace_outline(ParticleSpec& particle) {
   particle.mesh = typename O::Mesh{};
 }
 
-// The first key of a particle, its words in this order: the keys after it find the outline and mesh they
-// belong to.
+// The first key of a particle, its words in this order: the keys after it access the outline and mesh
+// that they belong to.
 void choose_outline(ParticleSpec& particle, const Decoded& value) {
   constexpr void (*choices[])(ParticleSpec&) = {emplace_outline<DiscOutline>,
                                                 emplace_outline<RectangleOutline>,
@@ -27,7 +27,7 @@ void choose_outline(ParticleSpec& particle, const Decoded& value) {
   choices[value.index](particle);
 }
 
-// A key of every outline that has the member: the one chosen does, only_for sees to that.
+// A key of every outline that has the member: only_for ensures that the selected one does.
 template <class Value = double, class Set>
 auto outline_to(Set set, Value Decoded::*member = &Decoded::number) {
   return [set, member](ParticleSpec& particle, const Decoded& value) {

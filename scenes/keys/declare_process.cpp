@@ -1,4 +1,4 @@
-// Declarations of what happens to the powder: placement by hand, stages, friction, and the settings
+// Declarations of the process: manual placement, stages, friction, and the settings
 // of a run.
 #include "scenes/keys/declare.hpp"
 
@@ -205,7 +205,7 @@ const TableDeclaration<ContactSpec>& contact() {
          .fallback = value_of(0.0),
          .doc = "Coulomb friction coefficient of all pairs not listed in a `[[friction]]`."},
         to(&ContactSpec::friction)},
-       // Softer than 0.3, the punch force of the unit cell is more than 2% below that of the default.
+       // Below 0.3, the punch force of the unit cell is more than 2% lower than with the default.
        {{.name = "stiffness",
          .kind = Kind::number,
          .range = within(0.35, 100),

@@ -1,4 +1,4 @@
-// Keys of [[tool]] that say what relief a target surface has.
+// Keys of [[tool]] that define the relief of a target surface.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Declarations of tools that hold a force, and of stages that end early.
+// Declarations of force-controlled tools, and of stages that end early.
 #include "scenes/keys/declare.hpp"
 
 namespace pulvis::schema {

@@ -1,4 +1,4 @@
-// Declarations of the sample under an AFM's tip, and of what is done with it.
+// Declarations of the sample under an AFM's tip, and of the actions on it.
 #include "scenes/keys/declare.hpp"
 #include "scenes/spec/afm_scene.hpp"
 

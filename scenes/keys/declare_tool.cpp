@@ -1,4 +1,4 @@
-// Declaration of the tools: planes and polylines that particles touch, constraints that hold nodes.
+// Declaration of the tools: planes and polylines that touch particles, constraints that hold nodes.
 #include "scenes/keys/declare_profile.hpp"
 
 namespace pulvis::schema {
@@ -160,7 +160,7 @@ std::vector<Key<ToolSpec>> keys() {
   return all;
 }
 
-// Member by member: g++ 12 takes the parts of one long initialiser for uninitialised.
+// Member by member: g++ 12 reports parts of one long initialiser as uninitialised.
 TableDeclaration<ToolSpec> declared() {
   TableDeclaration<ToolSpec> table;
   table.info.path = "tool";

@@ -1,4 +1,4 @@
-// Keys of packings that two and three dimensions have alike. Spec: PackingSpec of either.
+// Packing keys shared by two and three dimensions. Spec: PackingSpec of either.
 #pragma once
 
 #include <utility>

@@ -1,4 +1,4 @@
-// The scene language described for people and for editors.
+// The scene language described for readers and for editors.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The tables of a scene read into plain values: what readers of two and of three dimensions share.
+// The tables of a scene as plain values: shared by the readers of two and three dimensions.
 #pragma once
 
 #include <memory>
@@ -45,12 +45,12 @@ class SceneTables {
       tables_.read(declaration, entry->value, declaration.info.path, "", spec);
   }
 
-  // With their laws of flow.
+  // Including their flow laws.
   std::vector<MaterialSpec> read_materials();
   // The [stage.until] of a stage at `path`.
   void read_until(const schema::TableDeclaration<UntilSpec>& declaration,
                   const document::Table& table, const std::string& path, StageSpec& stage);
-  // Of a table that read_all has found to be an array of tables, or to be missing.
+  // A table that read_all has found to be an array of tables, or to be missing.
   const document::Array& array_at(const std::string& name) const;
 
   const document::Table& root_;

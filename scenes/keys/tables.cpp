@@ -4,7 +4,7 @@ namespace pulvis::schema {
 
 namespace {
 
-// Its names are the user's own (scenes/let).
+// Its names are defined by the user (scenes/let).
 TableView variables() {
   return {{"let", false, "",
            "Variables: user-defined names for numbers and quantities, `D = \"24 mm\"`, `n "

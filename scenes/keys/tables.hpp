@@ -1,4 +1,4 @@
-// The tables of a scene, and the language that they make.
+// The tables of a scene, which together form the scene language.
 #pragma once
 
 #include "scenes/language/schema.hpp"

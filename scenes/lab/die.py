@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Makes synthetic records of an instrumented die from a known wall friction and stress ratio: nothing was measured.
+"""Generates synthetic records of an instrumented die from a known wall friction and stress ratio: no measured data.
 
 usage: die.py [--out FOLDER] [--seed N] [--noise FACTOR]
 
 Two compressions of 316L on a rigid press: a round die of 15 mm with a gauge in its wall 3 mm above the bottom punch,
 and a slot of 12 mm x 20 mm whose wall measures its mean stress. Friction and stress ratio change linearly with the
-relative density (die-truth.json, which the tests compare the reduction with); the top pressure follows Kawakita's law.
-Noise: 20 N on both punches, 0.2 MPa on the wall, 1 um; one standard deviation each.
+relative density (die-truth.json: reference for the tests of the reduction); the top pressure follows Kawakita's law.
+Noise: 20 N on both punches, 0.2 MPa on the wall, 1 um of displacement; one standard deviation each.
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ from pathlib import Path
 SOLID_DENSITY = 7.99e-3                      # g/mm^3
 KAWAKITA = {"initial_density": 0.52, "a": 0.43, "b": 0.021}  # -, -, 1/MPa
 FRICTION = {"at": 0.6, "value": 0.22, "slope": -0.35}        # mu = value + slope (D - at)
-RATIO = {"at": 0.6, "value": 0.42, "slope": 0.55}            # K, likewise
+RATIO = {"at": 0.6, "value": 0.42, "slope": 0.55}            # K, in the same way
 LARGEST = 400.0                              # MPa
 SAMPLES, INTERVAL = 1200, 0.05               # of the loading; s
 NOISE = {"force": 20.0, "radial": 0.2, "displacement": 1e-3}  # N, MPa, mm

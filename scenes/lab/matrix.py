@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Makes synthetic sliding-plate tests under a matrix of conditions, and their settings: nothing was measured.
+"""Generates synthetic sliding-plate tests for a test matrix, and their settings: no measured data.
 
 usage: matrix.py [--seed N]
 
-Load, roughness, direction, speed and powder at two levels each, in half of all combinations (the product of all signs
-is +, so that no two factors always change together), two runs of each: 32 tests of 20 mm, as synthetic.py writes them.
-A trigger tells the offset of the clocks. The coefficient of a run is a mean, plus the effects of its levels, plus scatter from run to run (matrix-truth.json).
+Load, roughness, direction, speed and powder at two levels each, in a half-fraction of all combinations (the product of
+all signs is +, so that no two factors always change together), two runs each: 32 tests of 20 mm, written by synthetic.py.
+A trigger gives the offset of the clocks. The coefficient of a run is a mean plus the effects of its levels plus run-to-run scatter (matrix-truth.json).
 Writes matrix.toml and the folder matrix/.
 """
 import argparse
@@ -17,8 +17,8 @@ from pathlib import Path
 import synthetic
 
 HERE = Path(__file__).parent
-MEAN, PEAK, SCATTER = 0.2, 0.035, 0.002  # dynamic; static above it; standard deviation from run to run
-FACTORS = {  # levels, and what the second adds to the mean (the first takes it off)
+MEAN, PEAK, SCATTER = 0.2, 0.035, 0.002  # dynamic; static minus dynamic; run-to-run standard deviation
+FACTORS = {  # levels; the second adds this value to the mean, the first subtracts it
     "load": (["500 N", "1 kN"], -0.006),
     "roughness": (["0.1 um", "1 um"], 0.012),
     "direction": (["aligned", "transverse"], 0.008),

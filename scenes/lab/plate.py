@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Makes the synthetic record that plate-fit.toml is fitted to: a simulated plate test of known friction, and noise.
+"""Generates the synthetic record for plate-fit.toml: a simulated plate test with known friction, plus noise.
 
 usage: plate.py PULVIS [--out FOLDER] [--seed N]
 
-Runs scenes/shear/plate-static.toml with the friction of TRUTH by the program PULVIS and writes its friction against
-distance, 60 samples a millimetre with a standard deviation of 0.002, as plate-measured.csv, and plate-truth.json.
+Runs scenes/shear/plate-static.toml with the friction of TRUTH, using the program PULVIS. Writes friction against
+distance, 60 samples per millimetre with a standard deviation of 0.002, to plate-measured.csv, and plate-truth.json.
 """
 import argparse
 import csv
@@ -29,7 +29,7 @@ def main():
     with tempfile.TemporaryDirectory() as work:
         run = Path(work) / "run"
         settings = [word for key, value in TRUTH.items() for word in ("--set", f"friction[0].{key}={value}")]
-        # its expectations are of other coefficients: exit code 3
+        # its expectations assume other coefficients: exit code 3
         subprocess.run([options.pulvis, "run", HERE.parent / "shear/plate-static.toml", "-o", run, "--quiet", *settings],
                        check=False, stdout=subprocess.DEVNULL)
         with open(run / "history.csv", encoding="utf-8") as file:

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Makes synthetic records of a press from known compression curves: no measurement is in them.
+"""Generates synthetic records of a press from known compression curves: no measured data.
 
 usage: press.py [--out FOLDER] [--seed N] [--noise FACTOR]
 
-A press that gives by a cubic polynomial of its force is run once with its punches against each other and three times
+A press whose deflection is a cubic polynomial of its force is run once with its punches in contact and three times
 with powder in a round die of 15 mm. The three powders follow the law of Heckel (above 100 MPa), that of Kawakita and
-that of Cooper and Eaton. Beside the records press-truth.json, which the tests compare the reduction with. Noise: 10 N
+that of Cooper and Eaton. Also writes press-truth.json, the reference for the tests of the reduction. Noise: 10 N
 and 1 um, one standard deviation each.
 """
 import argparse
@@ -18,7 +18,7 @@ DIAMETER = 15.0                       # mm
 AREA = math.pi / 4 * DIAMETER ** 2    # mm^2
 SOLID_DENSITY = 7.99e-3               # g/mm^3
 GIVE = [1.2e-5, -1.4e-10, 8e-16]      # mm/N, mm/N^2, mm/N^3
-MEETING = 31.7                        # mm on the press's scale: the punches meet
+MEETING = 31.7                        # mm, press displacement at which the punches meet
 LARGEST = 70e3                        # N
 RATE, INTERVAL = 2.0e3, 0.05          # N/s, s
 FILL = 12.0                           # mm
@@ -31,7 +31,7 @@ COOPER_EATON = {"initial_density": 0.50, "a1": 0.42, "k1": 12.0, "a2": 0.55, "k2
 
 
 def heckel(p):
-    """Rearrangement below HECKEL['from'], without a jump in density; the straight line beyond."""
+    """Rearrangement below HECKEL['from'], with continuous density; the straight line beyond."""
     h = HECKEL
     line = lambda q: 1 - math.exp(-(q / h["yield_pressure"] + h["A"]))
     if p >= h["from"]:
@@ -61,7 +61,7 @@ def mass(density):
 
 
 def forces():
-    """Up at RATE to the largest force, down again; a short rest before and after."""
+    """Up at RATE to the largest force and down again, with a short rest before and after."""
     rest, up = int(1.0 / INTERVAL), int(LARGEST / RATE / INTERVAL)
     for i in range(rest):
         yield 0.0, True
@@ -84,7 +84,7 @@ def write(path, height_at, noisy, zero=MEETING):
 
 
 def height_of(law):
-    """Of the compact in mm: by the law while it is loaded, elastic from the largest force on."""
+    """Height of the compact in mm: from the law during loading, elastic after the largest force."""
     solid = law(0.0) * FILL
     lowest = solid / law(LARGEST / AREA)
 
@@ -110,7 +110,7 @@ def main():
     truth = {"unloading_modulus_MPa": UNLOADING_MODULUS, "give_mm": GIVE, "seed": options.seed,
              "noise_factor": options.noise, "curves": {}}
     for name, (law, values) in laws.items():
-        zero = FILL if name == "cooper-eaton" else MEETING  # that press was set to zero at the fill level
+        zero = FILL if name == "cooper-eaton" else MEETING  # this press was zeroed at the fill level
         write(options.out / f"press-{name}.csv", height_of(law), noisy, zero)
         truth["curves"][name] = {**values, "mass_g": round(mass(law(0.0)), 6), "fill_height_mm": FILL,
                                  "final_height_mm": height_of(law)(0.0, False)}

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""Lays what the project simulates or reduces beside published numbers (published.csv): misfits, and a figure of them.
+"""Compares simulated and reduced results with published numbers (published.csv): misfits, and a figure of them.
 
 usage: published.py PULVIS [--runs FOLDER] [--figure FILE.png]
 
-1. Friction of the walls alone (Kahhal et al. 2022, iron in a multi-particle finite element model of their own geometry):
+1. Wall friction only (Kahhal et al. 2022, iron in a multi-particle finite element model of different geometry):
    wall-friction.toml with three packings and wall friction 0 and 0.2; the rise of the top force at equal density, and the
-   difference of top and bottom force, means over relative densities of 0.83 to 0.85. Runs that are there are kept.
-2. The thesis's transmission coefficients: the friction coefficient that each means by (3.1), for compacts of the stated
-   mass at a relative density of 0.6 to 0.7 that the thesis does not state; and the coefficient of copper by (3.1) and (3.2)
-   from its 70 N under 1 kN.
+   difference of top and bottom force, means over relative densities of 0.83 to 0.85. Existing runs are reused.
+2. The thesis's transmission coefficients: the friction coefficient that each implies by (3.1), for compacts of the stated
+   mass at a relative density of 0.6 to 0.7, which the thesis does not state; and the coefficient of copper by (3.1) and
+   (3.2) from its 70 N under 1 kN.
 """
 import argparse
 import csv
@@ -46,7 +46,7 @@ def at(x, y, where):
 
 
 def walls(pulvis, folder):
-    """Rise of the top force, differences without and with friction, of each packing."""
+    """Rise of the top force, and force differences without and with friction, for each packing."""
     found = []
     for seed in SEEDS:
         tops, bottoms = [], []

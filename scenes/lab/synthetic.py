@@ -1,15 +1,15 @@
 #!/usr/bin/python3
-"""Makes synthetic records of sliding-plate tests from a known truth: no measurement is in them.
+"""Generates synthetic records of sliding-plate tests from known parameters: no measured data.
 
 usage: synthetic.py [--out FOLDER] [--seed N] [--noise FACTOR]
 
-Three runs of a 316L compact under 1 kN on the press of the thesis (section 3.2), written as its
-instruments would: the press with semicolons, decimal commas and a line of units, the data logger with
-commas. Beside them truth.json, which the tests compare the reduction with.
+Three runs of a 316L compact under 1 kN on the press of the thesis (section 3.2), in the formats of
+its instruments: the press with semicolons, decimal commas and a line of units, the data logger with
+commas. Also writes truth.json, the reference for the tests of the reduction.
 
-Sampling is the thesis's (logger 10 Hz) or assumed (press 20 Hz). The thesis states sensitivities but
-no noise; assumed are 1 um/m of strain (0.73 N), 0.02 mV of LVDT (6 um), 1 N of force and 0.5 um of
-punch displacement, one standard deviation each.
+The sampling rate is from the thesis (logger 10 Hz) or assumed (press 20 Hz). The thesis states
+sensitivities but no noise; assumed are 1 um/m of strain (0.73 N), 0.02 mV of LVDT (6 um), 1 N of
+force and 0.5 um of punch displacement, one standard deviation each.
 """
 import argparse
 import json
@@ -23,13 +23,13 @@ DIAMETER, LENGTH, POISSON = 15.0, 10.0, 0.3  # mm, mm, - (Table 3.2)
 FORCE, RATE = 1000.0, 500.0          # N, N/s (3.2.3)
 SPEED, DISTANCE = 1.3, 50.0          # mm/s, mm
 LOADED_AT = 1.5                      # s on the press's clock
-STOP_AFTER = 4.0                     # s that the logger runs on after sliding
-PRESS_INTERVAL, PRESS_AFTER = 0.05, 9.0  # s: of the press's samples; that it runs on
-TAKE_UP, SETTLED = 0.52, 4.0         # mm: the static peak, the dynamic level
+STOP_AFTER = 4.0                     # s, logger recording time after sliding
+PRESS_INTERVAL, PRESS_AFTER = 0.05, 9.0  # s: sampling interval of the press; time after sliding
+TAKE_UP, SETTLED = 0.52, 4.0         # mm: position of the static peak, start of the dynamic level
 SLIP_FROM, SLIP_PERIOD, SLIP_HEIGHT = 8.0, 2.4, 0.012  # mm, mm, - (a sawtooth about the level)
 NOISE = {"strain": 1.0, "lvdt": 0.02, "force": 1.0, "displacement": 5e-4}  # um/m, mV, N, mm
 MAKER = "synthetic.py"
-RUNS = [  # mu static, mu dynamic; start of sliding on either clock, s; drift of the press's clock
+RUNS = [  # mu static, mu dynamic; start of sliding on each clock, s; drift of the press's clock
     {"static": 0.231, "dynamic": 0.184, "press": 23.37, "logger": 6.21, "drift": 3e-4},
     {"static": 0.225, "dynamic": 0.179, "press": 19.82, "logger": 5.04, "drift": -2e-4},
     {"static": 0.236, "dynamic": 0.187, "press": 25.55, "logger": 7.73, "drift": 0.0},
@@ -37,7 +37,7 @@ RUNS = [  # mu static, mu dynamic; start of sliding on either clock, s; drift of
 
 
 def friction(run, x):
-    """Coefficient after x mm: up to the static peak, down to the dynamic level, then sawtooth."""
+    """Coefficient after x mm: up to the static peak, down to the dynamic level, then a sawtooth."""
     if x <= TAKE_UP:
         return run["static"] * x / TAKE_UP
     down = min(1.0, (x - TAKE_UP) / (SETTLED - TAKE_UP))
@@ -48,7 +48,7 @@ def friction(run, x):
 
 
 def plate(run, t):
-    """Distance in mm at t on the logger's clock."""
+    """Distance in mm at time t on the logger's clock."""
     return min(max(0.0, SPEED * (t - run["logger"])), DISTANCE)
 
 
@@ -57,7 +57,7 @@ def on_logger(run, t):
 
 
 def normal_force(t):
-    """Force on the punch at t on the press's clock: a ramp, then the held force with its ripple."""
+    """Punch force at time t on the press's clock: a ramp, then the held force with a ripple."""
     ramp = min(FORCE, max(0.0, RATE * (t - LOADED_AT)))
     return ramp + (2.0 * math.sin(2 * math.pi * 0.31 * t) if ramp == FORCE else 0.0)
 
@@ -71,11 +71,11 @@ def punch(run, t):
 
 
 def shear_force(run, t):
-    """F_l with mu F_b, F_b from (3.1) with the length that the punch leaves."""
+    """F_l = mu F_b, F_b from (3.1) with the compact length given by the punch."""
     t_press = run["press"] + (t - run["logger"]) * (1 + run["drift"])
     mu = friction(run, plate(run, t))
     if t > run["logger"] + DISTANCE / SPEED:
-        mu *= 0.8  # the motor stops: part of the shear stays
+        mu *= 0.8  # the motor stops: part of the shear force remains
     length = LENGTH - (punch(run, t_press) - punch(run, run["press"]))
     exponent = 4 * POISSON * length / (DIAMETER * (1 - POISSON))
     return mu * normal_force(t_press) * math.exp(-exponent * mu)

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Makes synthetic records of an AFM from a known truth: no measurement is in them.
+"""Generates synthetic AFM records from known parameters: no measured data.
 
 usage: volts.py [--out FOLDER] [--seed N] [--noise VOLTS]
 
 Force curves on a hard surface and on a sample, friction loops on two slopes of a wedge and on the flat sample, side
 contacts of a test probe, and the calibrated lever. Slope and size of the normal signal are like those of A.2.3 of the
-thesis (0.0125 V/nm). What the settings state of the lever (volts-lever.json, volts.toml) is off the truth by some of
-its uncertainties, as a calibration is. Beside them volts-truth.json.
+thesis (0.0125 V/nm). The lever data in the settings (volts-lever.json, volts.toml) deviate from the true values by a
+fraction of their uncertainties, as a calibration does. Also writes volts-truth.json.
 """
 import argparse
 import json
@@ -18,13 +18,13 @@ TRUTH = {"k_n": 0.32, "k_l": 76.0, "arm": 14.8e-6, "share_twist": 0.93,
          "slope": 1.25e7, "normal_sensitivity": 0.32 / 1.25e7, "lateral_sensitivity": 180e-9, "crosstalk": 0.008,
          "friction": 0.22, "adhesion": 18e-9, "wedge_friction": 0.15, "wedge_adhesion": 9e-9, "hard_adhesion": 12e-9,
          "probe_arm": 26.1e-6, "side_slope": 76.0 * 14.8e-6 / (0.93 * 180e-9 * 26.1e-6)}
-STATED = {"k_n": 1.03, "k_l": 0.98, "arm": 1.004}  # over the truth; the stated uncertainties are 4, 4 and 1 %
+STATED = {"k_n": 1.03, "k_l": 0.98, "arm": 1.004}  # over the true value; the stated uncertainties are 4, 4 and 1 %
 SLOPES, LOADS = (14.1, -12.6), (1.0, 2.5, 4.0, 5.5, 7.0)  # degrees (stated 14.0, -12.5), V
-PLACES, STICKING, SWAY = 200, 8, 0.08  # SWAY: of the load, how far the normal signal differs between the ways
+PLACES, STICKING, SWAY = 200, 8, 0.08  # SWAY: deviation of the normal signal in trace and retrace, over load
 
 
 class Noise:
-    """Neighbours hang together."""
+    """Noise with correlated neighbours."""
 
     def __init__(self, dice, size):
         self.dice, self.size, self.last = dice, size, 0.0
@@ -35,7 +35,7 @@ class Noise:
 
 
 def force_curves(dice, noise, adhesion, stiffness, count, lateral):
-    """Rows of curves: there and retrace, with a tilted line of no force, a small jump into contact, a pull-off."""
+    """Rows of curves: approach and retract, with a tilted zero-force line, a small jump into contact, a pull-off."""
     rows = []
     for curve in range(1, count + 1):
         touch, slope = dice.uniform(190, 210), stiffness * TRUTH["slope"] * 1e-9 * (1 + dice.gauss(0, 0.003))
@@ -61,7 +61,7 @@ def sideways(load, slope, sign, mu, adhesion):
 
 
 def loop(load, up, down, noise, head):
-    """Rows of one loop: the tip sticks where it has turned; the normal signal shows through."""
+    """Rows of one loop: the tip sticks after each reversal; the normal signal causes crosstalk."""
     rows, normal = [], (load * (1 + SWAY), load * (1 - SWAY))
     for i in range(PLACES):
         there = up + (down - up) * max(0.0, 1 - i / STICKING)

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Makes synthetic friction loops of an AFM from a known truth: no measurement is in them.
+"""Generates synthetic AFM friction loops from known parameters: no measured data.
 
 usage: wedge.py [--out FOLDER] [--seed N] [--noise VOLTS]
 
-Facets of a grating at +14.0, 0 and -12.5 degrees, five loads each, raw traces of 256 places trace and retrace
-with correlated noise and the tip sticking where it has turned. Beside them wedge-truth.json.
+Facets of a grating at +14.0, 0 and -12.5 degrees, five loads each, raw traces of 256 positions, trace and
+retrace, with correlated noise and the tip sticking after each reversal. Also writes wedge-truth.json.
 """
 import argparse
 import json

@@ -1,4 +1,4 @@
-// Counts in words: "1 stage", "2 stages".
+// Counts with their noun: "1 stage", "2 stages".
 #pragma once
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// `many`: the plural where it is not the word with an s.
+// `many`: the plural, if it is not the word plus s.
 std::string counted(std::integral auto number, std::string_view one, std::string_view many = {}) {
   if (number == 1) return fmt::format("1 {}", one);
   return many.empty() ? fmt::format("{} {}s", number, one) : fmt::format("{} {}", number, many);

@@ -35,7 +35,7 @@ std::vector<Cell> fields_of(std::string_view line, char separator) {
 bool is_number_cell(const Cell& cell) { return could_be_number(cell.text); }
 bool is_name(const Cell& cell) { return !cell.text.empty() && !is_number_cell(cell); }
 
-// Half of the fields at least are numbers.
+// At least half of the fields are numbers.
 bool are_numbers(const std::vector<Cell>& cells) {
   const auto numbers = std::ranges::count_if(cells, is_number_cell);
   const auto empty = std::ranges::count_if(cells, [](const Cell& c) { return c.text.empty(); });
@@ -48,7 +48,7 @@ bool are_units(const std::vector<Cell>& cells) {
 
 bool name_units(const std::vector<Cell>& cells) {
   return std::ranges::any_of(cells, [](const Cell& c) {
-    const Column column = column_of(c.text);  // "[N]" alone is of a line of units
+    const Column column = column_of(c.text);  // "[N]" alone belongs to a line of units
     return !column.name.empty() && !column.unit.empty();
   });
 }
@@ -65,7 +65,7 @@ class Search {
     if (names.back() == 1 && names.size() == 1 && fields(0).size() == fields_)
       return {};  // "2theta;I" above a line of units
     if (names.size() == 1 || name_units(fields(names[0]))) return {names[0], ""};
-    if (names.back() == 0 && names.size() == 2) return {};  // names, and whatever units
+    if (names.back() == 0 && names.size() == 2) return {};  // names, and units of any kind
     if (names.size() == 2 && are_units(fields(names[0]))) return {names[1], ""};
     return {names.back(), "several lines could be the names of the columns"};
   }
@@ -78,7 +78,7 @@ class Search {
     return cells.size() == fields_ && std::ranges::all_of(cells, is_name);
   }
 
-  // Two lines of as many numbers, one below the other.
+  // Two consecutive lines with equally many numbers.
   bool find_numbers() {
     for (first_ = 1; first_ + 1 < lines_.size(); ++first_) {
       separator_ = separator_of(lines_[first_]);
@@ -89,7 +89,7 @@ class Search {
     return false;
   }
 
-  // Where the first line has as many fields it is the header, whatever it says.
+  // If the first line has as many fields it is the header, whatever it contains.
   HeaderSearch without_names() const {
     if (fields_of(lines_[0], separator_of(lines_[0])).size() == fields_) return {};
     if (first_ == 1) return {};  // the row is refused, with both counts
@@ -99,7 +99,7 @@ class Search {
 
   const std::vector<std::string_view>& lines_;
   std::size_t first_ = 1;   // line of numbers
-  std::size_t fields_ = 0;  // of a line
+  std::size_t fields_ = 0;  // fields per line
   char separator_ = ',';
 };
 

@@ -1,7 +1,7 @@
-// Where the names of the columns stand in a file that a data logger begins with lines of text.
+// Finds the column names in a file in which a data logger has written lines of text first.
 //
-// Safe is only this: the first two lines of numbers have as many fields, and right above them stands one line of as
-// many names, or one with a short line of units below it.
+// Certain only if the first two lines of numbers have equally many fields, and directly above them is one line of
+// as many names, or one followed by a short line of units.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@
 namespace pulvis::csv {
 
 struct HeaderSearch {
-  std::size_t at = 0;   // of `lines`: the names of the columns
-  std::string problem;  // why none is certain; then `at` is the line to look at
+  std::size_t at = 0;   // index into `lines`: the column names
+  std::string problem;  // why no header is certain; then `at` is the line in question
 };
 
-// `lines`: without those that are empty or comments. The first is the header unless another is certain to be.
+// `lines`: without empty lines and comments. The first is the header unless another one certainly is.
 HeaderSearch find_header(const std::vector<std::string_view>& lines);
 
 char separator_of(std::string_view line);
 std::vector<Cell> cells_of(std::string_view line, char separator);
 bool could_be_number(const std::string& text);
-// "force [N]" and "force (N)": a name, and a unit in brackets at its end.
+// "force [N]" and "force (N)": a name followed by a unit in brackets.
 Column column_of(const std::string& text);
 
 }  // namespace pulvis::csv

@@ -121,7 +121,7 @@ class Reader {
     return at + 1;
   }
 
-  // The first line that is not left out, or the one below a preamble.
+  // The first line that is not ignored, or the one below a preamble.
   std::size_t found_header() const {
     std::vector<std::size_t> numbers;
     std::vector<std::string_view> texts;
@@ -143,7 +143,7 @@ class Reader {
     return numbers[found.at];
   }
 
-  // A line of units only, where the names carry none.
+  // A line that contains only units, if the names have none.
   std::size_t units(std::size_t next) {
     while (next < lines_.size() && is_left_out(lines_[next].text)) ++next;
     const bool named = std::any_of(table_.columns.begin(), table_.columns.end(),
@@ -162,7 +162,7 @@ class Reader {
     return separator == '\t' ? std::string("tab") : std::string(1, separator);
   }
 
-  // Why a row has another number of fields than the header.
+  // Explains why a row has a different number of fields from the header.
   std::string explained(std::string_view line, std::size_t fields) const {
     const std::size_t wanted = table_.columns.size();
     const char other = separator_of(line);
@@ -226,7 +226,7 @@ double number_in(const Table& table, std::size_t row, std::size_t column) {
   return value;
 }
 
-// What one of the column's unit is in the wanted one.
+// One of the column's unit, expressed in the requested unit.
 double factor_of(const Table& table, std::size_t column, const std::string& wanted) {
   const Column& own = table.columns[column];
   const bool is_plain = own.unit.empty() || own.unit == "-" || own.unit == "1";

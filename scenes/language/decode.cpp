@@ -36,7 +36,7 @@ std::optional<double> only_number(const std::string& text) {
   return number;
 }
 
-// "0.5" and "0,5" where a bare number stands.
+// "0.5" and "0,5" as strings where a plain number is required.
 void refuse_text(const KeyInfo& key, const Value& value, const std::string& text) {
   if (only_number(text))
     refuse(key, value, fmt::format("a number in quotes is given: write {} without them", text));
@@ -82,7 +82,7 @@ double quantity(const KeyInfo& key, const Value& value) {
   }
 }
 
-// Two, or one for each dimension.
+// Two, or one per dimension.
 const document::Array& parts_of(const KeyInfo& key, const Value& value) {
   const auto* array = value.as<document::Array>();
   if (array == nullptr) refuse_type(key, value);
@@ -102,7 +102,7 @@ bool is_name_character(char c) {
          c == '-' || c == '+' || c == '.';
 }
 
-// Names become groups of the results file and keys of overrides.
+// Names become groups in the results file and keys in overrides.
 std::string name(const KeyInfo& key, const Value& value) {
   const std::string& text = word(key, value);
   const bool only_dots = text.find_first_not_of('.') == std::string::npos;
@@ -159,7 +159,7 @@ int choice(const KeyInfo& key, const Value& value) {
 int reference(const KeyInfo& key, const Value& value, const Names& names) {
   const std::string& given = word(key, value);
   const auto table = names.find(key.refers_to);
-  if (table == names.end()) return 0;  // it is no list
+  if (table == names.end()) return 0;  // it is not a list
   const std::vector<std::string>& known = table->second;
   const auto found = std::find(known.begin(), known.end(), given);
   if (found != known.end() && !given.empty()) return static_cast<int>(found - known.begin());
@@ -168,7 +168,7 @@ int reference(const KeyInfo& key, const Value& value, const Names& names) {
                             document::value_text(value), suggestion(given, known), listed(known)));
 }
 
-// Of the plane with z = 0.
+// A vector in the plane, with z = 0.
 Eigen::Vector3d vector(const KeyInfo& key, const Value& value) {
   const document::Array& parts = parts_of(key, value);
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
@@ -182,7 +182,7 @@ void set_vector(const Eigen::Vector3d& vector, Decoded& result) {
   result.vector = vector.head<2>();
 }
 
-// The position of a word that may stand instead of a number; empty: it is none.
+// The index of a keyword that may replace a number; empty if it is not one.
 std::optional<int> word_instead(const KeyInfo& key, const Value& value) {
   const auto* text = value.as<std::string>();
   for (std::size_t i = 0; text != nullptr && i < key.choices.size(); ++i)
@@ -264,7 +264,7 @@ void phase_or_quantity(const KeyInfo& key, const Value& value, Decoded& result) 
   if (!result.is_word) result.number = quantity(key, value);
 }
 
-// A quantity is converted where its unit is known.
+// A quantity is converted if its unit is known.
 void number_or_text(const KeyInfo& key, const Value& value, Decoded& result) {
   if (value.as<std::string>() != nullptr)
     result.text = line_of_text(key, value);
@@ -272,7 +272,7 @@ void number_or_text(const KeyInfo& key, const Value& value, Decoded& result) {
     result.number = bare_number(key, value);
 }
 
-// The elements of a list; a list of nothing is refused.
+// The elements of a list; an empty list is refused.
 const document::Array& list(const KeyInfo& key, const Value& value) {
   const auto* array = value.as<document::Array>();
   if (array == nullptr) refuse_type(key, value);

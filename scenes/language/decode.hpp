@@ -1,4 +1,4 @@
-// One value of the tree turned into what its key's declaration asks for, or refused.
+// Decodes one value of the tree as its key's declaration requires, or refuses it.
 #pragma once
 
 #include "scenes/language/schema.hpp"
@@ -8,8 +8,8 @@
 
 namespace pulvis::schema {
 
-// The names each repeated table declares, by position; "" where an element has no usable name.
-// A table that is no list has no entry: it is refused itself, and no reference to it besides.
+// The names declared by each repeated table, by position; "" where an element has no usable name.
+// A table that is not a list has no entry: it is refused itself, so references to it are not.
 using Names = std::map<std::string, std::vector<std::string>>;
 
 struct Refusal : std::runtime_error {

@@ -7,7 +7,7 @@ namespace {
 
 std::string code(const std::string& text) { return fmt::format("`{}`", text); }
 
-// What stands in a column of a Markdown table.
+// Contents of a column in a Markdown table.
 std::string cell(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -40,13 +40,13 @@ std::string heading(const schema::TableInfo& info) {
   return info.repeated ? fmt::format("`[[{}]]`", info.path) : fmt::format("`[{}]`", info.path);
 }
 
-// `of_families`: whether the files of this language say what kind of experiment they are.
+// `of_families`: whether the files of this language name a family of experiments.
 std::string describe(const schema::TableView& view, bool of_families) {
   std::string text = fmt::format("\n## {}\n\n{}", heading(view.info), view.info.doc);
   if (of_families && view.info.families.list.size() == 1)
     text += fmt::format(" Only with family = {}.", schema::quoted(view.info.families));
   text += "\n";
-  if (view.keys.empty()) return text;  // its keys are not ours
+  if (view.keys.empty()) return text;  // its keys belong to another language
   text += "\n";
   text += "| key | value | default | meaning |\n|---|---|---|---|\n";
   for (const schema::KeyInfo& key : view.keys)

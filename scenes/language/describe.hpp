@@ -1,4 +1,4 @@
-// A language described for people and for editors, from the declarations the reader uses.
+// Describes a language for people and editors, from the declarations that the reader uses.
 #pragma once
 
 #include "scenes/language/schema.hpp"
@@ -7,6 +7,6 @@
 
 namespace pulvis {
 
-// One section a table: its keys with what is allowed, the default, and the meaning.
+// One section per table: its keys with allowed values, default and meaning.
 std::string reference_of(const std::string& introduction, const schema::Language& language);
 }  // namespace pulvis

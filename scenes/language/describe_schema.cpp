@@ -1,5 +1,5 @@
-// docs/scene.schema.json, from the declarations: for editors that complete and check TOML. It knows
-// the shape of a scene; units, references and checks across tables are the reader's.
+// docs/scene.schema.json, from the declarations: for editors that complete and check TOML. It contains
+// the structure of a scene; units, references and checks across tables are left to the reader.
 #include "scenes/language/describe_schema.hpp"
 
 #include <fmt/format.h>
@@ -146,10 +146,10 @@ std::vector<const char*> tables_required(const std::string& family) {
   return {"particle", "stage"};
 }
 
-// A whole file, or one that extends another and so may leave out anything.
+// A whole file, or one that extends another and so may omit anything.
 enum class Extent { whole, part };
 
-// What a library has need not be given; a name it is that others refer to.
+// Anything in a library may be omitted, except a name, which others refer to.
 void require(Json& json, const Json& required, const schema::TableView& view) {
   if (required.empty()) return;
   if (schema::find_key(view, "library") == nullptr) {
@@ -161,8 +161,8 @@ void require(Json& json, const Json& required, const schema::TableView& view) {
   json["anyOf"] = {Json{{"required", with_library}}, Json{{"required", required}}};
 }
 
-// For one value of the selector: the keys it requires, and the keys of other values forbidden, in
-// the table itself and in the tables below it.
+// For one value of the selector: requires its keys, and forbids the keys of other values, in
+// the table itself and in its subtables.
 Json branch(const schema::TableView& view, const std::string& selected,
             const schema::Language& language, Extent extent) {
   Json required = Json::array(), properties = Json::object();
@@ -196,7 +196,7 @@ void add_branches(Json& json, const schema::TableView& view, const schema::Langu
   }
 }
 
-// Names of the user's own, as [let] has them.
+// User-defined names, as in [let].
 Json table_of_variables(const schema::TableView& view) {
   return {{"type", "object"},
           {"description", view.info.doc},
@@ -204,8 +204,8 @@ Json table_of_variables(const schema::TableView& view) {
           {"additionalProperties", {{"type", {"number", "string"}}}}};
 }
 
-// Numbers and quantities may be expressions of variables: those begin with a name, a bracket or a number, and have an
-// operator in them.
+// Numbers and quantities may be expressions of variables: those start with a name, a bracket or a number, and contain
+// an operator.
 void allow_expressions(Json& json) {
   for (Json& inner : json)
     if (inner.is_structured()) allow_expressions(inner);

@@ -1,4 +1,4 @@
-// A language described for editors.
+// Description of a language for editors.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// JSON Schema 2020-12; `required`: tables that a file must have.
+// JSON Schema 2020-12; `required`: tables that a file must contain.
 std::string json_schema_of(const std::string& title, const std::string& declared_in,
                            const schema::Language& language,
                            const std::vector<std::string>& required = {});

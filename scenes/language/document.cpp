@@ -1,4 +1,4 @@
-// The only file that sees toml++: its header is large, and its tree is copied into ours at once.
+// The only file that sees toml++: its header is large, and its tree is converted to ours at once.
 #include "scenes/language/document.hpp"
 #include "scenes/language/document_guard.hpp"
 
@@ -21,7 +21,7 @@ Table copy_table(const toml::table& source) {
   Table table;
   for (const auto& [key, node] : source)
     table.push_back({std::string(key.str()), origin_of(key.source()), copy(node)});
-  // toml++ sorts by name; the file's own order is the one people expect in messages.
+  // toml++ sorts by name; in messages, people expect the order of the file.
   std::stable_sort(table.begin(), table.end(), [](const Entry& a, const Entry& b) {
     const SourceMark left = a.origin.mark, right = b.origin.mark;
     return std::pair(left.line, left.column) < std::pair(right.line, right.column);
@@ -96,7 +96,7 @@ std::string_view line_of(std::string_view text, int number) {
   return text.substr(0, text.find('\n'));
 }
 
-// "friction = 0,5": a number, a comma and a digit right behind the equals sign.
+// "friction = 0,5": a number, a comma and a digit directly after the equals sign.
 bool has_decimal_comma(std::string_view line) {
   const auto is_digit = [&](std::size_t i) {
     return i < line.size() && line[i] >= '0' && line[i] <= '9';
@@ -108,7 +108,7 @@ bool has_decimal_comma(std::string_view line) {
          number.find_first_not_of(" \t+-0123456789") == std::string_view::npos;
 }
 
-// The library says what went wrong, not what would be right.
+// The library says what is wrong, but not what would be right.
 std::string explained(const std::string& description, std::string_view line) {
   const bool twice = description.find("cannot redefine") != std::string::npos;
   if (twice) return description + ", allowed: each key once";

@@ -1,6 +1,6 @@
-// A scene file as a tree of plain values, each with the place it was written at. It stands between
+// A scene file as a tree of plain values, each with its source location. It stands between
 // the TOML library, which only document.cpp sees, and the reader: overrides and default values are
-// put into this tree before anything is read from it.
+// inserted into this tree before anything is read from it.
 #pragma once
 
 #include "scenes/language/source_mark.hpp"
@@ -20,13 +20,13 @@ inline constexpr std::size_t largest_file = 16U << 20U;  // bytes; scenes are wr
 
 struct Origin {
   SourceMark mark;
-  int override_index = -1;  // >= 0: written by this override, not by a file
+  int override_index = -1;  // >= 0: set by this override, not by a file
 };
 
 struct Value;
 struct Entry;
 using Array = std::vector<Value>;
-using Table = std::vector<Entry>;  // in the order of the file
+using Table = std::vector<Entry>;  // in file order
 
 struct Unsupported {};  // a date or a time: TOML has them, scenes do not
 
@@ -43,7 +43,7 @@ struct Value {
     return std::get_if<T>(&data);
   }
   template <class T>
-  const T& get() const {  // where the type is known already
+  const T& get() const {  // if the type is already known
     return std::get<T>(data);
   }
   template <class T>
@@ -65,12 +65,12 @@ struct SyntaxError : std::runtime_error {
 };
 
 Table parse(std::string_view text);                         // throws SyntaxError
-std::optional<Value> parse_value(const std::string& text);  // empty: not one TOML value
+std::optional<Value> parse_value(const std::string& text);  // empty: not a single TOML value
 
 Entry* find(Table& table, std::string_view key);
 const Entry* find(const Table& table, std::string_view key);
 const std::string* find_text(const Table& table,
-                             std::string_view key);  // null: absent, or no string
+                             std::string_view key);  // null: absent, or not a string
 bool is_array_of_tables(const Value& value);
 std::string type_name(const Value& value);   // "a string", "an integer", ...
 std::string value_text(const Value& value);  // as TOML writes it, on one line

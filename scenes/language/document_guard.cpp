@@ -1,4 +1,4 @@
-// Looks over the text of a scene before the TOML library does. toml++ 3.3 walks into an unreachable
+// Checks the text of a scene before the TOML library reads it. toml++ 3.3 reaches an unreachable
 // statement at a non-ASCII bare key, and recurses for every level of nesting.
 #include "scenes/language/document_guard.hpp"
 

@@ -37,7 +37,7 @@ void stamp(Value& value, int file) {
     for (Value& element : *array) stamp(element, file);
 }
 
-// The key that tells the elements of a repeated table apart; empty: there is none.
+// The key that identifies the elements of a repeated table; empty if there is none.
 std::string matched_by(const std::string& path, const schema::Language& language) {
   const schema::TableView* view = schema::find_table(path, language);
   if (view == nullptr || !view->info.repeated) return "";
@@ -77,13 +77,13 @@ class Merge {
       elements(base.value.get<Array>(), std::move(extending.value.get<Array>()), path, key);
   }
 
-  // What is wrong with the table as a whole is told where it was changed last.
+  // Errors in the table as a whole are reported where it was last changed.
   void values(Value& base, Value&& extending, const std::string& path) const {
     base.origin = extending.origin;
     tables(base.get<Table>(), std::move(extending.get<Table>()), path);
   }
 
-  // Each element of the base is matched once: a name that is given twice stays, for the reader to refuse.
+  // Each element of the base is matched once: a repeated name is kept for the reader to refuse.
   void elements(Array& base, Array&& extending, const std::string& path,
                 const std::string& key) const {
     std::vector<bool> open(base.size(), true);
@@ -137,7 +137,7 @@ class Chain {
                            const std::string& message) {
     problems_.add(where, key, message);
     problems_.throw_if_any();
-    throw std::logic_error("a problem was noted");  // not reached
+    throw std::logic_error("a problem was noted");  // never reached
   }
 
   Table parsed(const std::string& text, int file) {
@@ -195,7 +195,7 @@ class Chain {
                        *own, problems_.file_of(said.mark).string(), said.mark.line, *theirs));
   }
 
-  // Takes what the extending file does not want out of the base, and both keys out of the extending file.
+  // Removes what the extending file does not want from the base, and both keys from the extending file.
   void take_out(Table& base, Table& root) {
     if (const Entry* entry = document::find(root, "remove"))
       for (const Value& path : list_of_paths(entry->value))

@@ -1,13 +1,13 @@
-// `extends = "other.toml"`: a scene that states only what differs from another file.
+// `extends = "other.toml"`: a scene that states only its differences from another file.
 //
-// Tables      are merged key by key: what the extending file gives replaces what the other one says
-// Repeated    an element with a name replaces keys of the element of that name, or is added after the others;
-//             a move and a servo are matched by their tool. Elements without either ([[body]], [[packing]],
-//             [[friction]], [[action]], [[expect]]): where some are given, they replace all of the other's
-// `remove`    takes keys, tables and elements out of what is extended, before anything is merged
-// Files       are named from the folder of the file that names them, as everywhere
+// Tables      are merged key by key: values in the extending file replace those in the base file
+// Repeated    an element with a name replaces keys of the element of that name, or is appended;
+//             moves and servos are matched by their tool. Elements without either ([[body]], [[packing]],
+//             [[friction]], [[action]], [[expect]]): if any are given, they replace all of the base file's
+// `remove`    removes keys, tables and elements from the base file before merging
+// Files       paths are relative to the folder of the file that names them, as everywhere
 //
-// The tree that comes out has neither key. Every entry keeps the file and line that said it.
+// The resulting tree has neither key. Every entry keeps the file and line that set it.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@
 
 namespace pulvis {
 
-// The tree of a file's text, whole; the files that it extends are made known to `problems`. What is wrong is
+// The complete tree of a file's text; the base files are registered with `problems`. Errors are
 // thrown as SceneError.
 document::Table whole_tree(const std::string& text, const std::filesystem::path& file,
                            const schema::Language& language, Problems& problems);

@@ -1,4 +1,4 @@
-// The paths in a tree, found by their keys' kind.
+// The file paths in a tree, found by the kind of their keys.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace pulvis {
 
-// Calls `use` for every path that is given, in the order of the tree. Empty ones, and what is no string, are
-// left to the reader to refuse.
+// Calls `use` for every path that is given, in tree order. Empty paths and values that are not strings
+// are left for the reader to refuse.
 void for_each_path(document::Table& root, const schema::Language& language,
                    const std::function<void(schema::Kind, std::string&)>& use);
 

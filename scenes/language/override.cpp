@@ -23,7 +23,7 @@ struct Step {
 
 constexpr const char* form = "allowed: key.path=value, e.g. time.safety=0.5";
 
-// Where `separator` first stands outside of quotes.
+// Position of the first `separator` outside quotes.
 std::size_t find_unquoted(std::string_view text, char separator) {
   char quote = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -86,7 +86,7 @@ Value& element_at(document::Array& array, std::size_t position) {
       fmt::format("there is no element [{}], allowed: [0] to [{}]", position, array.size() - 1));
 }
 
-// By name; a move has none and is called by its tool.
+// By name; a move has none and is selected by its tool.
 Value& element_called(document::Array& array, const std::string& name) {
   std::vector<std::string> names;
   for (Value& element : array) {
@@ -129,7 +129,7 @@ bool holds_tables(const Value& value) {
 
 Value parsed(const std::string& text, const document::Origin& origin) {
   try {
-    document::guard("#" + text);  // a string without quotes is held to the rules of a file, too
+    document::guard("#" + text);  // a string without quotes must obey the rules of a file, too
   } catch (const document::SyntaxError& error) {
     throw Refused(error.what());
   }

@@ -1,7 +1,7 @@
 // Overrides of a scene's keys from the command line: `--set key.path=value`.
 //
-// The path names tables and keys with dots. An element of a repeated table is chosen by its
-// position or by its name (a move: by its tool); a name with a dot is quoted:
+// The path consists of tables and keys separated by dots. An element of a repeated table is selected
+// by its position or its name (a move: by its tool); a name with a dot is quoted:
 //   time.safety=0.5          material[0].yield_stress=100 MPa      stage.press.duration=2 ms
 //   title=softer             material.316L.yield_stress=100 MPa    stage.press.move.top.ramp=0.2
 //   tool.top.point=["0 m", "101 mm"]                               material."a.b".density=1 g/cm^3
@@ -12,12 +12,12 @@
 
 namespace pulvis {
 
-// Later overrides win. What is wrong with an override is added to `problems`.
+// Later overrides win. Errors in an override are added to `problems`.
 void apply_overrides(document::Table& root, const std::vector<std::string>& overrides,
                      Problems& problems);
 
-// Takes the key, table or element at `path` out; `where` says that. A repeated table whose last element goes is
-// gone, too.
+// Removes the key, table or element at `path`; `where` is the place that requests it. A repeated table whose
+// last element is removed is removed, too.
 void remove_path(document::Table& root, const std::string& path, const document::Origin& where,
                  Problems& problems);
 

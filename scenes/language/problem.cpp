@@ -20,7 +20,7 @@ std::string all_lines(const std::vector<SceneProblem>& problems) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-// But for capitals.
+// Ignoring case.
 bool same_letters(const std::string& a, const std::string& b) {
   const auto small = [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -28,7 +28,7 @@ bool same_letters(const std::string& a, const std::string& b) {
   return std::ranges::equal(a, b, {}, small, small);
 }
 
-// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other (optimal string
+// Insertions, deletions, substitutions and swaps of neighbours that turn one word into another (optimal string
 // alignment).
 std::size_t distance(const std::string& from, const std::string& to) {
   std::array<std::size_t, longest_word + 1> before{}, last{}, row{};
@@ -98,7 +98,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 }
 
 std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t maximum = 20;  // a message is no catalogue
+  constexpr std::size_t maximum = 20;  // keep messages short
   const auto end = words.begin() + static_cast<std::ptrdiff_t>(std::min(words.size(), maximum));
   if (words.empty()) return "none";
   return fmt::format("{}{}", fmt::join(words.begin(), end, ", "),

@@ -1,4 +1,4 @@
-// What is wrong with a scene: collected while it is read, thrown together as one SceneError.
+// Errors in a scene: collected while it is read, thrown together as one SceneError.
 #pragma once
 
 #include "scenes/language/document.hpp"
@@ -12,11 +12,11 @@ namespace pulvis {
 
 struct SceneProblem {
   std::string file;
-  int line = 0;  // 0 when an override is to blame
+  int line = 0;  // 0 if an override is to blame
   int column = 0;
-  std::string override_text;  // "contact.friction=-1"; empty when the file is to blame
+  std::string override_text;  // "contact.friction=-1"; empty if the file is to blame
   std::string key;            // "material[0].yield_stress"
-  std::string message;        // what is wrong, what is allowed
+  std::string message;        // what is wrong and what is allowed
 
   std::string text() const;  // file:line:col: key: message
 };
@@ -35,8 +35,8 @@ class Problems {
   Problems(std::filesystem::path file, std::vector<std::string> overrides)
       : files_{std::move(file)}, overrides_(std::move(overrides)) {}
 
-  // Marks call a file by its position: the first is the scene's own, each following one is extended by the one
-  // before it.
+  // Marks give a file by its index: the first is the scene itself, each following one is the base file of
+  // the one before it.
   void add_file(const std::filesystem::path& file) { files_.push_back(file); }
   const std::vector<std::filesystem::path>& files() const { return files_; }
   const std::filesystem::path& file_of(const SourceMark& mark) const {
@@ -44,7 +44,7 @@ class Problems {
   }
 
   void add(const document::Origin& origin, const std::string& key, const std::string& message);
-  void throw_if_any() const;  // SceneError, in the order of the files
+  void throw_if_any() const;  // SceneError, in file order
 
  private:
   std::vector<std::filesystem::path> files_;
@@ -52,10 +52,10 @@ class Problems {
   std::vector<SceneProblem> problems_;
 };
 
-// ", did you mean 'yield_stress'?" when a candidate is close to `word`, otherwise nothing.
+// ", did you mean 'yield_stress'?" if a candidate is close to `word`, otherwise empty.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
-// "a, b, c": what a message lists as allowed; "none" when there is nothing.
+// "a, b, c": the allowed values in a message; "none" if empty.
 std::string listed(const std::vector<std::string>& words);
 
 }  // namespace pulvis

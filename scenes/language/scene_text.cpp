@@ -21,7 +21,7 @@ std::string write_keys(const Table& table, const schema::TableView& view) {
   return text;
 }
 
-// The tables of `parent` that lie directly below `path`, in the order of their declarations.
+// The tables of `parent` directly below `path`, in declaration order.
 std::vector<Block> blocks_in(const Table& parent, const std::string& path,
                              const schema::Language& language) {
   std::vector<Block> blocks;
@@ -60,7 +60,7 @@ std::string write_block(const Block& block, const schema::Language& language) {
 
 std::string scene_text(const Table& root, const schema::Language& language) {
   std::vector<Block> blocks = blocks_in(root, "", language);
-  // body and packing are declared next to each other, so their blocks are one run of the list.
+  // body and packing are declared next to each other, so their blocks are contiguous in the list.
   const auto first = std::find_if(blocks.begin(), blocks.end(), places_particles);
   const auto last = std::find_if_not(first, blocks.end(), places_particles);
   std::stable_sort(first, last, comes_before);

@@ -1,13 +1,13 @@
-// Writes a scene's tree back as TOML, in one fixed layout: what the run's folder keeps as
-// scene.toml and what the scene's hash is taken of.
+// Writes a scene's tree back as TOML, in one fixed layout: the run's folder keeps it as
+// scene.toml, and the scene's hash is computed from it.
 #pragma once
 
 #include "scenes/language/schema.hpp"
 
 namespace pulvis {
 
-// Tables and keys come in the order of their declarations, whatever the order of the file was. Only
-// bodies and packings keep the file's order among themselves: it numbers the particles.
+// Tables and keys are in the order of their declarations, whatever the order in the file. Only
+// bodies and packings keep their file order relative to each other: it numbers the particles.
 std::string scene_text(const document::Table& root, const schema::Language& language);
 
 }  // namespace pulvis

@@ -44,7 +44,7 @@ bool is_child(const TableInfo& info, const std::string& parent) {
 
 std::string last_word(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
-// Copies a default into the tree at `origin`, that is, at the table it belongs to.
+// Copies a default into the tree at `origin`, i.e. the location of its table.
 document::Value placed(document::Value value, const document::Origin& origin) {
   value.origin = origin;
   if (auto* array = value.as<document::Array>())

@@ -1,6 +1,6 @@
 // A language as data: every key is declared once, with its kind, unit, default, allowed range and one
-// line of documentation. The reader, the reference, the JSON Schema and the default values all come from
-// these declarations: those of scenes are in scenes/keys.
+// line of documentation. The reader, the reference, the JSON Schema and the default values are all
+// derived from these declarations: those of scenes are in scenes/keys.
 #pragma once
 
 #include "scenes/language/document.hpp"
@@ -19,31 +19,31 @@ namespace pulvis::schema {
 
 enum class Kind {
   quantity,   // a string: number and unit
-  vector,     // quantities: x and y, in three dimensions z, too
+  vector,     // quantities: x and y; z as well in three dimensions
   points,     // two or more vectors
-  phase,      // a quantity, or the key's one word
-  number,     // a bare number
-  integer,    // a bare whole number
-  counts,     // bare whole numbers, one for each dimension
+  phase,      // a quantity, or the key's single keyword
+  number,     // a dimensionless number
+  integer,    // an integer without a unit
+  counts,     // integers without units, one per dimension
   flag,       // true or false
-  direction,  // bare numbers, one for each dimension, not all zero
+  direction,  // dimensionless numbers, one per dimension, not all zero
   text,       // a string
-  name,       // a string others refer to; part of paths in the results
+  name,       // a string that others refer to; used in result paths
   choice,     // one of a few words
-  reference,  // the name of another table's element
+  reference,  // the name of an element in another table
   name_pair,  // two names of materials or tools
-  bound,      // a bare number, or a quantity in a unit that another key decides
+  bound,      // a dimensionless number, or a quantity in a unit that another key determines
   texts,      // one or more strings
-  integers,   // one or more bare whole numbers
-  numbers,    // one or more bare numbers
-  file,       // the path of a table, mesh or record, from the folder of the file that names it
-  scene,      // likewise, of another scene
+  integers,   // one or more integers
+  numbers,    // one or more dimensionless numbers
+  file,       // the path of a table, mesh or record, relative to the folder of the file that names it
+  scene,      // the same for another scene
 };
 
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool without_low = false;  // the bound itself is refused
+  bool without_low = false;  // the bound itself is not allowed
   bool without_high = false;
 
   bool holds(double value) const;  // false for NaN
@@ -52,7 +52,7 @@ struct Range {
 struct Choice {
   std::string word;
   std::string doc;
-  std::string formerly = {};  // its word in older scenes
+  std::string formerly = {};  // its keyword in older scenes
 };
 
 // Values of a selector: one word, or several in braces.
@@ -67,21 +67,21 @@ struct Words {
   }
 };
 
-// Families of experiments, for tables and keys that belong to some of them.
+// Families of experiments, for tables and keys that belong only to some of them.
 inline const Words compaction_only{"compaction"}, afm_only{"afm"},
     every_family{"compaction", "afm"};
 
 struct KeyInfo {
   std::string name = {};
-  std::string formerly = {};  // its name in older scenes, which is refused with the new one
+  std::string formerly = {};  // its name in older scenes, which is refused with a pointer to the new one
   Kind kind = Kind::text;
   std::string unit = {};  // SI, of quantities
-  Range range = {};       // of quantities in the SI unit, of vectors for each component
+  Range range = {};       // of quantities in the SI unit; for vectors, of each component
   int multiple_of = 1;    // of integers
   int dimensions = 2;     // of vectors, points, directions and counts
   std::vector<Choice> choices =
-      {};                      // of a number, or a vector's last component: words instead of it
-  std::string word = {};       // Kind::phase: the word that stands instead of a quantity
+      {};                      // of a number, or a vector's last component: keywords allowed instead
+  std::string word = {};       // Kind::phase: the keyword allowed instead of a quantity
   std::string refers_to = {};  // Kind::reference: the table whose names are allowed
   std::optional<document::Value> fallback = {};  // the default
   bool required = false;
@@ -89,21 +89,21 @@ struct KeyInfo {
   Words optional_for = {};  // not required with these
   std::string needs = {};   // another key without which this one has no effect
   std::string doc = {};
-  std::string fallback_doc = {};  // what happens without the key, where that is no value
-  bool of_lever = false;          // of a table of levers, whose lengths are micrometres (view_of)
+  std::string fallback_doc = {};  // what happens without the key, if the default is not a value
+  bool of_lever = false;          // in a table of levers, where lengths are in micrometres (view_of)
 };
 
-// A value as its setter gets it; which members hold something follows from the kind.
+// A value as passed to its setter; its kind determines which members are set.
 struct Decoded {
   double number = 0;  // quantity in SI, number
   std::int64_t integer = 0;
-  int index = 0;         // choice, reference: position in the list
-  bool is_word = false;  // phase; number or vector (its last) with words: `index` says which
+  int index = 0;         // choice, reference: index in the list
+  bool is_word = false;  // phase; number or vector (last component) with keywords: `index` says which
   bool flag = false;
   std::array<int, 2> counts = {};
   Vec2 vector = Vec2::Zero();
   std::vector<Vec2> points = {};
-  std::array<int, 3> counts3 = {};  // where `dimensions` is 3
+  std::array<int, 3> counts3 = {};  // if `dimensions` is 3
   Eigen::Vector3d vector3 = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> points3 = {};
   std::string text = {};
@@ -116,10 +116,10 @@ struct Decoded {
 struct TableInfo {
   std::string path;      // "material", "particle.mesh"; empty: the top level
   bool repeated;         // [[material]], any number of times; otherwise [contact], at most once
-  std::string selector;  // the key that only_for compares, here or in the parent table
+  std::string selector;  // the key that only_for compares with, here or in the parent table
   std::string doc;
-  Words families = {"compaction"};  // of experiments that have this table
-  bool optional = false;  // without it there is no such thing, not one with default values
+  Words families = {"compaction"};  // families of experiments that have this table
+  bool optional = false;  // without it the feature is absent, rather than having default values
 };
 
 template <class Spec>
@@ -134,7 +134,7 @@ struct TableDeclaration {
   std::vector<Key<Spec>> keys;
 };
 
-// A declaration without its setters: all that documents, default values and checks need.
+// A declaration without its setters: all that documentation, default values and checks need.
 struct TableView {
   TableInfo info;
   std::vector<KeyInfo> keys;
@@ -154,7 +154,7 @@ TableView view_of(const TableDeclaration<Spec>& declaration) {
 }
 
 const TableView* find_table(const std::string& path, const Language& language);
-// Whether a table below the top level belongs to the family; of an unknown family all do.
+// Whether a table below the top level belongs to the family; for an unknown family, all do.
 bool belongs(const TableInfo& info, const std::string& family);
 const KeyInfo* find_key(const TableView& table, const std::string& name);
 std::string joined_path(const std::string& path, const std::string& key);
@@ -167,14 +167,14 @@ std::string allowed(const KeyInfo& key);  // "a quantity in Pa, >= 1 and <= 1e+1
 // Whether `key` has a meaning in `table`, whose selector has the value `selected`.
 bool applies(const KeyInfo& key, const document::Table& table, const std::string& selected);
 
-// Whether a table must have the key, as far as its selector decides.
+// Whether a table must have the key, as far as its selector determines it.
 bool is_required(const KeyInfo& key, const std::string& selected);
 
-// The value of a table's selector; `parent` is asked where the table has no such key itself.
+// The value of a table's selector; taken from `parent` if the table itself has no such key.
 std::string selected_by(const TableInfo& info, const document::Table& table,
                         const std::string& parent);
 
-// Writes every default that is not given into the tree, so that it is read like a given value.
+// Writes every missing default into the tree, so that it is read like a given value.
 void fill_defaults(document::Table& root, const Language& language);
 
 }  // namespace pulvis::schema

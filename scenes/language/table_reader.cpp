@@ -26,7 +26,7 @@ void TableReader::collect_names(const document::Table& root) {
   }
 }
 
-// Friction pairs name materials and tools alike, so those two share one list.
+// Friction pairs may name materials or tools, so the two share one list.
 void TableReader::collect_name(const std::string& table, const document::Value& element,
                                const std::string& path) {
   const auto& keys = element.get<document::Table>();
@@ -135,7 +135,7 @@ void TableReader::missing(const KeyInfo& key) {
 void TableReader::without_effect(const KeyInfo& key, const document::Entry& entry) {
   const std::string path = joined_path(path_, key.name);
   if (!key.only_for.empty() && !key.only_for.has(selected_)) {
-    if (selected_.empty()) return;  // the missing selector is reported already
+    if (selected_.empty()) return;  // the missing selector has already been reported
     problems_.add(entry.origin, path,
                   fmt::format("has no effect with {} = \"{}\", allowed: only with {}",
                               view_->info.selector, selected_, quoted(key.only_for)));

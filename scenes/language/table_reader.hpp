@@ -1,5 +1,5 @@
-// Reads one table of the tree as its declaration says: unknown keys, keys without an effect,
-// missing keys and values that cannot be decoded are reported, the others go to their setters.
+// Reads one table of the tree according to its declaration: unknown keys, keys without effect,
+// missing keys and values that cannot be decoded are reported; the rest is passed to the setters.
 #pragma once
 
 #include "scenes/language/decode.hpp"
@@ -23,11 +23,11 @@ class TableReader {
       if (const std::optional<Decoded> decoded = value_of(key.info)) key.set(spec, *decoded);
   }
 
-  // The elements of a repeated table; none, and a problem, when it is written as something else.
+  // The elements of a repeated table; empty, with a problem, if it is written as anything else.
   const document::Array& elements(const document::Table& parent, const std::string& parent_path,
                                   const TableInfo& info);
 
-  // Where every table and key that was read is written.
+  // Source locations of every table and key that was read.
   const Origins& origins() const { return origins_; }
 
  private:

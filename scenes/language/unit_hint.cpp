@@ -12,7 +12,7 @@ struct NamedUnit {
   double in_si;
 };
 
-// The units that people write, the likeliest first, and what sizes are usual.
+// Commonly used units, the most likely first, and their usual magnitudes.
 struct Usual {
   std::vector<NamedUnit> units;
   double low, high;  // SI: low <= |value| < high
@@ -48,7 +48,7 @@ std::string written(double number, const NamedUnit& unit) {
   return fmt::format("\"{:g} {}\"", number, unit.name);
 }
 
-// The same in the unit of the list that gives the handiest number.
+// The same in the unit of the list that gives the most readable number.
 std::string in_another(double si, const std::vector<NamedUnit>& units, const NamedUnit& first) {
   for (const NamedUnit& unit : units) {
     const double number = std::abs(si / unit.in_si);

@@ -1,4 +1,4 @@
-// What a number without a unit may have been meant to be.
+// Guesses the unit of a number that was given without one.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace pulvis::schema {
 
-// '"400 um" or "0.4 mm"' for 400 and a length: the same quantity in the unit in which it is of the usual size
-// and within the key's range, and in the next one. Angles are in degrees first.
+// '"400 um" or "0.4 mm"' for 400 and a length: the same quantity in the unit that gives a usual magnitude
+// within the key's range, and in the next larger unit. Angles are in degrees first.
 std::string quantity_example(const KeyInfo& key, double number);
 
 }  // namespace pulvis::schema

@@ -22,13 +22,13 @@ struct FreeConverter {
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 using Converter = std::unique_ptr<cv_converter, FreeConverter>;
 
-// udunits' parser and its status live in globals, so every use holds this lock.
+// udunits' parser and its status are global, so every use holds this lock.
 std::mutex& units_lock() {
   static std::mutex lock;
   return lock;
 }
 
-// Read once and kept until the program ends. "deg" is not in the database, "degree" is.
+// Read once and kept until the program exits. The database has "degree" but not "deg".
 ut_system* unit_system() {
   static ut_system* const system = [] {
     ut_set_error_message_handler(ut_ignore);
@@ -50,7 +50,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// Splits the number off the front of `text`, leaving the unit.
+// Removes the number from the start of `text`, leaving the unit.
 double take_number(std::string_view& text) {
   const std::string whole(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
@@ -90,7 +90,7 @@ Unit parse_unit(std::string_view text, std::string_view whole) {
 }
 
 // The base units of `unit` without its factor: "m-1.kg.s-2" for GPa. Unlike udunits' own comparison
-// it keeps the radian, so that "10 Hz" is no angular velocity. Empty: a plain number.
+// it keeps the radian, so that "10 Hz" is not an angular velocity. Empty: a plain number.
 std::string dimension(const ut_unit* unit) {
   std::array<char, 256> buffer{};
   const int length = ut_format(unit, buffer.data(), buffer.size() - 1, UT_ASCII | UT_DEFINITION);
@@ -102,8 +102,8 @@ std::string dimension(const ut_unit* unit) {
   return text == "1" ? std::string() : text;
 }
 
-// udunits raises prefixes to powers with the library's pow: 1e27 may come out with another last bit. Where few
-// digits say what was meant, they are taken.
+// udunits raises prefixes to powers with the library's pow: 1e27 may differ in the last bit. If a few
+// digits express the intended value, they are used.
 double decimal(double factor) {
   constexpr double last_bits = 8 * std::numeric_limits<double>::epsilon();
   const std::string digits = fmt::format("{:.13e}", factor);
@@ -112,8 +112,8 @@ double decimal(double factor) {
   return std::abs(meant - factor) <= last_bits * std::abs(factor) ? meant : factor;
 }
 
-// Dividing by a whole number rounds once where multiplying by 0.001 rounds twice: "15 mm" becomes
-// the double nearest to 0.015, and lengths that touch on paper touch here.
+// Dividing by an integer rounds once where multiplying by 0.001 rounds twice: "15 mm" becomes
+// the double nearest to 0.015, and lengths that are equal on paper are equal here.
 double scaled(double value, double factor) {
   constexpr double equal = 1e-12;         // relative to the factor
   constexpr double largest_exact = 1e22;  // of the powers of ten
@@ -156,7 +156,7 @@ void refuse_decimal_comma(std::string_view whole, std::string_view rest) {
                       : ""));
 }
 
-// The number that `whole` begins with; what follows it is its unit.
+// The number at the start of `whole`; the rest is its unit.
 double number_before(std::string_view whole, std::string_view& unit) {
   std::string_view rest = whole;
   const double number = take_number(rest);

@@ -1,6 +1,6 @@
 // Quantities with units, as scene files write them: "10 mm", "200 GPa", "0.3 N/um^2", "45 deg".
-// udunits2 knows the units; this file adds what it leaves open: the number is read exactly, angles
-// are kept apart from plain numbers, and units with an offset or a hidden factor are refused.
+// udunits2 knows the units; this file adds what it lacks: the number is parsed exactly, angles
+// are distinguished from plain numbers, and units with an offset or a hidden factor are refused.
 #pragma once
 
 #include <stdexcept>
@@ -13,12 +13,12 @@ struct UnitError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The value of `text` in the SI unit `wanted` ("m", "Pa", "rad/s", ...). Throws UnitError with what
-// was given and what is wanted. Safe to call from several threads.
+// The value of `text` in the SI unit `wanted` ("m", "Pa", "rad/s", ...). Throws UnitError, stating what
+// was given and what is required. Thread-safe.
 double parse_quantity(std::string_view text, const std::string& wanted);
 
-// A quantity of whatever dimension in the base units of the SI: "2 GPa" is 2e9 "m-1.kg.s-2", "20 deg" 0.35 "rad";
-// a plain number, "5 %" too, has the unit "".
+// A quantity of any dimension in SI base units: "2 GPa" is 2e9 "m-1.kg.s-2", "20 deg" 0.35 "rad";
+// a plain number, including "5 %", has the unit "".
 struct BaseQuantity {
   double value = 0;
   std::string unit;

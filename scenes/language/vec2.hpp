@@ -1,4 +1,4 @@
-// A vector of the plane, as scenes have it.
+// A vector in the plane, as used in scenes.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@ namespace pulvis {
 
 using Vec2 = Eigen::Vector2d;
 
-// The component of a × b out of the plane.
+// The out-of-plane component of a × b.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace pulvis

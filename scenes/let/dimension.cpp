@@ -12,7 +12,7 @@ namespace pulvis::let {
 namespace {
 
 constexpr std::array<std::string_view, 8> base_units{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
-constexpr double equal_powers = 1e-9;  // a third of three is one
+constexpr double equal_powers = 1e-9;  // three times a third is one
 
 // One factor of a dimension, such as "s-2".
 void add_factor(Dimension& dimension, std::string_view factor) {

@@ -1,5 +1,5 @@
-// Numbers with a dimension, as expressions reckon with them: in the base units of the SI. The angle is kept apart, as
-// where quantities are read: 10 rad is no plain number.
+// Numbers with a dimension, as used in expressions: in SI base units. The angle is a separate dimension, as
+// where quantities are read: 10 rad is not a plain number.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct Dimension {
   bool plain() const { return *this == Dimension{}; }
   bool operator==(const Dimension& other) const;
   Dimension times(const Dimension& other, double power = 1) const;  // this * other^power
-  std::string text() const;  // "m-1.kg.s-2", as udunits reads it; "" of a plain number
+  std::string text() const;  // "m-1.kg.s-2", in the notation of udunits; "" for a plain number
 };
 
 struct Quantity {
@@ -29,7 +29,7 @@ struct Quantity {
   std::string text() const;  // "0.024 m", "10": for messages, rounded
 };
 
-// "24 mm", "10": a number, and a unit where there is one.
+// "24 mm", "10": a number with an optional unit.
 Quantity quantity_of(std::string_view text);
 
 }  // namespace pulvis::let

@@ -1,4 +1,4 @@
-// The value of an expression: "n*D", "2*D + 0.1 mm", "D*sin(30 deg)".
+// Evaluates expressions: "n*D", "2*D + 0.1 mm", "D*sin(30 deg)".
 #pragma once
 
 #include <functional>
@@ -19,17 +19,17 @@ struct Variables {
 
 inline constexpr std::size_t longest_expression = 1000;  // characters
 
-bool is_function(std::string_view name);  // pi, too
+bool is_function(std::string_view name);  // including pi
 std::string listed_functions();
 
-// Whether a text is meant as an expression, right or wrong. "24 mm" and "-5" are not, nor is what has neither
-// variables nor signs in it; a lone unknown name is one where there are variables.
+// Whether a text is meant as an expression, valid or not. "24 mm" and "-5" are not, nor is text without
+// variables and operators; a single unknown name is one if there are variables.
 bool is_expression(std::string_view text, const Variables& variables);
 
-// Of what is no expression: "2*D" where "2 D" is written, with D a variable; otherwise empty.
+// For text that is not an expression: "2*D" if it is "2 D", with D a variable; otherwise empty.
 std::string product_meant(std::string_view text, const Variables& variables);
 
-// Throws ExpressionError with what is wrong.
+// Throws ExpressionError with the reason.
 Quantity value_of(std::string_view text, const Variables& variables);
 
 }  // namespace pulvis::let

@@ -22,7 +22,7 @@ using document::Value;
 using schema::KeyInfo;
 using schema::Kind;
 
-// The variables of a scene; each is worked out when it is first asked for.
+// The variables of a scene; each is evaluated when it is first needed.
 class Scope {
  public:
   Scope(const Table& table, Problems& problems) : table_(table), problems_(problems) {
@@ -32,18 +32,18 @@ class Scope {
 
   const let::Variables& variables() const { return variables_; }
 
-  // All of them, used or not: what is wrong is told once, at the variable.
+  // Evaluates all of them, used or not: each error is reported once, at its variable.
   void work_out() {
     for (const std::string& name : variables_.names) {
       try {
         value_of(name);
-      } catch (const Told&) {  // the next one may be wrong as well
+      } catch (const Told&) {  // the next variable may have errors as well
       }
     }
     used_.clear();
   }
 
-  // A mistyped name in an override would change nothing, and not be noticed.
+  // A mistyped name in an override would have no effect, and go unnoticed.
   void refuse_unused_overrides() const {
     std::vector<std::string> used;
     for (const std::string& name : variables_.names)
@@ -127,9 +127,9 @@ class Scope {
   Problems& problems_;
   let::Variables variables_;
   std::map<std::string, let::Quantity> values_;
-  std::map<std::string, std::set<std::string>> uses_;  // by each variable, by way of others too
+  std::map<std::string, std::set<std::string>> uses_;  // by each variable, directly or indirectly
   std::set<std::string> used_, wrong_;
-  std::vector<std::string> open_;  // being worked out
+  std::vector<std::string> open_;  // being evaluated
 };
 
 // Writes the values of expressions into the tree.
@@ -197,7 +197,7 @@ class Replacement {
     }
   }
 
-  // "2 D", with D a variable, is a quantity with the unit D.
+  // "2 D", with D a variable, is read as a quantity with the unit D.
   void refuse_missing_operator(const KeyInfo& key, const std::string& text) const {
     const std::string product = let::product_meant(text, variables_);
     if (product.empty() || key.unit.empty()) return;
@@ -232,10 +232,10 @@ class Replacement {
       value.data = found.value;
   }
 
-  // 10 and what reckoning makes of it; "floor(...)" and "round(...)" are there for the others.
+  // Integers within rounding; "floor(...)" and "round(...)" exist for other values.
   static std::int64_t whole(const KeyInfo& key, double value) {
     constexpr double rounding = 1e-9;
-    constexpr double largest = 9e15;  // below it a double knows every whole number
+    constexpr double largest = 9e15;  // below it a double represents every integer exactly
     const double nearest = std::round(value);
     if (std::abs(value) > largest ||
         std::abs(value - nearest) > rounding * std::max(1.0, std::abs(value)))

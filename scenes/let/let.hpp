@@ -1,5 +1,5 @@
-// [let]: variables of a scene, and the values that are expressions of them. They are worked out before anything is
-// read, so that the reader, the checks and the scene as it is kept know plain values alone.
+// [let]: variables of a scene, and values that are expressions of them. They are evaluated before anything else is
+// read, so that the reader, the checks and the saved scene see plain values only.
 #pragma once
 
 #include "scenes/language/problem.hpp"
@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// Takes [let] out of the tree and writes its values where they are used. What is wrong is added to `problems`.
+// Removes [let] from the tree and writes its values where they are used. Errors are added to `problems`.
 void apply_let(document::Table& root, const schema::Language& language, Problems& problems);
 
 }  // namespace pulvis

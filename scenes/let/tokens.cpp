@@ -68,7 +68,7 @@ class Cutter {
     return {Token::Kind::number, since(start), since(begin)};
   }
 
-  // "um^2", "m-3", "s": the name of a unit and its power.
+  // "um^2", "m-3", "s": the name of a unit with its power.
   void unit_word() {
     while (in_unit(here())) ++at_;
     const std::size_t caret = here() == '^' ? 1 : 0;
@@ -78,7 +78,7 @@ class Cutter {
     while (is_digit(here())) ++at_;
   }
 
-  // "/um^2", ".s", "*K", " m-3", "/(kg K)" behind a unit; behind a sign, a variable is no unit.
+  // "/um^2", ".s", "*K", " m-3", "/(kg K)" after a unit; after an operator, a variable is no unit.
   bool further_factor() {
     const std::size_t start = at_;
     skip_blanks();
@@ -104,7 +104,7 @@ class Cutter {
     return text_.substr(at_, end - at_);
   }
 
-  // "(kg K)": taken when there are nothing but units in the bracket.
+  // "(kg K)": accepted if the brackets contain only units.
   bool bracket_of_units() {
     const std::size_t close = text_.find(')', at_);
     if (here() != '(' || close == std::string_view::npos) return false;

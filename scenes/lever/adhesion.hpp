@@ -1,4 +1,4 @@
-// What adheres in an AFM scene.
+// The adhesion of an AFM scene.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace pulvis {
 
-AdhesiveBall adhesive_ball(const Scene& scene);  // work 0 unless the scene asks for JKR
-double pull_off_force(const Scene& scene);       // N, of either law; 0 without a surface
+AdhesiveBall adhesive_ball(const Scene& scene);  // work of adhesion 0 unless JKR is requested
+double pull_off_force(const Scene& scene);       // N, for either law; 0 without a surface
 
-// Where an adhesive ball's sample faces, in the frame of the lever at rest, which `turn` turns into that
-// of the sample; nothing without one.
+// Surface normal of the sample under an adhesive ball, in the frame of the lever at rest; `turn`
+// transforms from there to the sample's frame. Empty without an adhesive ball.
 std::optional<Vec3> adhesive_normal(const Scene& scene, const Eigen::Matrix3d& turn);
 
 }  // namespace pulvis

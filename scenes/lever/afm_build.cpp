@@ -15,7 +15,7 @@ namespace {
 
 using Side = std::optional<LeverMesh::Point> (LeverMesh::*)(const Vec2& point) const;
 
-// Differences over half an element to both sides, or to the one that is there.
+// Differences over half an element to both sides, or to the one that exists.
 Gauge difference(const LeverMesh& lever, Side side, const Vec2& point, const Vec2& step) {
   auto ahead = (lever.*side)(point + step), behind = (lever.*side)(point - step);
   const double distance = (ahead ? step.norm() : 0) + (behind ? step.norm() : 0);
@@ -36,7 +36,7 @@ SlopeGauge slope_at(const LeverMesh& lever, const LeverSpec& spec, Side side, co
   return {difference(lever, side, point, {step, 0}), difference(lever, side, point, {0, step})};
 }
 
-// A spot of even brightness: its middle, and a ring of eight points that stands for the rest (exact for
+// A uniformly bright spot: its centre, and a ring of eight points that represents the rest (exact for
 // slopes that vary linearly or quadratically over it: radius r / sqrt 2).
 std::vector<SlopeGauge> laser_spot(const Scene& scene, const LeverMesh& lever) {
   const LaserSpec& laser = scene.afm->laser;
@@ -53,7 +53,7 @@ std::vector<SlopeGauge> laser_spot(const Scene& scene, const LeverMesh& lever) {
   return spot;
 }
 
-// The node of the tip's end nearest to its middle.
+// The node of the tip's end nearest to its centre.
 int middle_node(const SolidDraft& draft, const Gauge& end) {
   Vec3 middle = Vec3::Zero();
   for (const auto& s : end) middle += s.weight * draft.nodes[static_cast<std::size_t>(s.node)];
@@ -85,7 +85,7 @@ AfmModel build_afm(const Scene& scene) {
   const LeverMesh lever = afm.lever.solid ? add_meshed_lever(draft, afm.lever)
                                           : add_lever(draft, afm.lever, lever_plan(afm.lever, foot),
                                                       foot ? foot->edge : afm.lever.thickness);
-  // Built flat, then turned: its end comes down by the chip's tilt.
+  // Built flat, then rotated: the chip's tilt lowers the lever's end.
   const Eigen::Matrix3d turn = rotation_about_y(afm.lever.tilt);
   model.tip = add_tip(draft, afm.lever, lever, afm.tip, adhesive_normal(scene, turn));
   model.end = model.tip.end;

@@ -10,7 +10,7 @@
 namespace pulvis {
 namespace {
 
-// Slopes of a linear answer: of small displacements, whatever the size of 1 N.
+// Slopes of a linear response: small displacements, regardless of the size of 1 N.
 Slopes linear_slopes(const AfmModel& model, const std::vector<SlopeGauge>& gauges,
                      std::vector<double> displacement) {
   constexpr double small = 1e-9;  // rad
@@ -71,7 +71,7 @@ Calibration calibrate(const Scene& scene, AfmModel& model, StaticSolver& solver)
   c.normal_stiffness = 1 / c.normal.end.z();
   c.lateral_stiffness = 1 / c.lateral.end.y();
   c.longitudinal_stiffness = 1 / c.longitudinal.end.x();
-  // A force along +y below the foot turns it about +x: its +y side goes up.
+  // A force along +y below the foot rotates it about +x: its +y side moves up.
   const double twist = c.lateral.at_foot.lateral;
   c.torsional_stiffness = c.arm / twist;
   c.bending_share = c.lateral.foot.y() / c.lateral.end.y();

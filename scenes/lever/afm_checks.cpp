@@ -65,7 +65,7 @@ class AfmChecks {
       refuse("lever.coating_thickness", "required key is missing, allowed: a quantity in m");
   }
 
-  // False where no plan can be drawn.
+  // False where no valid plan exists.
   bool outline() {
     if (lever_.shape != LeverSpec::Shape::v) return good_;
     if (lever_.half_angle.has_value() == lever_.base_width.has_value()) {
@@ -93,7 +93,7 @@ class AfmChecks {
     return good_;
   }
 
-  // A key of the mesh that changes nothing is a mistake.
+  // A mesh key without effect is an error.
   void divisions() {
     if (lever_.solid) return;
     const auto given = [&](const char* key) {
@@ -123,7 +123,7 @@ class AfmChecks {
   }
 
   double half_width_at(double x) const {
-    if (lever_.solid) return std::numeric_limits<double>::infinity();  // the mesh has the say
+    if (lever_.solid) return std::numeric_limits<double>::infinity();  // determined by the mesh
     if (lever_.shape == LeverSpec::Shape::beam) return 0.5 * lever_.width;
     const VOutline v = v_outline(lever_);
     return (v.apex - x) * portable::tan(v.half_angle);
@@ -158,7 +158,7 @@ class AfmChecks {
                          lever_.length - tip_.set_back, tip_.offset, reach, reach, lever_.length));
   }
 
-  // What a mesh that is drawn together at the pole comes to: some 3 (reach/edge)^3 elements.
+  // Size of a mesh refined at the pole: some 3 (reach/edge)^3 elements.
   bool contact_mesh() {
     if (!tip_.contact_edge) return true;
     const double edge = *tip_.contact_edge;
@@ -216,7 +216,7 @@ class AfmChecks {
     }
   }
 
-  // Tetrahedra have no plastic memory.
+  // Tetrahedra have no plastic history variables.
   void tetrahedra() {
     const auto yields = [&](int material) {
       return scene_.materials[static_cast<std::size_t>(material)].yield_stress.has_value();
@@ -237,7 +237,7 @@ class AfmChecks {
     if (tip_.solid) check(tip_.solid->solid, "tip.file");
   }
 
-  // Before anything is meshed: that alone may take minutes and gigabytes.
+  // Checked before meshing, which alone may take minutes and gigabytes.
   bool mesh_size() {
     const AfmScene& afm = *scene_.afm;
     const SolidSize size = afm_size(afm);
@@ -261,7 +261,7 @@ class AfmChecks {
     return afm.tip.elements;
   }
 
-  // The key that made the lever's mesh what it is.
+  // The key that determines the size of the lever's mesh.
   std::string size_key() const {
     if (tip_size(*scene_.afm).factors >= lever_size(*scene_.afm).factors) return "tip.file";
     if (lever_.solid) return "lever.file";
@@ -270,7 +270,7 @@ class AfmChecks {
     return lever_.layers > 1 ? "lever.layers" : "lever.aspect";
   }
 
-  // JKR is the law of a ball on a plane, its elasticity included.
+  // JKR is the law of a ball on a plane and includes its elasticity.
   void adhesion() {
     if (!scene_.afm->target) return;
     const TargetSpec& target = *scene_.afm->target;
@@ -336,7 +336,7 @@ class AfmChecks {
   }
 
   void steepness(const std::vector<std::vector<double>>& heights) {
-    constexpr double steepest = 100;  // as of a bump's flanks
+    constexpr double steepest = 100;  // like the flanks of a bump
     const TargetSpec& target = *scene_.afm->target;
     const double step = steepest_step(heights);
     if (!(step <= steepest * target.spacing))
@@ -346,7 +346,7 @@ class AfmChecks {
                          target.file, step, steepest, steepest * target.spacing));
   }
 
-  // A wave is drawn as far as the probe may come.
+  // A wave is generated as far as the probe may move.
   void wave() {
     constexpr std::size_t maximum = 1'000'000;
     const TargetSpec& target = *scene_.afm->target;
@@ -357,7 +357,7 @@ class AfmChecks {
                          corners, maximum));
   }
 
-  // Where the probe's end comes to on the map, its own deflection left aside.
+  // Range of the probe's end on the map, ignoring its deflection.
   void inside_map(TargetSpec::Direction direction, std::size_t points) {
     const double bound = 0.5 * scene_.afm->target->spacing * static_cast<double>(points - 1);
     double at = 0;

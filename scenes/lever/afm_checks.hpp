@@ -1,4 +1,4 @@
-// Checks of an AFM scene that need more than one key.
+// Checks of an AFM scene that involve more than one key.
 #pragma once
 
 #include "scenes/language/problem.hpp"

@@ -14,7 +14,7 @@ namespace closed_form {
 Strip strip_of(double w, const std::vector<Layer>& layers) {
   const double middle = 0.5 * layers.front().t;
   const auto shear = [](const Layer& layer) { return layer.e / (2 * (1 + layer.nu)); };
-  // Second moment about the axis where the forces of a linear strain balance.
+  // Second moment about the axis where the forces of a linear strain distribution balance.
   const auto moment = [&](const auto& modulus) {
     double sum = 0, first = 0, z = -middle;
     for (const Layer& layer : layers) {
@@ -39,7 +39,7 @@ Strip strip_of(double w, const std::vector<Layer>& layers) {
   }
   strip.bending = w * moment([](const Layer& layer) { return layer.e; }).first;
   const auto [twisting, axis] = moment(shear);
-  // Of a uniform strip G w t^3 (1/3 - 0.21 t/w).
+  // For a uniform strip G w t^3 (1/3 - 0.21 t/w).
   strip.torsion = 4 * w * twisting * (1 - 0.63 * strip.t / w);
   strip.twist_axis = axis;
   return strip;
@@ -63,7 +63,7 @@ double beam_lateral_bending(const Strip& strip, const Load& load) {
 double neumeister_ducker_normal(const V& v) {
   const double c = v.w / std::sin(v.alpha), cosine = std::cos(v.alpha), t3 = v.t * v.t * v.t;
   const double l = v.length, d = v.d;
-  // The load at the very apex: d^2 ln d tends to 0.
+  // Load exactly at the apex: d^2 ln d tends to 0.
   const double logarithm = d > 0 ? d * d * (2 * std::log(c / d) - 1) : 0;
   const double one = 3 / (v.e * t3 * std::tan(v.alpha)) * ((c - 2 * d) * (c - 2 * d) + logarithm);
   const double r = (l * std::tan(v.alpha) + (v.w - d * std::sin(v.alpha)) * (1 - v.nu) * cosine) /
@@ -112,7 +112,7 @@ closed_form::Strip strip_of(const Scene& scene, double w) {
   return closed_form::strip_of(w, layers);
 }
 
-// The height of the tip's end under the lever's middle plane; 0 without a tip.
+// Distance of the tip's end below the lever's middle plane; 0 without a tip.
 double height_below(const AfmScene& afm) {
   return afm.tip.shape == TipSpec::Shape::none ? 0
                                                : tip_height(afm.tip) + 0.5 * afm.lever.thickness;
@@ -145,7 +145,7 @@ std::vector<ClosedForm> of_beam(const Scene& scene) {
   return forms;
 }
 
-// Of a V they know neither tilt nor offset in the normal stiffness; a coating counts as a plate that is so much
+// For a V the normal stiffness ignores tilt and offset; a coating is treated as a plate that is correspondingly
 // stiffer in bending, or in torsion.
 std::vector<ClosedForm> of_v(const Scene& scene) {
   const LeverSpec& lever = scene.afm->lever;
@@ -158,7 +158,7 @@ std::vector<ClosedForm> of_v(const Scene& scene) {
   const closed_form::Strip coated = strip_of(scene, w);
   const closed_form::Strip bare = closed_form::strip_of(w, {{e, nu, t}});
   const double bending = coated.bending / bare.bending;
-  // Of wide plates: without what the strip's edges take from it.
+  // For wide plates: without the reduction due to the strip's edges.
   const double torsion =
       coated.torsion / (1 - 0.63 * coated.t / w) / (bare.torsion / (1 - 0.63 * bare.t / w));
   const char* composite = lever.coating ? ", composite" : "";
@@ -188,7 +188,7 @@ std::vector<ClosedForm> of_v(const Scene& scene) {
 }  // namespace
 
 std::vector<ClosedFormId> closed_form_ids(LeverSpec::Shape shape) {
-  if (shape == LeverSpec::Shape::mesh) return {};  // of a drawing, which a mesh has not
+  if (shape == LeverSpec::Shape::mesh) return {};  // these need a drawing, not a mesh
   if (shape == LeverSpec::Shape::beam)
     return {{"beam", true, false}, {"torsion", false, true}, {"torsion_and_bending", false, true}};
   return {{"neumeister_ducker", true, true}, {"noy", true, true}, {"sader", true, false}};
@@ -196,7 +196,7 @@ std::vector<ClosedFormId> closed_form_ids(LeverSpec::Shape shape) {
 
 std::vector<ClosedForm> closed_forms(const Scene& scene) {
   using Shape = LeverSpec::Shape;
-  if (scene.afm->lever.shape == Shape::mesh) return {};  // of a drawing, which a mesh has not
+  if (scene.afm->lever.shape == Shape::mesh) return {};  // these need a drawing, not a mesh
   return scene.afm->lever.shape == Shape::beam ? of_beam(scene) : of_v(scene);
 }
 

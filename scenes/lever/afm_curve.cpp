@@ -11,7 +11,7 @@ namespace {
 
 using Kind = ActionSpec::Kind;
 
-// Actions [begin, end) that retract after a press, with holds between them.
+// Retracting actions [begin, end) after a press, with holds between them.
 struct Withdrawal {
   std::size_t begin = 0, end = 0;
 };
@@ -34,7 +34,7 @@ std::vector<Withdrawal> withdrawals(const std::vector<ActionSpec>& actions) {
   return all;
 }
 
-// The part below zero of the area under a straight line from one force to the next.
+// The area below zero under a straight line from one force to the next.
 double pulling_area(double from, double to, double way) {
   if (from >= 0 && to >= 0) return 0;
   if (from <= 0 && to <= 0) return -(from + to) / 2 * way;
@@ -60,7 +60,7 @@ std::vector<ForceCurveFigures> force_curves(const Scene& scene, const AfmHistory
   if (!has_force_curve(scene)) return all;
   const AfmScene& afm = *scene.afm;
   for (const Withdrawal& away : withdrawals(afm.actions)) {
-    std::size_t row = 0;  // the first one of all is the state before the programme
+    std::size_t row = 0;  // the first row is the state before the programme
     for (std::size_t a = 0; a < away.begin; ++a) row += afm.actions[a].samples();
     std::size_t last = row;
     for (std::size_t a = away.begin; a < away.end; ++a) last += afm.actions[a].samples();

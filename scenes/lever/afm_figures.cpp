@@ -98,7 +98,7 @@ const std::vector<CurveFigure>& curve_figures() {
   return all;
 }
 
-// What stands beside the closed forms of a lever's shape.
+// Figures compared with the closed forms for a lever's shape.
 void add_closed_form_figures(std::vector<SeriesInfo>& all, LeverSpec::Shape shape) {
   for (const ClosedFormId& form : closed_form_ids(shape)) {
     for (const auto& [quantity, has] : {std::pair{"k_n", form.normal}, {"k_l", form.lateral}}) {

@@ -1,4 +1,4 @@
-// Figures of an AFM run that summary.json tells and an [[expect]] may name: stiffnesses, shares, loops.
+// Figures of an AFM run that summary.json lists and an [[expect]] may name: stiffnesses, shares, loops.
 #pragma once
 
 #include <map>
@@ -14,10 +14,10 @@ struct Calibration;
 struct FrictionLoop;
 struct ForceCurveFigures;
 
-// Of every AFM run, and of its last friction loop and its last force curve where it has one.
+// For every AFM run, and for its last friction loop and last force curve where it has them.
 std::vector<SeriesInfo> afm_figures();
-std::vector<SeriesInfo> afm_figures_of(const Scene& scene);  // those the scene's run has
-// The same, and its history where it has a programme.
+std::vector<SeriesInfo> afm_figures_of(const Scene& scene);  // those that a run of the scene has
+// The same, plus the history where the scene has a programme.
 std::vector<SeriesInfo> afm_expectable_series(const Scene& scene);
 
 std::map<std::string, double> afm_figure_values(const Calibration& calibration,

@@ -19,7 +19,7 @@ constexpr Channel channels[] = {
     {"deflection", "detector/normal", "V", "normal signal of the detector", 1},
     {"friction", "detector/lateral", "V", "lateral signal of the detector", 1}};
 
-// The rows of an action's history; the first one of all is the state before the programme.
+// The history rows of an action; the first row of all is the state before the programme.
 std::size_t first_row(const Scene& scene, std::size_t action) {
   std::size_t row = 1;
   for (std::size_t a = 0; a < action; ++a) row += scene.afm->actions[a].samples();

@@ -1,5 +1,5 @@
-// Pictures of a raster, line by line, both ways: how high the surface is, how the lever bends and how it
-// twists.
+// Images of a raster scan, line by line, trace and retrace: surface height, bending and
+// twist of the lever.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct AfmImage {
   std::vector<double> values;  // line by line, pixels in the order of the forward scan
 };
 
-// Of the lines that were finished, of every raster of the scene.
+// Of the completed lines of every raster of the scene.
 std::vector<AfmImage> raster_images(const Scene& scene, const AfmHistory& history);
 
 }  // namespace pulvis

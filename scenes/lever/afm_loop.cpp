@@ -44,7 +44,7 @@ Means means(const AfmHistory& history, const std::string& force, const std::stri
   int samples = 0;
   for (std::size_t i = 0; i < history.rows.size(); ++i) {
     if (history.times[i] < from || history.times[i] > until) continue;
-    sum.force -= history.value(i, force);  // what draws the probe is the opposite of what holds it
+    sum.force -= history.value(i, force);  // the dragging force is opposite to the holding one
     sum.load += history.value(i, "probe/force_z");
     sum.volts -= history.value(i, volts);
     ++samples;
@@ -53,7 +53,7 @@ Means means(const AfmHistory& history, const std::string& force, const std::stri
   return {sum.force / n, sum.load / n, sum.volts / n};
 }
 
-// Whether the means are those of a plateau.
+// Whether the means were taken on a plateau.
 void judge(FrictionLoop& loop, const Plateau& trace, const Plateau& retrace) {
   loop.slides = std::min(trace.slides, retrace.slides);
   loop.turned = std::min(trace.turned, retrace.turned);
@@ -109,7 +109,7 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     const auto start = static_cast<double>(a);
     const Means trace = means(history, force, volts, start + 0.25, start + 0.5 + tolerance);
     const Means retrace = means(history, force, volts, start + 0.75, start + 1 + tolerance);
-    // A scan along - runs the loop the other way round.
+    // A scan in the negative direction traverses the loop in reverse.
     const double sign = action.distance < 0 ? -1 : 1;
     FrictionLoop loop;
     loop.action = static_cast<int>(a);

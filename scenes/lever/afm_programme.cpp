@@ -18,7 +18,7 @@ namespace pulvis {
 namespace {
 
 constexpr int max_halvings = 8;
-constexpr int max_iterations = 400;  // of an increment with its halves
+constexpr int max_iterations = 400;  // of an increment, including its halves
 
 Vec3 on_target(const AfmModel& model, int node) {
   const double* x = model.world->column<ReferencePosition>().values() + 3 * node;
@@ -28,10 +28,10 @@ Vec3 on_target(const AfmModel& model, int node) {
 
 struct Gap {
   double gap = std::numeric_limits<double>::infinity();  // m
-  double rise = 1;                                       // -, of the normal there along z
+  double rise = 1;                                       // -, z component of the normal there
 };
 
-// Smallest one over all points of the probe.
+// Smallest gap over all points of the probe.
 Gap smallest_gap(const AfmModel& model) {
   const Target& target = model.world->resource<Target>();
   const auto& nodes = model.world->column<ProbeNode>();
@@ -128,7 +128,7 @@ void add_probe(const Scene& scene, AfmModel& model) {
   add_probe_columns(world, ball ? model.tip.surface.size() : 1);
 }
 
-// The penalties are so stiff against what they press on that they give traverse by a thousandth of it.
+// The penalties are so stiff that their compliance affects a traverse by only a thousandth.
 void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   constexpr double stiffer = 1e3;
   World& world = *model.world;
@@ -141,7 +141,7 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   for (int i = 0; i < points; ++i) {
     const auto at = static_cast<std::size_t>(i);
     node[i] = ball ? model.tip.surface[at] : model.contact_node;
-    // Of a meshed surface: a layer as thick as a hundredth of its elements, of the probe's own material.
+    // For a meshed surface: a layer of the probe's material, as thick as a hundredth of its elements.
     const double area = ball ? model.tip.area[at] : 0;
     penalty[2 * i] = penalty[2 * i + 1] =
         ball ? 100 * m.youngs_modulus * std::sqrt(area) : stiffer * stiffness;
@@ -152,7 +152,7 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   target.origin = {end.x(), end.y(), end.z()};
   target.travel = {};
   for (int i = 0; i < 100; ++i) target.origin[2] += smallest_gap(model).gap;
-  // Over a steep flank that is a small share of the height that is missing.
+  // Over a steep flank the gap is a small fraction of the missing height.
   for (int i = 0; i < 100; ++i) {
     const auto [gap, rise] = smallest_gap(model);
     if (std::abs(gap) < 1e-15 || !(rise > 0)) break;
@@ -221,7 +221,7 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   for (std::size_t k = 0; k < 3; ++k) target.travel[k] += travel[k];
   target.servo = servo;
   NewtonSettings settings;
-  // Factors of a solid that flowed are far too soft for one that unloads.
+  // Factors of a yielding solid are far too soft for one that unloads.
   settings.reuse_factors = !model_.world->has<SolidYield>();
   settings.may_jump = depth == max_halvings;
   const IncrementStep step{travel[0], travel[1], travel[2], target.set_point - position_.set_point};
@@ -252,7 +252,7 @@ NewtonReport AfmProgramme::equilibrium(const NewtonSettings& settings, const Inc
     return report;
   };
   Target& target = model_.world->resource<Target>();
-  // Where the probe can jump there may be two equilibria: the nearer one is meant.
+  // Where the probe can jump there may be two equilibria: use the nearer one.
   const bool adheres = target.pull_off > 0 || target.ball.work > 0;
   const auto guess = adheres ? std::nullopt : position_.trail.next(step);
   const StaticSolver::State start = solver_.state();
@@ -312,7 +312,7 @@ bool AfmProgramme::press(const ActionSpec& action, double sign) {
   return traverse({0, 0, sign * action.distance}, action.increments, false);
 }
 
-// The set point rises in even steps.
+// The set point rises in equal steps.
 bool AfmProgramme::press_to_force(const ActionSpec& action) {
   Target& target = model_.world->resource<Target>();
   if (to_skip_ == 0) position_.from = std::max(0.0, vertical_force());
@@ -330,7 +330,7 @@ bool AfmProgramme::press_to_force(const ActionSpec& action) {
   return true;
 }
 
-// The probe's traverse over the sample is the sample's traverse under it, backwards.
+// Scanning the probe over the sample means moving the sample under it in the opposite direction.
 bool AfmProgramme::scan(const ActionSpec& action) {
   const bool lateral = action.direction == TargetSpec::Direction::lateral;
   const double d = action.distance;
@@ -343,8 +343,8 @@ bool AfmProgramme::scan(const ActionSpec& action) {
   return done;
 }
 
-// A pixel is told when the probe leaves it, at its far end on the trace, at its near end on the
-// retrace. Between the lines the probe is drawn along the slow axis.
+// A pixel is recorded when the probe leaves it: at its far end on the trace, at its near end on the
+// retrace. Between the lines the probe moves along the slow axis.
 bool AfmProgramme::raster(const ActionSpec& action) {
   const bool lateral = action.direction == TargetSpec::Direction::lateral;
   const double d = action.distance;

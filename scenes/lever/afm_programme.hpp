@@ -1,4 +1,4 @@
-// What the scanner does, increment by increment: an equilibrium of lever, probe and target at each.
+// The scanner's motion, increment by increment: lever, probe and target reach equilibrium in each.
 #pragma once
 
 #include <functional>
@@ -14,16 +14,16 @@ namespace pulvis {
 // Series of a programme's history, in the order of AfmProgramme's rows.
 std::vector<SeriesInfo> afm_series();
 
-// Puts the target under the tip, so that it just touches, with its penalties; the lever's stiffness must
-// have been linearised. Before the solver is built: add_probe().
+// Places the target under the tip, just touching, with its penalties; the lever's stiffness must
+// have been linearised. add_probe() must be called before the solver is built.
 void add_probe(const Scene& scene, AfmModel& model);
 void place_target(const Scene& scene, AfmModel& model, double stiffness);
 
-// Where a programme stands: enough, with the world, to go on.
+// Progress of a programme: enough, together with the world, to continue.
 struct AfmPosition {
-  std::int64_t told = 0;  // rows of the history so far, the one before the first increment included
+  std::int64_t told = 0;  // history rows so far, including the one before the first increment
   double from = 0;        // N, vertical force when the press to a force began
-  double released = 0;    // J, by the probe's jumps until now
+  double released = 0;    // J, released by jumps of the probe so far
   double set_point = 0;   // N, of the last increment
   EquilibriumTrail trail;
 
@@ -37,7 +37,7 @@ class AfmProgramme {
  public:
   // `record` gets time (in actions) and a row of the history after every increment; false ends the run.
   using Record = std::function<bool(double time, const std::vector<double>& row)>;
-  // `position` is kept up to date; it need not be the beginning's.
+  // `position` is kept up to date; it need not be at the beginning.
   AfmProgramme(const Scene& scene, AfmModel& model, StaticSolver& solver, AfmPosition& position,
                Record record)
       : scene_(scene),
@@ -46,7 +46,7 @@ class AfmProgramme {
         position_(position),
         record_(std::move(record)) {}
 
-  // False when it was interrupted. Throws RunFailure where an increment cannot be made.
+  // False if it was interrupted. Throws RunFailure where an increment fails.
   bool run();
 
  private:
@@ -55,14 +55,14 @@ class AfmProgramme {
   bool scan(const ActionSpec& action);
   bool raster(const ActionSpec& action);
   bool traverse(const std::array<double, 3>& travel, int increments, bool servo);
-  // Moves the target; where no equilibrium is found, in halves.
+  // Moves the target; splits the step in half where no equilibrium is found.
   void advance(const std::array<double, 3>& travel, bool servo, int depth);
-  // An equilibrium for the target where it is, from where the last increments lead, if they lead anywhere.
+  // Equilibrium for the target where it is, starting from the extrapolation of the last increments.
   NewtonReport equilibrium(const NewtonSettings& settings, const IncrementStep& step);
-  // Friction that no force along the traverse overcomes, since it grows with the force: stops the run.
+  // Stops the run at self-locking: friction grows with the force, so nothing overcomes it.
   void refuse_lock(const std::array<double, 3>& travel) const;
   bool tell();
-  bool skip();  // the increment has been made before
+  bool skip();  // the increment was already made
   double vertical_force() const;
 
   const Scene& scene_;
@@ -71,8 +71,8 @@ class AfmProgramme {
   AfmPosition& position_;
   Record record_;
   std::int64_t to_skip_ = 0;     // increments
-  double time_ = 0, share_ = 1;  // of the present increment, in actions
-  int iterations_ = 0;           // of the last increment, its cuts included
+  double time_ = 0, share_ = 1;  // of the current increment, in actions
+  int iterations_ = 0;           // of the last increment, including its cuts
   const char* doing_ = "";
 };
 

@@ -26,9 +26,9 @@ Calibration AfmSimulation::calibrate() {
   return result;
 }
 
-// What double cannot resolve is tried in long double; what that cannot either has no answer.
+// Where double precision does not suffice, long double is tried; if that fails, there is no result.
 Calibration AfmSimulation::calibrate_here() {
-  constexpr double in_double = 1e-9, in_long_double = 1e-6;  // -, of the answers
+  constexpr double in_double = 1e-9, in_long_double = 1e-6;  // -, of the solutions
   const auto answer = [&] {
     solver_->linearise();
     return pulvis::calibrate(scene_, model_, *solver_);

@@ -1,4 +1,4 @@
-// An AFM scene being run: its solid, its threads, its solver.
+// A running AFM scene: its solid, its threads, its solver.
 #pragma once
 
 #include "engine/workers.hpp"
@@ -17,21 +17,21 @@ class AfmSimulation {
   AfmModel& model() { return model_; }
   const GraphPlan& plan() const { return solver_->plan(); }
 
-  // Throws RunFailure where the lever's answers do not converge.
+  // Throws RunFailure where the lever's response does not converge.
   Calibration calibrate();
-  // Displacements [3 nodes] by 1 N at the tip's end; after calibrate().
+  // Displacements [3 nodes] due to 1 N at the tip's end; after calibrate().
   std::vector<double> unit_displacements(const Vec3& direction);
-  // Calibrates and puts the target under the tip. `restore` puts a checkpoint's state into the world then.
+  // Calibrates and places the target under the tip. `restore` then loads a checkpoint's state into the world.
   void begin(const std::function<void(World&)>& restore = {});
-  // After begin(): runs the scene's actions from `position` on, where the world stands; see AfmProgramme. When `record` has
-  // ended it, it may be called anew.
+  // After begin(): runs the scene's actions from `position` on, with the world in that state; see AfmProgramme. When
+  // `record` has ended it, it may be called again.
   bool go_on(const AfmProgramme::Record& record, AfmPosition& position);
   bool run(const AfmProgramme::Record& record) {
     AfmPosition beginning;
     begin();
     return go_on(record, beginning);
   }
-  // Equilibrium under a dead load at the tip's end, from the present state.
+  // Equilibrium under a dead load at the tip's end, from the current state.
   NewtonReport load_tip(const Vec3& force, const NewtonSettings& settings = {});
 
  private:

@@ -22,20 +22,20 @@ using Shape = TipSpec::Shape;
 
 constexpr double program_bytes = 64e6;
 constexpr double factor_bytes = 12;  // a double and its row
-constexpr double matrix_bytes = 44;  // of blocks, as a matrix, permuted, and kept for a checkpoint
-constexpr double element_bytes = 7000;  // tangent, forces, geometry, and the mesh being made
+constexpr double matrix_bytes = 44;  // as blocks, as a matrix, permuted, and kept for a checkpoint
+constexpr double element_bytes = 7000;  // tangent, forces, geometry, data of the mesher
 
-// Fill of a grid of a x b x c cells with three unknowns a node. A band as wide as the smallest section bounds
-// it from above; in a cube approximate minimum degree leaves half of that, in a plate 4 log2 of its nodes a
-// layer. Counted for 16 grids of 729 to 400,000 nodes (tests/scenes/lever/memory_test.cpp has some of them):
-// the estimate is 0.9 to 2.3 times what they have.
+// Fill-in of a grid of a x b x c cells with three unknowns per node. A band as wide as the smallest cross-section
+// is an upper bound; in a cube approximate minimum degree leaves half of that, in a plate 4 log2 of its nodes per
+// layer. Measured for 16 grids of 729 to 400,000 nodes (tests/scenes/lever/memory_test.cpp has some of them):
+// the estimate is 0.9 to 2.3 times the actual fill-in.
 SolidSize grid_size(double a, double b, double c) {
   std::array<double, 3> n{a + 1, b + 1, c + 1};
   std::ranges::sort(n);
   const double nodes = n[0] * n[1] * n[2], section = n[0] * n[1];
   const double band = (n[2] > 1.5 * std::sqrt(section) ? 1.2 : 0.65) * section;
   const double plate = 4 * n[0] * portable::log(n[1] * n[2]) / std::numbers::ln2;
-  const double blocks = n[0] > 2 ? 14 : 9;  // of a node's 27 or 18, the lower half
+  const double blocks = n[0] > 2 ? 14 : 9;  // per node, of 27 or 18 the lower half
   return {a * b * c, nodes, 9 * nodes * blocks, 9 * nodes * std::min(band, plate)};
 }
 
@@ -43,23 +43,23 @@ SolidSize sum(const SolidSize& a, const SolidSize& b) {
   return {a.elements + b.elements, a.nodes + b.nodes, a.matrix + b.matrix, a.factors + b.factors};
 }
 
-// A mesh of any form: as a cube of so many cells.
+// A mesh of any shape: treated as a cube with the same number of cells.
 SolidSize as_cube(double elements) {
   const double edge = portable::cbrt(elements);
   return grid_size(edge, edge, edge);
 }
 
-// Edges on the radius of where a ball may touch.
+// Number of edges along the radius of the region where a ball may touch.
 double contact_edges(const TipSpec& tip) {
   if (!tip.contact_edge) return tip.elements;
   return std::clamp(tip.contact_reach.value_or(8 * *tip.contact_edge) / *tip.contact_edge, 1.0,
                     24.0);
 }
 
-// Cells of the core and of its six shells, and those that are divided in eight around the pole: as small as the
-// contact's edge h to n h from it, and outside by half the distance larger (scenes/lever/mesh/ball_mesh.cpp), which is
-// the integral of 2 pi r^2/size^3. Halves are taken until the longest edge is small enough, and neighbours of halves
-// are divided with them: of six balls with n from 3 to 15 there are 6.4 to 7.6 times as many cells.
+// Cells of the core and of its six shells, and those split into eight around the pole: as small as the
+// contact edge h to n h from it, larger by half the distance outside (scenes/lever/mesh/ball_mesh.cpp), which
+// is the integral of 2 pi r^2/size^3. Cells are halved until the longest edge is small enough, and their neighbours
+// are split with them: six balls with n from 3 to 15 have 6.4 to 7.6 times as many cells.
 double ball_cells(const TipSpec& tip) {
   constexpr double halves = 6.8;
   const double across = tip.elements, layers = std::max(1.0, across / 2);
@@ -70,7 +70,7 @@ double ball_cells(const TipSpec& tip) {
   return all + halves * 2 * std::numbers::pi * (n * n * n / 3 + n * n + 4 * n + 8 * out);
 }
 
-// Graded towards the pole, a ball has a third of the fill of a cube of as many cells (0.31 of it in hertz-ball.toml).
+// Graded towards the pole, a ball has a third of the fill-in of a cube with as many cells (0.31 in hertz-ball.toml).
 SolidSize ball_size(const TipSpec& tip) {
   SolidSize ball = as_cube(ball_cells(tip));
   if (tip.contact_edge) ball.factors /= 3;
@@ -81,7 +81,7 @@ double stacked(const TipSpec& tip, const FootPlan& foot) {
   return static_cast<double>(tip_levels(tip, foot.edge, 1).size()) - 1;
 }
 
-// Numbers of how the solid answers to forces on every point that touches: three fields each.
+// Entries of the solid's responses to forces at every contact point: three fields each.
 double answers_of(const AfmScene& afm, const SolidSize& solid) {
   if (afm.actions.empty()) return 0;
   const double edges = afm.tip.shape == Shape::sphere ? contact_edges(afm.tip) : 1;
@@ -121,7 +121,7 @@ SolidSize tip_size(const AfmScene& afm) {
       const double across = foot.across();
       return grid_size(across, across, stacked(tip, foot));
     }
-    case Shape::cone:  // a disc is a square core in a ring of half as many layers: 3 n^2 quads
+    case Shape::cone:  // a disc is a square core in a ring with half as many layers: 3 n^2 quads
       return grid_size(std::sqrt(3.0) * n, std::sqrt(3.0) * n,
                        stacked(tip, *foot_plan(afm.lever, tip)));
     case Shape::sphere:

@@ -14,7 +14,7 @@ bool same_step(const IncrementStep& a, const IncrementStep& b) {
   return true;
 }
 
-// A line through two, a parabola through three.
+// A line through two states, a parabola through three.
 template <class At>
 double extrapolated(std::size_t count, const At& at) {
   return count == 2 ? 2 * at(1) - at(0) : 3 * (at(2) - at(1)) + at(0);

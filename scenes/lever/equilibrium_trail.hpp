@@ -1,7 +1,7 @@
-// The last equilibria of a programme, and where they lead: the first guess of the next increment.
+// The last equilibria of a programme, extrapolated: the initial guess for the next increment.
 //
-// Source   extrapolation of equal steps by a parabola. A thin lever's membrane is so much stiffer than its bending
-//          that Newton's method needs four iterations and more to turn it by the last increment's angle again
+// Source   parabolic extrapolation of equal steps. A thin lever's membrane is so much stiffer than its bending
+//          that Newton's method needs four or more iterations just to repeat the rotation of the last increment
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace pulvis {
 
-// An increment as it was asked for: of the scanner, m, and of the force to keep, N.
+// A requested increment: of the scanner, m, and of the force to hold, N.
 using IncrementStep = std::array<double, 4>;
 
 class EquilibriumTrail {
  public:
-  // Nothing where the last increments were others, or too few.
+  // Empty where the last increments were different, or too few.
   std::optional<StaticSolver::State> next(const IncrementStep& step) const;
   void add(const StaticSolver::State& reached, const IncrementStep& step);
   void clear() { reached_.clear(); }
@@ -29,7 +29,7 @@ class EquilibriumTrail {
 
  private:
   IncrementStep step_{};
-  std::vector<StaticSolver::State> reached_;  // three at most, the last one at the end
+  std::vector<StaticSolver::State> reached_;  // at most three, the latest at the end
 };
 
 }  // namespace pulvis

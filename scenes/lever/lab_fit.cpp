@@ -37,7 +37,7 @@ Line fit_line(std::span<const double> t, std::span<const double> y) {
   line.count = t.size();
   const auto n = static_cast<double>(t.size());
   for (std::size_t i = 0; i < t.size(); ++i) {
-    line.middle += (t[i] - t[0]) / n;  // from the first: clock times may be large
+    line.middle += (t[i] - t[0]) / n;  // relative to the first: clock times may be large
     line.value += y[i] / n;
   }
   line.middle += t[0];
@@ -88,7 +88,7 @@ std::optional<BendEvent> event_near(std::span<const double> t, std::span<const d
   };
   const auto first = look(middle, window);
   if (!first) return std::nullopt;
-  const auto bend = look(first->time, window);  // with the crossing in the middle of the window
+  const auto bend = look(first->time, window);  // with the intersection in the middle of the window
   if (!bend) return std::nullopt;
   const auto closer = look(bend->time, window / 2);
   const double shift = closer ? closer->time - bend->time : 0;

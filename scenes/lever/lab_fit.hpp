@@ -1,12 +1,12 @@
 // Lines fitted to a record, and the bend where one line ends and the next begins.
 //
-// Source   least squares; the bend is the crossing of two lines fitted to either side of the split
-//          that leaves the least sum of squares (Hudson 1966, two-phase regression)
+// Source   least squares; the bend is where two lines cross that are fitted to either side of the split
+//          that gives the smallest sum of squares (Hudson 1966, two-phase regression)
 // Symbols  y = a + b (t - t0), t0 the mean of t; n samples; S = sum (t - t0)^2;
 //          s^2 = residual sum of squares / (n1 + n2 - 4)
-// Uncertainty of the crossing tau, by propagation of that of a1, a2, b1, b2:
+// Uncertainty of the intersection tau, propagated from that of a1, a2, b1, b2:
 //          u^2 = s^2 [1/n1 + 1/n2 + (tau - t01)^2/S1 + (tau - t02)^2/S2] / (b1 - b2)^2
-// The records bend a little beside the event, too: how far the crossing moves when the window is halved
+// The records also curve slightly next to the event: the shift of the intersection when the window is halved
 // is added to u (event_near), as the root of the sum of squares.
 // Exact, to round-off, for samples that lie on two lines.
 #pragma once
@@ -20,7 +20,7 @@ namespace pulvis::lab {
 
 struct Line {
   double middle = 0;  // mean of t
-  double value = 0;   // there
+  double value = 0;   // at the mean of t
   double slope = 0;
   double spread = 0;      // S
   double residual = 0;    // sum of squares
@@ -34,19 +34,19 @@ Line fit_line(std::span<const double> t, std::span<const double> y);
 
 struct Bend {
   Line before, after;
-  double time = 0;               // of the crossing
-  double uncertainty = 0;        // of it, one standard deviation
+  double time = 0;               // of the intersection
+  double uncertainty = 0;        // of the time, one standard deviation
   double noise = 0;              // s
   double slope_uncertainty = 0;  // of the difference of the slopes, one standard deviation
 
-  bool is_significant() const;  // the slopes differ by five standard deviations
+  bool is_significant() const;  // the slopes differ by more than five standard deviations
 };
 
-// None: fewer than ten samples, no split has a crossing within the samples.
+// Empty: fewer than ten samples, or no split with an intersection within the samples.
 std::optional<Bend> find_bend(std::span<const double> t, std::span<const double> y);
 
 struct Event {
-  double time = 0;         // s, on the instrument's own clock
+  double time = 0;         // s, on the instrument's clock
   double uncertainty = 0;  // s, one standard deviation
 };
 
@@ -55,21 +55,21 @@ struct BendEvent {
   Event event;
 };
 
-// The bend within `window` to either side of it, looked for around `middle` first; none that is
-// significant: none.
+// The bend, fitted within `window` to either side; the first search is centred on `middle`. Empty
+// where no bend is significant.
 std::optional<BendEvent> event_near(std::span<const double> t, std::span<const double> y,
                                     double middle, double window);
 
-// The error of a mean whose neighbours hang together is s/sqrt(n_eff), n_eff = n (1 - r)/(1 + r), with r their
-// correlation.
+// The error of a mean of correlated samples is s/sqrt(n_eff), n_eff = n (1 - r)/(1 + r), with r the
+// correlation of neighbouring samples.
 struct Mean {
   double value = 0;
   double error = 0;  // one standard deviation
 };
 Mean correlated_mean(std::span<const double> y);
-double inflation_of(std::span<const double> rest);  // sqrt(n/n_eff) of what a fit leaves
+double inflation_of(std::span<const double> rest);  // sqrt(n/n_eff) of the residuals of a fit
 
-// One standard deviation of a line's slope and of its value at t; what it leaves may be correlated.
+// One standard deviation of a line's slope and of its value at t; its residuals may be correlated.
 double slope_error(const Line& line, double inflation);
 double value_error(const Line& line, double t, double inflation);
 
@@ -80,7 +80,7 @@ struct Samples {
 };
 Samples between(std::span<const double> t, double low, double high);
 
-// Linear between samples; the first and the last value beyond them. t grows.
+// Linear between samples; constant beyond the first and the last. t increases.
 double interpolated(std::span<const double> t, std::span<const double> y, double at);
 
 }  // namespace pulvis::lab

@@ -27,7 +27,7 @@ double energy_of(const World& world) {
 }  // namespace
 
 LinearResponse linear_response(World& world, StaticSolver& solver, std::span<const double> forces) {
-  constexpr double small = 1e-30;  // m: squares of strains are nothing beside them
+  constexpr double small = 1e-30;  // m: makes squares of strains negligible
   constexpr double enough = 1e-13;
   const int maximum = solver.in_extended_precision() ? 30 : 10;
   double* const u = world.column<Displacement>().values();
@@ -52,7 +52,7 @@ LinearResponse linear_response(World& world, StaticSolver& solver, std::span<con
     const double size = largest_of(step) / largest;
     const bool shrinks = size <= 0.5 * r.correction;
     r.correction = size;
-    // Where corrections no longer shrink, round-off is reached, or the factors are of no use.
+    // Once corrections stop shrinking, either round-off is reached or the factors are useless.
     if (!(size >= enough && shrinks)) break;
     for (std::size_t k = 0; k < step.size(); ++k) r.displacements[k] += step[k];
   }

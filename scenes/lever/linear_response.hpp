@@ -1,8 +1,8 @@
-// The solid's answer to small forces, at rest.
+// The solid's response to small forces, at rest.
 //
-// The factors of the stiffness lose about 1e-16 (L/t)^4 of a lever's bending: the numbers of the matrix are
-// those of its membrane. Forces that the elements find from displacements lose far less
-// (systems/lever/solid_kernel.hpp), so the answer is corrected by what they leave unbalanced: iterative refinement.
+// Factorising the stiffness loses about 1e-16 (L/t)^4 of a lever's bending: the matrix entries are
+// those of its membrane stiffness. Forces that the elements compute from displacements lose far less
+// (systems/lever/solid_kernel.hpp), so the solution is corrected by the residual forces: iterative refinement.
 #pragma once
 
 #include <span>
@@ -16,15 +16,15 @@ namespace pulvis {
 struct LinearResponse {
   std::vector<double> displacements;  // [3 nodes] m
   std::vector<double>
-      forces;  // [3 nodes] N, what holds the elements: of held nodes, their holder's
-  // What is known of its error: the last correction over the displacements, and by how much the work of the
-  // forces is not twice the elements' energy.
+      forces;  // [3 nodes] N, internal forces of the elements; for fixed nodes, the reactions
+  // Estimates of its error: the last correction over the displacements, and how far the work of the
+  // forces differs from twice the elements' energy.
   double correction = 0, energy_error = 0;  // -
   int corrections = 0;
 };
 
-// To forces [3 nodes]. The solver must have been linearised at rest; the world's displacements are used and
-// left at rest.
+// Due to forces [3 nodes]. The solver must have been linearised at rest; the world's displacements are used and
+// reset to rest.
 LinearResponse linear_response(World& world, StaticSolver& solver, std::span<const double> forces);
 
 }  // namespace pulvis

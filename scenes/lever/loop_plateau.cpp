@@ -13,14 +13,14 @@
 namespace pulvis {
 namespace {
 
-constexpr double turned_angle = 0.04;  // rad: draws with all but 0.08%
-constexpr double longer = 1.25;        // than the least that the estimate gives
+constexpr double turned_angle = 0.04;  // rad: within 0.08% of the full force
+constexpr double longer = 1.25;        // than the minimum that the estimate gives
 
 struct Sample {
-  double progress;              // -, share of the half loop that is done
+  double progress;              // -, completed share of the half loop
   double along;                 // N, on the probe, along the scan
   double slides;                // -
-  double friction, limit;       // N, along the scan in the surface; what it may bear
+  double friction, limit;       // N, along the scan in the surface; its limit
   std::optional<double> angle;  // rad, between friction and the scan
 };
 
@@ -56,7 +56,7 @@ class HalfLoop {
     }
     if (firsts + seconds > 0) p.slides /= firsts + seconds;
     if (angles > 0) p.turned = cosines / angles;
-    // A profile's force is no plateau.
+    // The force on a profile has no plateau.
     if (plane() && firsts > 0 && seconds > 0) p.drift = second / seconds - first / firsts;
     p.needed =
         longer * 2 * std::abs(action_.distance) * std::max(until_it_slides(), until_turned());
@@ -66,7 +66,7 @@ class HalfLoop {
  private:
   bool plane() const { return target_.shape == TargetSpec::Shape::plane; }
 
-  // Of the surface, where it is the same everywhere; a profile's is turned about the other axis.
+  // Of the surface, where it is uniform; a profile's is tilted about the other axis.
   Vec3 normal() const {
     const double rise = plane() ? target_.incline : 0;
     return target_.direction == TargetSpec::Direction::lateral
@@ -90,7 +90,7 @@ class HalfLoop {
     if (plane()) {
       if (tangent.norm() > 0) s.angle = std::atan2(std::abs(across), std::abs(s.friction));
     } else if (target_.shape != TargetSpec::Shape::map && target_.direction == action_.direction) {
-      // The profile has no slope across the scan: what acts there is friction. Of |F|^2 = N^2 + mu^2 (N + A)^2.
+      // The profile has no slope across the scan: friction alone acts there. From |F|^2 = N^2 + mu^2 (N + A)^2.
       const double mu = target_.friction, a = adhesion_, m = 1 + mu * mu;
       const double root = force.squaredNorm() * m - mu * mu * a * a;
       const double size = mu * ((std::sqrt(std::max(0.0, root)) - mu * mu * a) / m + a);
@@ -99,7 +99,7 @@ class HalfLoop {
     return s;
   }
 
-  // Share of the half loop, and more: where friction begins to slide. Till then it rises evenly.
+  // Share of the half loop, possibly above 1, where sliding begins. Friction rises linearly till then.
   double until_it_slides() const {
     constexpr double all = 1 - 1e-3;
     for (const Sample& s : samples_)
@@ -119,7 +119,7 @@ class HalfLoop {
     if (slid.empty()) return 0;
     const Sample& last = *slid.back();
     if (&last != &samples_.back()) return last.progress;  // has turned
-    // Over the last half of what has slid: the load has settled by then.
+    // Over the last half of the sliding samples: the load has settled by then.
     const Sample& first = *slid[slid.size() / 2];
     const double unwound = g(*first.angle) - g(*last.angle);
     if (!(unwound > 0)) return 0;

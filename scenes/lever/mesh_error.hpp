@@ -1,8 +1,8 @@
-// How far the mesh of a lever leaves its stiffness from the converged one.
+// Estimated discretisation error of a lever's stiffness.
 //
-// Source   by how much the stiffness falls from a mesh whose edges are 1.6 times as long. Meshes of fully integrated
-//          elements are too stiff, and the error falls with the edge's power of 1 (the rim of a stiff foot) to 2, so
-//          that what is left is 0.6 to 1.7 of that; docs/accuracy.md has it beside converged references
+// Source   the drop in stiffness relative to a mesh with edges 1.6 times as long. Meshes of fully integrated
+//          elements are too stiff, and the error scales with the edge to the power 1 (at the rim of a stiff foot) to
+//          2, so that the remaining error is 0.6 to 1.7 times that drop; docs/accuracy.md has converged references
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace pulvis {
 
-// Nothing where the mesh is the user's own.
+// Empty where the user supplies the mesh.
 std::optional<MeshError> mesh_error(const Scene& scene, const Calibration& calibration,
                                     int threads);
 

@@ -32,7 +32,7 @@ class PlaneTarget : public TargetShape {
   fcl::Halfspaced half_space_;
 };
 
-constexpr int facets = 200;  // a wavelength: slopes within 1.6%
+constexpr int facets = 200;  // per wavelength: slopes within 1.6%
 
 struct ProfilePoint {
   double along, height;  // m
@@ -67,7 +67,7 @@ std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
   std::vector<fcl::Triangle> triangles;
   const bool lateral = t.direction == Direction::lateral;
   auto corners = profile(t, reach);
-  // A bump without a plateau has its top twice; a triangle without an area has no normal.
+  // A bump without a plateau would have its top point twice; a degenerate triangle has no normal.
   const auto same = [](const ProfilePoint& p, const ProfilePoint& q) { return p.along == q.along; };
   corners.erase(std::unique(corners.begin(), corners.end(), same), corners.end());
   for (const ProfilePoint& p : corners)
@@ -84,8 +84,8 @@ std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
   return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), unit);
 }
 
-// Heights may count from wherever they like, but lengths here are those of a lever: what lies between zero and all of
-// them is taken off.
+// Heights may have any origin, but lengths here are those of a lever: the common offset from zero of all
+// heights is subtracted.
 void take_offset_off(std::vector<std::vector<double>>& heights) {
   const auto [low, high] = height_range(heights);
   const double offset = std::clamp(0.0, low, high);
@@ -208,7 +208,7 @@ double steepest_step(const std::vector<std::vector<double>>& heights) {
 double reach_of(const AfmScene& afm) {
   double distance = 0;
   for (const ActionSpec& action : afm.actions) distance += std::abs(action.distance);
-  return 2 * distance + 0.1 * afm.lever.length;  // and what the lever may bend
+  return 2 * distance + 0.1 * afm.lever.length;  // plus the possible deflection of the lever
 }
 
 std::size_t profile_corners(const TargetSpec& t, double reach) {

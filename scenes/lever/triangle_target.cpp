@@ -15,7 +15,7 @@ namespace pulvis {
 namespace {
 
 constexpr double blend = 1e-3;        // of the unit
-constexpr double blend_reach = 20;    // in blends: exp(-20) is no weight any more
+constexpr double blend_reach = 20;    // in blends: exp(-20) is a negligible weight
 constexpr double valley_reach = 0.2;  // of the unit, past a valley
 constexpr double same_plane = 1e-12;  // of lengths; of directions
 
@@ -54,7 +54,7 @@ TriangleTarget::TriangleTarget(std::vector<Vec3> points, std::vector<fcl::Triang
 // An edge is a valley where the neighbour's third corner lies above the triangle.
 void TriangleTarget::find_valleys() {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t>
-      opposite;  // by edge, against the clock
+      opposite;  // by edge, counter-clockwise
   for (const fcl::Triangle& t : triangles_)
     for (int k = 0; k < 3; ++k) opposite[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
   for (std::size_t i = 0; i < triangles_.size(); ++i) {

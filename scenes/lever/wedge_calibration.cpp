@@ -17,15 +17,15 @@
 namespace pulvis::wedge {
 namespace {
 
-constexpr double flat = 1e-6;  // rad: nothing to be learned from such a slope
+constexpr double flat = 1e-6;  // rad: such a slope gives no information
 
 double squared(double x) { return x * x; }
 
 struct Fit {
-  Value slope, zero;  // by load; at no load
+  Value slope, zero;  // per unit load; at zero load
 };
 
-// Through the loops of several loads; `of` and `error_of` pick what is fitted.
+// Through the loops of several loads; `of` and `error_of` select the fitted value.
 template <class Of, class ErrorOf>
 Fit line_through(const std::vector<Loop>& loops, const Of& of, const ErrorOf& error_of) {
   std::vector<double> load, value;
@@ -54,7 +54,7 @@ Fit line_through(const std::vector<Loop>& loops, const Of& of, const ErrorOf& er
   return fit;
 }
 
-// Loops of one load: their mean over the load.
+// Loops at one load: their mean over the load.
 template <class Of, class ErrorOf>
 Value mean_by_load(const std::vector<Loop>& loops, const Of& of, const ErrorOf& error_of) {
   const auto n = static_cast<double>(loops.size());
@@ -111,7 +111,7 @@ struct Pair {
   double friction = 0, sensitivity = 0;
 };
 
-// From volts by load; `adhesion` over the load, 0 where the volts are slopes over several loads.
+// From volts per load; `adhesion` over the load, 0 where the volts are slopes over several loads.
 std::optional<Pair> solve(double width, double offset, double adhesion, double slope) {
   const auto mu = friction_of_ratio(offset / width, 1, adhesion, slope);
   if (!mu) return std::nullopt;
@@ -119,8 +119,8 @@ std::optional<Pair> solve(double width, double offset, double adhesion, double s
   return Pair{*mu, *mu * (1 + adhesion * c) / (c * c - *mu * *mu * s * s) / width};
 }
 
-// A facet's figure, its error without that of the crosstalk, and how it depends on the offset, from which the
-// crosstalk was taken: that error is the same for all facets.
+// A facet's figure, its error without that of the crosstalk, and its derivative with respect to the offset,
+// from which the crosstalk was subtracted: that error is common to all facets.
 struct Estimate {
   Value own;
   double by_offset = 0;
@@ -148,7 +148,7 @@ FacetEstimates calibrate_facet(const Facet& facet, double adhesion, double slope
     const double step = 1e-6 * std::abs(at[i]);
     up[i] += step, down[i] -= step;
     const auto a = of(up), b = of(down);
-    if (!a || !b) return e;  // on the edge of what fits: nothing can be said
+    if (!a || !b) return e;  // at the limit of the solvable range: error unknown
     const double by_friction = (a->friction - b->friction) / (2 * step);
     const double by_sensitivity = (a->sensitivity - b->sensitivity) / (2 * step);
     friction2 += squared(by_friction * error[i]);
@@ -166,11 +166,11 @@ Value with_crosstalk(const Estimate& e, const std::optional<Value>& crosstalk) {
   return {e.own.value, portable::hypot(*e.own.error, e.by_offset * *crosstalk->error)};
 }
 
-// Mean of estimates whose errors hang together (Aitken 1936); without errors a plain mean and its scatter.
+// Mean of estimates with correlated errors (Aitken 1936); without errors a plain mean and its scatter.
 struct MeanOfFacets {
   Value mean;
   std::vector<double> weights;  // their sum is 1
-  double disagreement = 0;      // square of the factor of Birge; only of estimates with errors
+  double disagreement = 0;      // Birge ratio squared; only for estimates with errors
 };
 
 MeanOfFacets mean_of(const std::vector<Estimate>& estimates,
@@ -191,7 +191,7 @@ MeanOfFacets mean_of(const std::vector<Estimate>& estimates,
     covariance += shared * shared * by_offset * by_offset.transpose();
   else
     covariance.setIdentity();
-  // In units of the values: their squares would make a matrix of numbers like 1e-20.
+  // Scaled by the values: their squares would give matrix entries of about 1e-20.
   const double unit = value.cwiseAbs().maxCoeff();
   const auto factors = Eigen::MatrixXd(covariance / (weighted ? unit * unit : 1)).ldlt();
   const Eigen::VectorXd weight = factors.solve(Eigen::VectorXd::Ones(n));
@@ -224,7 +224,7 @@ std::vector<Facet> facets_of(const std::vector<Loop>& loops) {
   return facets;
 }
 
-// Of a facet that was seen at one load: what is known of adhesion, over that load.
+// For a facet measured at one load: the known adhesion over that load.
 double adhesion_by_load(const Facet& facet, const std::vector<Loop>& loops, double adhesion) {
   if (facet.loads > 1) return 0;
   const auto own = std::ranges::find(loops, facet.slope, &Loop::slope);
@@ -237,7 +237,7 @@ std::optional<double> friction_of_ratio(double ratio, double load, double adhesi
   const double s = portable::sin(slope), c = portable::cos(slope);
   const double a = load * s * c + adhesion * s, b = ratio * (load + adhesion * c);
   const double end = load * s * c, root = b * b - 4 * a * end;
-  // mu > 0 needs both terms of the same sign.
+  // mu > 0 requires both terms to have the same sign.
   if (end == 0 || !(root >= 0) || b * end <= 0) return std::nullopt;
   return 2 * end / (b + std::copysign(std::sqrt(root), b));
 }

@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-extern const char* const material_library_text;  // made from library.toml
+extern const char* const material_library_text;  // generated from library.toml
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Materials that scenes take by name, each with the source of its values: scenes/materials/library.toml.
+// Materials that scenes refer to by name, each with the source of its values: scenes/materials/library.toml.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace pulvis {
 
 struct LibraryMaterial {
   std::string name, title, source;
-  document::Table values;  // as [[material]] has them
+  document::Table values;  // in the form of [[material]]
 };
 
 const std::vector<LibraryMaterial>& material_library();
 
-// The values of `library` put into every [[material]] that has one, but for those that it gives itself; the keys
-// `library` and `elastic` are taken out.
+// Copies the values of `library` into every [[material]] that has one, except those it sets itself; the keys
+// `library` and `elastic` are removed.
 void fill_materials(document::Table& root, const schema::Language& language, Problems& problems);
 
 std::string material_reference();  // docs/materials.md

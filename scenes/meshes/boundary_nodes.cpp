@@ -9,17 +9,17 @@ namespace pulvis {
 namespace {
 
 constexpr double max_turn = std::numbers::pi / 8;  // of an edge
-// How fast edge lengths grow along the outline: neighbours by 1.35, where there are too few edges for that up
+// Growth of edge lengths along the outline: 1.35 between neighbours; where there are too few edges, up
 // to 2.2, as on a rounded rectangle.
 constexpr double usual_growth = 0.3, max_growth = 0.75;
 constexpr double unlimited = std::numeric_limits<double>::max();
 
 int up_to_multiple_of_4(double edges) {
-  constexpr double maximum = 1e6;  // beyond any mesh; refused later
+  constexpr double maximum = 1e6;  // beyond any mesh; rejected later
   return 4 * static_cast<int>(std::ceil(std::min(edges, maximum) / 4 - 1e-6));
 }
 
-// Wanted edge lengths at the samples of a smooth closed curve.
+// Requested edge lengths at the samples of a smooth closed curve.
 class EdgeLengths {
  public:
   explicit EdgeLengths(const OutlineCurve& curve) : samples_(curve.samples()) {
@@ -29,7 +29,7 @@ class EdgeLengths {
     for (std::size_t k = 0; k < samples_.size(); ++k) by_turn_.push_back(longest(samples_[k].s));
   }
 
-  // Edges up to each sample, when none is longer than `size` and they grow by `growth`.
+  // Number of edges up to each sample, when none is longer than `size` and they grow by `growth`.
   std::vector<double> count(double size, double growth) const {
     std::vector<double> length = by_turn_;
     for (double& h : length) h = std::min(h, size);
@@ -43,7 +43,7 @@ class EdgeLengths {
  private:
   double step(std::size_t k) const { return samples_[k + 1].s - samples_[k].s; }
 
-  // Absolute turn from the start to s, which may lie a turn before the start or behind the end.
+  // Absolute turning angle from the start to s, which may lie up to a lap outside the range.
   double turned(double s) const {
     const double length = samples_.back().s, laps = std::floor(s / length);
     s -= laps * length;
@@ -55,8 +55,8 @@ class EdgeLengths {
     return laps * turned_.back() + turned_[k] + share * (turned_[k + 1] - turned_[k]);
   }
 
-  // The longest edge about s that does not turn too much: over a length, since the curvature may have peaks
-  // that no edge resolves.
+  // The longest edge around s that does not turn too much: averaged over a length, since the curvature may
+  // have peaks that no edge resolves.
   double longest(double s) const {
     double low = 0, high = samples_.back().s;
     for (int i = 0; i < 40; ++i) {
@@ -66,7 +66,7 @@ class EdgeLengths {
     return low;
   }
 
-  // Twice round, forwards and backwards; first and last are one point.
+  // Two laps, forwards and backwards; first and last are the same point.
   void limit(std::vector<double>& length, double growth) const {
     const std::size_t n = length.size() - 1;
     for (int lap = 0; lap < 2; ++lap) {
@@ -85,7 +85,7 @@ class EdgeLengths {
   std::vector<double> turned_, by_turn_;
 };
 
-// The counts that come to `edges`: by the edges' size, or where even the largest gives too many by growth.
+// The counts that total `edges`: by edge size, or by growth where even the largest size gives too many.
 std::vector<double> counts_for(const EdgeLengths& lengths, double perimeter, int edges) {
   const bool by_size = lengths.count(unlimited, usual_growth).back() <= edges;
   double fine = by_size ? perimeter / edges : usual_growth;
@@ -100,7 +100,7 @@ std::vector<double> counts_for(const EdgeLengths& lengths, double perimeter, int
   return count(coarse);
 }
 
-// Where the counts pass even shares of their sum.
+// Positions where the counts reach equal shares of their sum.
 std::vector<double> places(const OutlineCurve& curve, const std::vector<double>& counts,
                            int edges) {
   const auto& samples = curve.samples();
@@ -131,7 +131,7 @@ std::vector<int> edges_of_sides(const std::vector<double>& sides, int edges) {
   for (int left = edges - static_cast<int>(sides.size()); left > 0; --left) {
     std::size_t longest = 0;
     for (std::size_t i = 1; i < sides.size(); ++i)
-      // No round-off decides between equal sides.
+      // Round-off must not decide between equal sides.
       if (sides[i] / share[i] > sides[longest] / share[longest] * (1 + 1e-9)) longest = i;
     ++share[longest];
   }

@@ -1,4 +1,4 @@
-// Where the boundary nodes of a mesh stand on an outline's curve.
+// Positions of a mesh's boundary nodes on an outline curve.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@ namespace pulvis {
 
 struct BoundaryNodes {
   std::vector<OutlinePoint> points;
-  std::vector<int> corners;  // of a sharp outline: its corners' numbers, rising, the first is 0
+  std::vector<int> corners;  // for a sharp outline: corner indices, ascending, the first is 0
 };
 
-// `edges` at least `fewest_edges`. Even where the curve is flat enough; an edge turns by at most an eighth of
-// half a turn and from there its neighbours grow. A sharp outline has straight sides, each divided evenly.
+// `edges` must be at least `fewest_edges`. Even spacing where the curve is flat enough; an edge turns by at
+// most 22.5 degrees, and edges grow from there. A sharp outline has straight sides, each divided evenly.
 BoundaryNodes boundary_nodes(const OutlineCurve& curve, int edges);
 
 int fewest_edges(const OutlineCurve& curve);                // a multiple of 4

@@ -29,7 +29,7 @@ void push_control_point(Shape& shape, const Terms& terms) {
   shape.curve_begin.push_back(static_cast<std::int32_t>(shape.curve_terms.size()));
 }
 
-// Smoothing of the node `i` of a face with `edges` edges. Next to a corner 1/11 (1/10 when both
+// Smoothing of node `i` of a face with `edges` edges. Next to a corner 1/11 (1/10 when both
 // neighbours are corners) instead of 1/12: solves "nodal loads of a uniform pressure are 1/2, 1, 1...".
 double face_smoothing(int i, int edges) {
   if (i == 0 || i == edges) return 0;
@@ -51,7 +51,7 @@ void push_face(Shape& shape, int first, int edges, int boundary_nodes) {
     const double c = face_smoothing(i, edges);
     y.push_back(c > 0 ? smoothed(node(i - 1), node(i), node(i + 1), c) : Terms{{node(i), 1.0}});
   }
-  // The spline ends in its end node with no curvature: the control points beyond are mirror images.
+  // The spline ends in its end node without curvature: the control points beyond are mirror images.
   Terms before, after;
   add(before, y[0], 2);
   add(before, y[1], -1);
@@ -98,7 +98,7 @@ void close_curve(Shape& shape, const Smoothing& smoothing) {
     const auto node = [&](int offset) { return (c + offset + 2 * n - 1) % n; };
     Terms y = smoothed(node(-1), node(0), node(1), smoothing.c[static_cast<std::size_t>(node(0))]);
     for (const auto& [offset, factor] : {std::pair{-2, 1}, {-1, -4}, {0, 6}, {1, -4}, {2, 1}})
-      y[node(offset)] += factor * smoothing.d;  // of 4 nodes the first and the last are one
+      y[node(offset)] += factor * smoothing.d;  // with 4 nodes the first and the last are the same
     push_control_point(shape, y);
   }
   for (int e = 0; e < n; ++e) {

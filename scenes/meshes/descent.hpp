@@ -1,4 +1,4 @@
-// Least value of a mesh's quality measure, from which folded elements come out unfolded where that can be.
+// Minimises a mesh quality measure; folded elements are unfolded where possible.
 //
 // Source: Garanzha et al., Foldover-free maps in 50 lines of code, ACM Trans. Graph. 40 (2021) 102; minimised by L-BFGS
 // (Nocedal & Wright, 7.4).
@@ -14,7 +14,7 @@
 
 namespace pulvis {
 
-// Directions of descent from the last steps and how the gradient changed over them.
+// Descent directions from the last steps and the gradient changes over them.
 class Lbfgs {
  public:
   Eigen::VectorXd direction(const Eigen::VectorXd& gradient) const {
@@ -56,14 +56,14 @@ namespace descent {
 inline constexpr double converged = 1e-9;  // relative change of the mean over an iteration
 inline constexpr int min_iterations_between_bounds = 30;
 
-// Nothing to regularise where all corners are well open; at a flat corner (the core's, in the middle of a
-// straight side) the measure is a wall too steep to leave, so that 1/determinant is made gentle there.
+// No regularisation where all corners are wide open; at a flat corner (of the core, in the middle of a
+// straight side) the measure is too steep to move away from, so 1/determinant is softened there.
 inline constexpr double open_corner = 1e-3, min_bound = 1e-6;
 inline double bound_for(double min_determinant) {
   return min_determinant > open_corner ? min_bound : portable::hypot(0.1, 0.2 * min_determinant);
 }
 
-// Along the direction to where the value is low enough (Armijo); false: nowhere.
+// Backtracks along the direction until the value is low enough (Armijo); false: no such step.
 template <class Quality>
 bool advance(const Quality& quality, double bound, const Eigen::VectorXd& direction,
              Descent& state) {

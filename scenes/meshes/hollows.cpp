@@ -6,7 +6,7 @@
 
 namespace pulvis {
 
-// Sides that only one element has, but those of the outline.
+// Sides that belong to only one element, except those of the outline.
 std::vector<Hollows::Loop> hollows_of(const Shape& shape) {
   std::set<std::pair<int, int>> sides;
   for (const auto& quad : shape.quads)

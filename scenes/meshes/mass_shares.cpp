@@ -59,7 +59,7 @@ class Dealer {
   }
 
   void run() {
-    constexpr int rounds = 40;  // the bound is then within 1% of its least
+    constexpr int rounds = 40;  // the bound is then within 1% of its minimum
     double best = 1e300;
     for (int round = 0; round < rounds; ++round) {
       const std::vector<double> frequency = frequencies();
@@ -73,7 +73,7 @@ class Dealer {
   }
 
  private:
-  // Of steel-like moduli (nu = 0.3, mu = 1) with the default contact springs: only ratios matter.
+  // With steel-like moduli (nu = 0.3, mu = 1) and the default contact springs: only ratios matter.
   std::vector<double> frequencies() const {
     constexpr double bulk = 13.0 / 6, mu = 1, springs = 0.5;
     std::vector<double> all;
@@ -103,7 +103,7 @@ class Dealer {
     }
   }
 
-  // A fast element takes mass from its slower neighbours.
+  // An element with a high frequency takes mass from its neighbours with lower ones.
   void deal_again(const std::vector<double>& frequency) {
     std::vector<double> claimed(shape_.nodes.size(), 0);
     for (std::size_t e = 0; e < area_.size(); ++e)

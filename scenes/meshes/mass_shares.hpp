@@ -1,4 +1,4 @@
-// Dealing out the nodes' masses among the elements around them, for the bound of the time step.
+// Distribution of the nodal masses among the surrounding elements, for the bound on the time step.
 #pragma once
 
 #include "components/shape.hpp"
@@ -6,7 +6,7 @@
 namespace pulvis {
 
 // Fills corner_moment and contact_frequency of a shape with nodes, elements and measured edges. Any
-// dealing-out gives a safe bound; this one makes the highest frequency of the undeformed shape small.
+// distribution gives a safe bound; this one keeps the highest frequency of the undeformed shape low.
 void share_mass(Shape& shape);
 
 }  // namespace pulvis

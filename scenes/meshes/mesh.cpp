@@ -1,4 +1,4 @@
-// What all outlines share: Gauss points, nodal areas, edges. The meshes themselves: scenes/mesh_<outline>.cpp.
+// Common to all outlines: Gauss points, nodal areas, edges. The meshers are in scenes/mesh_<outline>.cpp.
 #include "scenes/meshes/mesh.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace pulvis {
 namespace {
 
-// `weight`: how much of the square (xi, eta) the point stands for.
+// `weight`: share of the square (xi, eta) that the point represents.
 Shape::GaussPoint point_at(const kernels::QuadMap<double>& map, double xi, double eta,
                            double weight) {
   const auto a = kernels::map_gradient(map, xi, eta);

@@ -1,6 +1,6 @@
 // Disc: four sides of 90 degrees. With a refinement the sides that face the poles get more edges than the
-// flanks, so that their longest edges, beside the flanks, are as long as those of the flanks: the contact
-// curve, uniform in its knots, would leave the circle where the edge length jumps.
+// flanks, so that their longest edges, next to the flanks, are as long as those of the flanks: the contact
+// curve, uniform in its knots, would deviate from the circle where the edge length jumps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,8 +15,8 @@
 namespace pulvis {
 namespace {
 
-// Edges of a side that faces a pole, finer by `refinement` in its middle than at its ends, where they go on
-// as edges of length 1 (geometric).
+// Edges of a side that faces a pole, finer by `refinement` in its middle than at its ends, where their
+// length tends to 1 (geometric).
 std::vector<double> pole_edges(int edges, double refinement) {
   std::vector<double> length;
   for (int e = 0; e < edges; ++e)
@@ -24,7 +24,7 @@ std::vector<double> pole_edges(int edges, double refinement) {
   return length;
 }
 
-// How many of the edges of half the outline face the pole; two are left for the flank, where there are.
+// How many edges of half the outline face the pole; two are left for the flank, if there are enough.
 int pole_share(int edges, double refinement) {
   int best = edges / 2;
   double minimum = std::numeric_limits<double>::max();

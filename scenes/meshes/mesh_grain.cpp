@@ -1,4 +1,4 @@
-// The mesh of a grain: nodes at equal distances on every face, so that both grains beside it have the same.
+// The mesh of a grain: equally spaced nodes on every face, so that the grains on both sides have the same.
 #include <cmath>
 
 #include "scenes/meshes/contact_curve.hpp"
@@ -9,8 +9,8 @@
 namespace pulvis {
 namespace {
 
-// Where the contact curve is to lie on the particle's outline, nodes stand two thirds of an edge's sagitta outside, as on
-// every smooth outline.
+// Where the contact curve should follow the particle's outline, nodes lie two thirds of an edge's sagitta outside,
+// as on every smooth outline.
 Vec2 node_on_outline(const OutlineCurve& particle, double s, double edge) {
   const double round = particle.length();
   const auto at = [&](double place) { return particle.at(std::fmod(place + round, round)); };
@@ -20,13 +20,13 @@ Vec2 node_on_outline(const OutlineCurve& particle, double s, double edge) {
   return here.at + 2.0 / 3 * (here.at - chord).dot(here.normal) * here.normal;
 }
 
-// In the particle's frame, with the numbers of the nodes where faces begin.
+// In the particle's frame, with the indices of the nodes where faces begin.
 struct Outside {
   std::vector<Vec2> nodes;
   std::vector<int> corners;
 };
 
-// Corners stand where the faces meet: the contact curve ends in them.
+// Corners lie where the faces meet: the contact curve ends in them.
 Outside nodes_of_faces(const GrainOutline& grain) {
   Outside outside;
   for (std::size_t f = 0; f < grain.faces.size(); ++f) {

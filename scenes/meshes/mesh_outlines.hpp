@@ -1,5 +1,5 @@
-// One mesher an outline (scenes/mesh_<outline>.cpp): each fills the nodes, the quads, the number of boundary
-// nodes and the contact curve of a shape. `phase` turns the mesh inside the outline (rad), where it can.
+// One mesher per outline (scenes/mesh_<outline>.cpp): each fills nodes, quads, the number of boundary
+// nodes and the contact curve of a shape. `phase` rotates the mesh inside the outline (rad), where it can.
 #pragma once
 
 #include "components/shape.hpp"
@@ -15,10 +15,10 @@ void mesh_outline(const RoundedRectangleOutline& rectangle, const RoundedRectang
                   double phase, Shape& shape);
 void mesh_outline(const RingOutline& ring, const RingMesh& mesh, double phase, Shape& shape);
 
-// A grain has its nodes where its neighbours have theirs.
+// The nodes of a grain coincide with those of its neighbours.
 void mesh_outline(const GrainOutline& grain, const StarMesh& mesh, double phase, Shape& shape);
 
-// Of every outline that is a curve; its mesh does not turn.
+// For every outline that is a curve; its mesh cannot be rotated.
 void mesh_star(const OutlineCurve& curve, const StarMesh& mesh, Shape& shape);
 template <class Curved>
 requires requires(const Curved& outline) { curve_of(outline); }

@@ -1,5 +1,5 @@
 // Boundary nodes by arc length from the middle of one corner's arc to the next; the core is a rectangle
-// with slightly bulging sides, as far inside of the arcs as gives the largest time step.
+// with slightly bulging sides, inset from the arcs so that the time step is largest.
 #include "scenes/meshes/mesh_round.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr double bulge = 0.15;  // of the core's sides; 0: straight, 1: like the outline
 
-// Where the rim of the core lies: the corners are so far inside of the middles of the arcs, in both
-// directions, as share of the shorter half size between these middles.
+// Nodes of the core's rim: its corners are inset from the middles of the arcs, in both
+// directions, by a share of the shorter half size between these middles.
 std::vector<Point> core_rim(const RoundGrid& round, const std::vector<OutlinePoint>& outline,
                             double inset) {
   const double cut = round.radius * (1 - std::numbers::sqrt2 / 2);
@@ -44,8 +44,8 @@ std::vector<Point> core_rim(const RoundGrid& round, const std::vector<OutlinePoi
   return rim;
 }
 
-// Highest squared frequency of the mesh up to a factor, of elements with a quarter of their mass at each
-// corner; those on the outline (the first `boundary` quads) with contact springs on top, k = 2, which keeps
+// Highest squared frequency of the mesh up to a factor, for elements with a quarter of their mass at each
+// corner; those on the outline (the first `boundary` quads) also have contact springs, k = 2, which keeps
 // the ring thick enough for the stiffest contact in use.
 double frequency_bound(const std::vector<Point>& nodes, const std::vector<Quad>& quads,
                        std::size_t boundary) {
@@ -69,8 +69,8 @@ double frequency_bound(const std::vector<Point>& nodes, const std::vector<Quad>&
   return highest;
 }
 
-// A large core leaves thin rings, a small one narrow elements at its corners. Sharp corners want it far
-// out: below 0.05 the steps are finer.
+// A large core leaves thin rings, a small one narrow elements at its corners. Sharp corners need a small
+// inset: below 0.05 the steps are finer.
 std::vector<double> insets() {
   std::vector<double> list;
   for (int i = 0; i <= 40; ++i) list.push_back(1 - (0.55 + 0.01 * i));
@@ -88,9 +88,9 @@ double mean_edge(const std::vector<Point>& outline) {
   return perimeter / static_cast<double>(outline.size());
 }
 
-// Rings as thick as their edges are long, and below them the transition, 0.8 times as thick as the edges of
-// the core are long: a core that starts deeper is coarse where the material flows, one that starts higher
-// has flat transition quads.
+// Rings as thick as their edges are long, and inside them the transition, 0.8 times as thick as the core's
+// edges are long: a core that starts deeper is coarse where the material flows, one that starts further
+// out has flat transition quads.
 std::vector<Point> coarse_nodes(const RoundGrid& round, const OGrid& grid,
                                 const std::vector<OutlinePoint>& points,
                                 const std::vector<Point>& outline) {

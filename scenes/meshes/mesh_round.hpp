@@ -1,4 +1,4 @@
-// The O-grid of a rectangle with rounded corners, of which a disc is the roundest.
+// The O-grid of a rectangle with rounded corners; a disc is the limiting case.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ struct RoundGrid {
   double radius;                      // m, of the corners
   std::vector<double> columns, rows;  // stations along the horizontal and vertical sides
   int rings;                          // 0: the core's rim is the outline
-  double ring_refinement = 1;         // the outermost ring is this much thinner than the innermost
+  double ring_refinement = 1;         // thickness ratio of the innermost to the outermost ring
   double short_waves = 0;             // fourth difference of the contact curve
   bool coarse_core = false;           // one edge of the core for three of the outline
 };

@@ -32,7 +32,7 @@ double sum(const std::vector<double>& lengths) {
   return total;
 }
 
-// The ratio with which they fill the flat; its sum grows with it.
+// The ratio that fills the flat; its sum increases with it.
 double ratio_for(int edges, double first, double flat) {
   double low = 1, high = 2;
   while (sum(growing(edges, first, high)) < flat) high *= 2;
@@ -43,7 +43,7 @@ double ratio_for(int edges, double first, double flat) {
   return 0.5 * (low + high);
 }
 
-// One side of `edges` edges, `on_arc` of them on its two half arcs, each `arc_edge` long; empty when they
+// One side of `edges` edges, `on_arc` of them on its two half arcs, each `arc_edge` long; empty if there
 // are too few.
 std::vector<double> side(double flat, int edges, int on_arc, double arc_edge) {
   const int on_flat = edges - on_arc;

@@ -1,4 +1,4 @@
-// How the edges of a rounded rectangle's outline are shared out.
+// How the boundary edges of a rounded rectangle are distributed.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// A side is everything from the middle of one arc to the middle of the next.
+// A side extends from the middle of one arc to the middle of the next.
 struct RoundedSides {
   std::vector<double> columns, rows;  // m, edge lengths along the horizontal and vertical sides
   double
@@ -16,10 +16,10 @@ struct RoundedSides {
 
 RoundedSides share_edges(const RoundedRectangleOutline& rectangle, int boundary_edges);
 
-// Beyond this growth the curve is no good: a uniform pressure loads a node wrong by some 4%.
+// Beyond this growth the curve is inaccurate: a uniform pressure misloads a node by some 4%.
 inline constexpr double max_edge_growth = 2.2;
 
-// The fewest boundary edges whose growth is allowed.
+// The smallest number of boundary edges whose growth is allowed.
 int fewest_edges(const RoundedRectangleOutline& rectangle);
 
 }  // namespace pulvis

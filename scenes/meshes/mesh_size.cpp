@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double max_count = 1e6;  // beyond any mesh; refused later
+constexpr double max_count = 1e6;  // beyond any mesh; rejected later
 
 int count_of(double ratio) {
   return static_cast<int>(std::clamp(std::round(ratio), 1.0, max_count));
@@ -21,8 +21,8 @@ int count_of(double ratio) {
 
 int multiple_of_4(double edges) { return 4 * count_of(edges / 4); }
 
-// A core of (edges/4)^2 quads and one ring of as many are about as large as their edges with 40 edges; the
-// core's share of the radius stays the same when they get more.
+// With 40 edges, a core of (edges/4)^2 quads and a ring of as many are about as large as their edges; the
+// core's share of the radius stays constant with more edges.
 int rings_for(int edges) { return std::max(1, count_of(edges / 40.0)); }
 
 void set(DiscMesh& mesh, const DiscOutline& o, double size) {

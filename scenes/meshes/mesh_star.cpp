@@ -1,4 +1,4 @@
-// An O-grid in any curve that one point inside sees as a whole: ellipse, superellipse, polygon,
+// An O-grid in any star-shaped curve (about an interior point): ellipse, superellipse, polygon,
 // points, fourier.
 #include "scenes/meshes/boundary_nodes.hpp"
 #include "scenes/meshes/contact_curve.hpp"
@@ -9,7 +9,7 @@
 namespace pulvis {
 namespace {
 
-// Nodes of a sharp outline stand on its straight sides.
+// Nodes of a sharp outline lie on its straight sides.
 std::vector<Point> nodes_on(const BoundaryNodes& boundary) {
   std::vector<Point> nodes;
   for (const OutlinePoint& point : boundary.points) nodes.push_back(point.at);

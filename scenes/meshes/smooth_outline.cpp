@@ -18,17 +18,17 @@ double angle_between(const Point& a, const Point& b) {
   return std::abs(portable::atan2(cross(a, b), dot(a, b)));
 }
 
-// On an even arc with the angle theta to both neighbours, whose nodes stand at radius r for the polygon's
+// On an even arc with the angle theta to both neighbours, whose nodes lie at radius r for the polygon's
 // area, a curve with knots at the nodes passes at r ((4 + 2 cos theta)/6) (1 + 2 c w + 4 d w^2) with
 // w = 1 - cos theta; this c makes it 1. Elsewhere theta is the mean of both sides.
 double arc_smoothing(double theta, double d) {
   const double w = 1 - portable::cos(theta);
-  if (w < 1e-8) return 1.0 / 12;  // the limit, which round-off would spoil
+  if (w < 1e-8) return 1.0 / 12;  // the limit, where round-off would dominate
   const double r = std::sqrt(theta / portable::sin(theta));
   return (6 / (r * (4 + 2 * portable::cos(theta))) - 1 - 4 * d * w * w) / (2 * w);
 }
 
-// f of "the polygon through at + f shift has this area": the area is a + b f + q f^2.
+// f such that the polygon through at + f shift has this area: the area is a + b f + q f^2.
 double shift_factor(const std::vector<OutlinePoint>& points, const std::vector<double>& shift,
                     double area) {
   double a = -area, b = 0, q = 0;
@@ -42,14 +42,14 @@ double shift_factor(const std::vector<OutlinePoint>& points, const std::vector<d
   return -2 * a / (b + std::sqrt(b * b - 4 * a * q));
 }
 
-// Half a side from its middle to the middle of the arc; at s < 0 its mirror image.
+// Half a side from its middle to the middle of the arc; mirrored for s < 0.
 struct HalfSide {
   double flat, radius;  // length of the half flat, m
   double length() const { return flat + radius * std::numbers::pi / 4; }
   double turn(double s) const {
     return radius > 0 ? std::max(std::abs(s) - flat, 0.0) / radius : 0;
   }
-  // Along the side, and how far inside of the flat.
+  // Along the side, and the distance inside the flat.
   Point at(double s) const {
     const double along = std::min(std::abs(s), flat) + radius * portable::sin(turn(s));
     return {s < 0 ? -along : along, radius * (1 - portable::cos(turn(s)))};
@@ -57,7 +57,7 @@ struct HalfSide {
   Point normal(double s) const {
     return {s < 0 ? -portable::sin(turn(s)) : portable::sin(turn(s)), -portable::cos(turn(s))};
   }
-  // Between the chord from s to t and the side: the polygon over the ends of the flat in between, and the
+  // Area between the chord from s to t and the side: the polygon over the ends of the flat, and the
   // segments of the arcs.
   double bulge(double s, double t) const {
     const Point origin = at(s);
@@ -84,8 +84,8 @@ Point quarter_turns(Point p, int turns) {
 
 SmoothOutline smooth_outline(const std::vector<OutlinePoint>& points, double area, double d) {
   const std::size_t n = points.size();
-  // The two edges of a node sweep half their lengths when it moves: so far out makes up for the halves of
-  // what they cut off. One factor closes the sum, which is a little less than its parts.
+  // When a node moves, its two edges each sweep half their length: this shift makes up for half of each
+  // area that they cut off. One common factor makes the sum exact, since it falls slightly short.
   std::vector<double> shift(n);
   SmoothOutline outline;
   for (std::size_t i = 0; i < n; ++i) {

@@ -83,8 +83,8 @@ bool keeps(const Split& split, int line, int n) {
   });
 }
 
-// Equal sizes are wanted as far as the boundary edges are equal: the least time step of a round outline is then
-// that of the disc's own mesh, and slender ends keep well-shaped elements.
+// Equal sizes are requested as far as the boundary edges are equal: the smallest time step of a round outline
+// is then that of the disc mesh, and slender ends keep well-shaped elements.
 double size_share(const std::vector<Point>& boundary) {
   double minimum = std::numeric_limits<double>::max(), maximum = 0;
   for (std::size_t i = 0; i < boundary.size(); ++i) {
@@ -107,8 +107,8 @@ class Search {
         lines_(mirror_lines(boundary, centre)) {}
 
   void look_at(const Split& split) {
-    // By how many mirror lines are kept (a rectangular core has two, a square one four): what the measure may
-    // be above that of equal squares, over what it may be without one.
+    // By number of mirror lines kept (a rectangular core has two, a square one four): factor on the measure's
+    // excess over that of equal squares, compared with a grid without symmetry.
     constexpr std::array<double, 5> worth{1, 0.75, 0.65, 0.65, 0.6};
     constexpr double worth_of_an_axis = 0.95, worth_of_a_change = 1e-3;
     const int n = static_cast<int>(boundary_.size());
@@ -162,7 +162,7 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
   const Split rough = coarse_split(boundary, centre, coarse);
   if (n == coarse && rings == 1) return rough;
   const double more = static_cast<double>(n) / coarse;
-  // The rough split is known to half a coarse edge.
+  // The rough split is known to within half a coarse edge.
   const int around = n <= most_for_many ? std::min(2, static_cast<int>(std::ceil(more / 2))) : 1;
   const int start = static_cast<int>(std::lround(more * rough.start));
   const int columns = static_cast<int>(std::lround(more * rough.columns));
@@ -191,7 +191,7 @@ StarGrid smoothed_grid(const GridKey& key) {
 }  // namespace
 
 StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings) {
-  // The checks of a scene, its need of memory, its summary and its layout ask for the same grids.
+  // Checks, memory estimate, summary and layout of a scene all request the same grids.
   static ResultCache<GridKey, StarGrid> cache(1'000'000);  // nodes
   return cache.get({boundary, centre, rings}, smoothed_grid,
                    [](const StarGrid& grid) { return grid.nodes.size(); });

@@ -1,4 +1,4 @@
-// The O-grid inside any closed polygon of boundary nodes, all of which one point inside sees.
+// The O-grid inside any closed polygon of boundary nodes that is star-shaped about an inner point.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 namespace pulvis {
 
 struct StarGrid {
-  std::vector<Point> nodes;  // those of the boundary first, as given
-  std::vector<Quad> quads;   // those on the boundary first
+  std::vector<Point> nodes;  // boundary nodes first, in the given order
+  std::vector<Quad> quads;   // quads on the boundary first
 };
 
-// Which boundary nodes lie at the core's corners is what gives the best quads; where two such grids are about as
-// good, the one that keeps more of the outline's mirror lines.
+// The core's corners are placed at the boundary nodes that give the best quads; of two about equally good grids,
+// the one that keeps more of the outline's symmetry axes is used.
 StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings);
 
 }  // namespace pulvis

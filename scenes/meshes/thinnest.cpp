@@ -12,7 +12,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr int max_samples = 20000;  // of a chain
 constexpr std::size_t block = 16;   // segments that share a box
 
-// A convex quad lies between two lines that are at least its area over its diameter apart.
+// A convex quad lies between two lines whose distance is at least its area over its diameter.
 double width_of(const std::array<Vec2, 4>& corner) {
   const Vec2 p = corner[2] - corner[0], q = corner[3] - corner[1];
   double longest = std::max(p.norm(), q.norm());
@@ -23,10 +23,10 @@ double width_of(const std::array<Vec2, 4>& corner) {
 
 struct Segment {
   Vec2 begin, direction, normal;  // out of the tool
-  double at, length;              // m: from the begin of the chain
+  double at, length;              // m: from the start of the chain
 };
 
-// Where the search for the other flank starts from.
+// A starting point of the search for the other flank.
 struct Sample {
   Vec2 point, normal;
   double at;
@@ -89,8 +89,8 @@ class Chain {
     }
   }
 
-  // The nearest point of the segment, of those that lie so far along the chain that a ridge of more than the
-  // resolution is between; and only through the tool's body.
+  // The nearest point of the segment, restricted to points so far along the chain that a ridge larger than
+  // the resolution lies between; and only through the tool's body.
   void look_at(const Segment& s, const Sample& from, double& minimum) const {
     double low = 0, high = s.length;
     if (s.at >= from.at)

@@ -77,10 +77,10 @@ std::vector<Vec2> smoothed_points(const std::vector<Vec2>& points, double distan
     solver.compute(Matrix(system.r + weight * square));
     return given - weight * (system.q * Columns(solver.solve(right)));
   };
-  // The distance grows with the weight of the bending; its unit is m^3.
+  // The distance increases with the bending weight, whose unit is m^3.
   double perimeter = 0;
   for (const double length : chords(points)) perimeter += length;
-  double low = -36, high = 6;  // powers of e
+  double low = -36, high = 6;  // exponents of e
   for (int i = 0; i < 50; ++i) {
     const double middle = 0.5 * (low + high);
     const Columns at = knots(perimeter * perimeter * perimeter * portable::exp(middle));

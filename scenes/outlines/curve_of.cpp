@@ -1,4 +1,4 @@
-// The curves of the outlines that are given by a formula, by corners or by points.
+// The curves of the outlines that are defined by a formula, by corners or by points.
 #include "scenes/outlines/curve_of.hpp"
 
 #include <Eigen/Geometry>
@@ -39,7 +39,7 @@ Point on_superellipse(const SuperellipseOutline& o, int quarter, double t) {
   return {at.cwiseProduct(half), rate.cwiseProduct(half)};
 }
 
-// The arc that rounds a corner, from `from` to `to` of its turn.
+// The arc that rounds a corner, over the part from `from` to `to` of its turning angle.
 Piece arc(const Vec2& before, const Vec2& corner, const Vec2& after, double rounding, double from,
           double to) {
   const Vec2 in = (corner - before).normalized(), out = (after - corner).normalized();
@@ -120,7 +120,7 @@ OutlineCurve curve_of(const PolygonOutline& outline) {
     const Vec2 along = (c - b).normalized();
     const double from = cut_by_rounding(a, b, c, r), to = cut_by_rounding(b, c, d, r);
     if (r > 0) pieces.push_back(arc(a, b, c, r, 0.5, 1));
-    // Roundings that meet leave no flat.
+    // Adjacent roundings that meet leave no flat.
     if (from + to < (1 - 1e-9) * (c - b).norm())
       pieces.push_back(flat(b + from * along, c - to * along));
     if (r > 0) pieces.push_back(arc(b, c, d, r, 0, 0.5));

@@ -14,13 +14,13 @@ OutlineCurve curve_of(const PointsOutline& outline);
 OutlineCurve curve_of(const FourierOutline& outline);
 OutlineCurve curve_of(const GrainOutline& outline);
 
-// Of any outline without a hole.
+// For any outline without a hole.
 OutlineCurve any_curve(const Outline& outline);
 
-// Corners counter-clockwise, as mirrored as it says; not yet rounded, nor moved to the centre.
+// Corners counter-clockwise, mirrored as specified; not yet rounded, nor centred.
 std::vector<Vec2> corners_of(const PolygonOutline& polygon);
 
-// How much of a side the rounding of a corner takes, as length from the corner.
+// Length of a side, from the corner, that the rounding of the corner removes.
 double cut_by_rounding(const Vec2& before, const Vec2& corner, const Vec2& after, double rounding);
 
 }  // namespace pulvis

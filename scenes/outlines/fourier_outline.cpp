@@ -54,7 +54,7 @@ OutlineCurve curve_of(const FourierOutline& outline) {
   const double power = d3 * d3 * power_of(modes.irregular) + d8 * d8 * power_of(modes.rough);
   const double r0 = 0.5 * outline.diameter / std::sqrt(1 + 0.5 * power);
   const double stretch = std::sqrt(outline.aspect_ratio);
-  // Two pieces of the shortest wave at least, so that none hides from OutlineCurve::polygon.
+  // At least two pieces per shortest wave, so that OutlineCurve::polygon misses none.
   const int count = 2 * (modes.rough.empty() ? modes.irregular : modes.rough).back().n;
   const double width = 2 * std::numbers::pi / count;
   std::vector<OutlineCurve::Piece> pieces;

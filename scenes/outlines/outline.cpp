@@ -55,7 +55,7 @@ std::vector<Vec2> polygon_of(const RoundedBox& box, double deviation) {
   for (int corner = 0; corner < 4; ++corner) {
     const Vec2 centre(corner % 3 == 0 ? box.half.x() : -box.half.x(),
                       corner < 2 ? box.half.y() : -box.half.y());
-    // Where the box has no size along a side, the arc after it starts where this one ends.
+    // Where the box has zero size along a side, the arc after it starts where this one ends.
     const bool meets_next = chords > 0 && (corner % 2 == 0 ? box.half.x() : box.half.y()) == 0;
     for (int i = 0; i <= chords - (meets_next ? 1 : 0); ++i) {
       const double angle = pi / 2 * (corner + (chords > 0 ? static_cast<double>(i) / chords : 0));
@@ -94,7 +94,7 @@ bool has_notch(const Outline& outline) {
 
 bool can_fold(const Outline& outline) {
   constexpr double slender =
-      4;  // length over width: bent to a ring, its fibres are strained by pi / 4
+      4;  // length over width: bent into a ring, its fibres are strained by pi / 4
   const double area = outline_area(outline);
   double longest = 0;
   for (const Vec2& p : outline_polygon(outline, 0.1 * std::sqrt(area)))

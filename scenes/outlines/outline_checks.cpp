@@ -17,11 +17,11 @@ namespace {
 
 using Faults = std::vector<OutlineFault>;
 
-// An O-grid in what is much longer than wide has elements as flat; 8 is already beyond any powder.
+// An O-grid in a very elongated outline has equally flat elements; 8 is already beyond any powder.
 constexpr double longest_over_shortest = 8;
-// Beyond this the two sides of a corner are nearly one.
+// Beyond this the two sides of a corner nearly coincide.
 constexpr double max_turn = 170.0 / 180 * std::numbers::pi;
-// Of an irregular outline, over its mean: below 0 it crosses itself, and near it there is no room for elements.
+// For an irregular outline, over its mean: below 0 it crosses itself, and near 0 there is no room for elements.
 constexpr double min_radius = 0.2;
 
 std::string text_of(const Vec2& p) { return fmt::format("({:g}, {:g}) m", p.x(), p.y()); }
@@ -56,7 +56,7 @@ double turn_at(const Vec2& a, const Vec2& b, const Vec2& c) {
   return portable::atan2(cross(b - a, c - b), (b - a).dot(c - b));
 }
 
-// Of the corners as given: their numbers are the user's.
+// For the corners as given: their indices are the user's.
 Faults bad_corners(const PolygonOutline& polygon) {
   const std::vector<Vec2>& given = polygon.corners;
   const std::size_t n = given.size();
@@ -74,7 +74,7 @@ Faults bad_corners(const PolygonOutline& polygon) {
   return crossing(given, "corners", "corners");
 }
 
-// The largest rounding whose arcs leave room for each other on every side.
+// The largest rounding whose arcs fit on every side.
 double max_rounding(const std::vector<Vec2>& corners) {
   const std::size_t n = corners.size();
   double maximum = std::numeric_limits<double>::max();
@@ -102,11 +102,11 @@ Faults bad_rounding(const PolygonOutline& polygon) {
   return {};
 }
 
-// The largest amplitude of some modes at which the radius keeps to its minimum everywhere, where others take
+// The largest amplitude of some modes at which the radius never falls below its minimum, where others use up
 // `taken` of it.
 template <class Taken>
 double max_amplitude(const std::vector<FourierModes::Mode>& modes, const Taken& taken) {
-  constexpr int angles = 1024;  // 16 of the shortest wave
+  constexpr int angles = 1024;  // 16 per shortest wave
   double maximum = std::numeric_limits<double>::max();
   for (int i = 0; i < angles; ++i) {
     const double angle = 2 * std::numbers::pi * i / angles;

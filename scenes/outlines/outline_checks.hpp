@@ -1,4 +1,4 @@
-// What is wrong with an outline that is given by numbers of the user: reasons and bounds.
+// Errors in an outline defined by user-supplied numbers: reasons and bounds.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 namespace pulvis {
 
 struct OutlineFault {
-  std::string key;      // of the particle: "corners"
+  std::string key;      // key of the particle: "corners"
   std::string message;  // what is wrong, what is allowed
 };
 

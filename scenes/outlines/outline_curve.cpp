@@ -18,15 +18,15 @@ constexpr std::array<double, 4> gauss_weight{0.17392742256872693, 0.326072577431
 // Enough for arc lengths of smooth pieces to round-off, and for the corners of a superellipse.
 constexpr std::size_t samples_wanted = 2048, fewest_a_piece = 8;
 
-// Angle of a tangent that turns by less than half a turn.
+// Angle between tangents, for less than half a turn.
 double turn_between(const Vec2& a, const Vec2& b) { return portable::atan2(cross(a, b), a.dot(b)); }
 
 }  // namespace
 
-// A piece may be slow to ask, as an arc of another curve is: its points are taken once, for both tables.
+// A piece may be slow to evaluate, as an arc of another curve is: evaluated once, for both tables.
 struct OutlineCurve::Taken {
   Vec2 slope, next_slope;                      // where a sample begins and ends
-  std::array<Point, gauss_at.size()> between;  // at the points of Gauss
+  std::array<Point, gauss_at.size()> between;  // at the Gauss points
 };
 
 OutlineCurve::OutlineCurve(std::vector<Piece> pieces, bool sharp, double scale)
@@ -88,7 +88,7 @@ void OutlineCurve::tabulate(const std::vector<Taken>& taken) {
   samples_.push_back({s, swept, 0, pieces_.size() - 1, 1, 1});
 }
 
-// Green: the area's moment is a third of the boundary integral of x (x cross dx).
+// Green's theorem: the area's first moment is a third of the boundary integral of x (x cross dx).
 Vec2 OutlineCurve::centroid(const std::vector<Taken>& taken) const {
   Vec2 moment = Vec2::Zero();
   for (std::size_t i = 0; i < taken.size(); ++i)
@@ -136,7 +136,7 @@ OutlineCurve::Place OutlineCurve::at(double s) const {
 
 std::vector<Vec2> OutlineCurve::polygon(double deviation) const {
   // Where a chord between two samples sees no inflection, the curve is farthest from it near the middle;
-  // five points find that to a few percent.
+  // five points find that distance to within a few percent.
   const auto leaves = [&](std::size_t piece, double from, double to) {
     const Vec2 a = point(piece, from).at, b = point(piece, to).at;
     const Vec2 along = (b - a).normalized();

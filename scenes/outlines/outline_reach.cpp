@@ -11,7 +11,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double fine = 1e-6;  // deviation of the polygon, of a particle's size
+constexpr double fine = 1e-6;  // deviation of the polygon, relative to the particle's size
 
 }  // namespace
 

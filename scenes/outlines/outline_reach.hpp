@@ -1,4 +1,4 @@
-// How far an outline reaches from its origin.
+// How far an outline extends from its origin.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@ namespace pulvis {
 class OutlineReach {
  public:
   explicit OutlineReach(const Outline& outline);
-  // m, of the turned outline (rad) in a direction of space (a unit vector).
+  // m, of the rotated outline (rad) in a spatial direction (a unit vector).
   double along(double angle, const Vec2& direction) const;
 
  private:
   std::optional<RoundedBox> box_;
-  std::vector<Vec2> polygon_;  // m, of an outline that is none
+  std::vector<Vec2> polygon_;  // m, for an outline that is not a rounded box
 };
 
 }  // namespace pulvis

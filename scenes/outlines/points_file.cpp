@@ -22,10 +22,10 @@ namespace {
 constexpr std::size_t fewest_points = 8, max_points = 20'000;
 constexpr std::size_t largest_file = 4U << 20U;  // bytes
 constexpr double closest = 1e-9;                 // of the diagonal, from point to point
-constexpr double max_smoothing = 0.05;           // of the root of the area
+constexpr double max_smoothing = 0.05;           // of the square root of the area
 
 struct BadFile {
-  int line;  // 0: all of it
+  int line;  // 0: the whole file
   std::string message;
 };
 
@@ -79,7 +79,7 @@ class PointsReader {
       take(cells_of(line));
     }
     if (points_.size() > 1 && points_.back() == points_.front())
-      points_.pop_back();  // closed already
+      points_.pop_back();  // already closed
     if (points_.size() < fewest_points)
       throw BadFile{0, fmt::format("{} points are too few for an outline, allowed: at least {}",
                                    points_.size(), fewest_points)};
@@ -88,7 +88,7 @@ class PointsReader {
   }
 
  private:
-  // Curves through points that hardly differ bend without bound.
+  // Curves through nearly coincident points have unbounded curvature.
   void refuse_coinciding() const {
     Vec2 low = points_[0], high = low;
     for (const Vec2& p : points_) {
@@ -143,7 +143,7 @@ class PointsReader {
   }
 
   std::string unit_;
-  double factor_ = 0;  // m a unit; 0: not known yet
+  double factor_ = 0;  // m per unit; 0: not known yet
   int line_ = 0;
   std::vector<Vec2> points_;
   std::vector<int> lines_;  // of each point

@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// Fills the outline's points from its file, smoothed. Faults name the file's line.
+// Fills the outline's points from its file, smoothed. Errors name the line in the file.
 std::vector<OutlineFault> read_points(const std::filesystem::path& folder, PointsOutline& outline);
 
 }  // namespace pulvis

@@ -4,7 +4,7 @@
 
 namespace pulvis::portable {
 
-// Phi(z) = 1/2 + phi(z) (z + z^3/3 + z^5/15 + ...), all terms of one sign (Marsaglia 2004).
+// Phi(z) = 1/2 + phi(z) (z + z^3/3 + z^5/15 + ...), all terms have the same sign (Marsaglia 2004).
 double normal_probability(double z) {
   if (z > 8) return 1;
   if (z < -8) return 0;
@@ -39,7 +39,7 @@ std::uint64_t Random::below(std::uint64_t count) {
   return i < count ? i : count - 1;
 }
 
-// A point of the unit disc, drawn until it is not too near its centre, set on the circle.
+// A point of the unit disc, drawn until it is not too near the centre, projected onto the circle.
 V2 Random::direction() {
   for (;;) {
     const V2 p{between(-1, 1), between(-1, 1)};

@@ -1,7 +1,7 @@
-// Arithmetic for what must come out alike on every machine and with every compiler and mathematical
-// library, as a random packing does: after some thousand collisions one different last bit is another
-// packing. Sums, products, quotients and square roots are rounded alike everywhere (IEEE 754); sines and
-// exponentials of libraries are not (engine/portable_math.hpp has some that are), nor are the distributions of
+// Arithmetic for results that must be identical on every machine and with every compiler and math
+// library, such as a random packing: after some thousand collisions one different last bit gives a different
+// packing. Sums, products, quotients and square roots are rounded identically everywhere (IEEE 754); sines and
+// exponentials of libraries are not (engine/portable_math.hpp has portable ones), nor are the distributions of
 // <random>.
 #pragma once
 
@@ -23,13 +23,13 @@ inline double dot(V2 a, V2 b) { return a.x * b.x + a.y * b.y; }
 inline double cross(V2 a, V2 b) { return a.x * b.y - a.y * b.x; }
 inline double length(V2 a) { return std::sqrt(dot(a, a)); }
 
-// A turn as its cosine and sine.
+// A rotation, stored as its cosine and sine.
 struct Turn {
   double c = 1, s = 0;
 };
 inline V2 operator*(Turn r, V2 a) { return {r.c * a.x - r.s * a.y, r.s * a.x + r.c * a.y}; }
 inline V2 turned_back(Turn r, V2 a) { return {r.c * a.x + r.s * a.y, r.c * a.y - r.s * a.x}; }
-// Turned on by 2 arctan(half): Cayley's map, which needs no sine. For small angles `half` is half of it.
+// Rotated by a further 2 arctan(half): Cayley map, which needs no sine. For small angles `half` is half of it.
 inline Turn turned(Turn r, double half) {
   const double d = 1 / (1 + half * half);
   const double c = (1 - half * half) * d, s = 2 * half * d;
@@ -38,7 +38,7 @@ inline Turn turned(Turn r, double half) {
   return {next.c * norm, next.s * norm};
 }
 
-double normal_probability(double z);  // P(Z <= z) of the standard normal law
+double normal_probability(double z);  // P(Z <= z) of the standard normal distribution
 double normal_quantile(double p);     // its inverse, 0 < p < 1
 
 // SplitMix64 (Steele, Lea, Flood 2014).

@@ -1,4 +1,4 @@
-// An outline of the same form and another size.
+// An outline of the same shape and another size.
 #pragma once
 
 #include "scenes/spec/scene.hpp"

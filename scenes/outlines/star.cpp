@@ -38,7 +38,7 @@ Vec2 centroid(const std::vector<Vec2>& polygon) {
   return polygon[0] + moment / polygon_area(polygon);
 }
 
-// Times that the polygon goes round a point.
+// Winding number of the polygon about a point.
 double windings(const std::vector<Vec2>& polygon, const Vec2& centre) {
   double angle = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -59,7 +59,7 @@ bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 }  // namespace
 
 std::optional<Vec2> star_centre(const std::vector<Vec2>& polygon) {
-  constexpr double min_share = 1e-4;  // of the area: less is hardly meshable
+  constexpr double min_share = 1e-4;  // of the area: with less it can hardly be meshed
   Vec2 low = polygon[0], high = low;
   for (const Vec2& p : polygon) {
     low = low.cwiseMin(p);

@@ -1,4 +1,4 @@
-// Classes of particles that differ from one in the scene by their size alone.
+// Particle classes that differ from a class in the scene only by size.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// The class of particles of another size than their own class has; the same for the same size. `resize(spec, scale)` scales
+// The class of particles whose size differs from that of their own class; one class per size. `resize(spec, scale)` scales
 // the shape of a new one.
 template <class Particles, class Resize>
 int class_of_size(Particles& particles, int particle, double scale, const Resize& resize) {
@@ -22,7 +22,7 @@ int class_of_size(Particles& particles, int particle, double scale, const Resize
   spec.class_of = particle;
   spec.scale = scale;
   resize(spec, scale);
-  spec.name += fmt::format("#{}", number);  // a sign that names in scenes do not have
+  spec.name += fmt::format("#{}", number);  // a character that names in scenes cannot contain
   particles.push_back(spec);
   return static_cast<int>(particles.size()) - 1;
 }

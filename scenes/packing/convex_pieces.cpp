@@ -1,4 +1,4 @@
-// Ears are cut off the polygon, the best-shaped first; then the cuts that no reflex corner needs go.
+// Ears are cut off the polygon, best-shaped first; then cuts not needed by a reflex corner go.
 #include <algorithm>
 
 #include "scenes/packing/convex_pieces.hpp"
@@ -7,7 +7,7 @@ namespace pulvis {
 namespace {
 
 using portable::V2;
-using Corners = std::vector<int>;  // positions in the polygon
+using Corners = std::vector<int>;  // indices in the polygon
 
 class Cutter {
  public:
@@ -26,7 +26,7 @@ class Cutter {
     return result;
   }
 
-  // Piece b joined to piece a along a side that both have, or nothing where that is not convex.
+  // Piece b merged with piece a along a common side, or empty if the result is not convex.
   Corners joined(const Corners& a, const Corners& b) const {
     for (std::size_t i = 0; i < a.size(); ++i)
       for (std::size_t k = 0; k < b.size(); ++k) {
@@ -58,7 +58,7 @@ class Cutter {
     });
   }
 
-  // Area over the square of the longest side; negative where the corner is no ear.
+  // Area over the square of the longest side; negative if the corner is not an ear.
   double quality(const Corners& left, std::size_t i) const {
     const int a = before(left, i), b = left[i], c = after(left, i);
     const double area = turn(a, b, c);

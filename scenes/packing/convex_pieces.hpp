@@ -1,4 +1,4 @@
-// Polygons cut into convex pieces.
+// Convex decomposition of polygons.
 #pragma once
 
 #include <vector>
@@ -6,8 +6,8 @@
 
 namespace pulvis {
 
-// The pieces of a simple polygon, counter-clockwise: itself where it is convex, otherwise triangles that
-// are joined as long as they stay convex (Hertel and Mehlhorn 1983).
+// The pieces of a simple counter-clockwise polygon: itself if it is convex, otherwise triangles that
+// are merged as long as the result is convex (Hertel and Mehlhorn 1983).
 std::vector<std::vector<portable::V2>> convex_pieces(const std::vector<portable::V2>& polygon);
 
 }  // namespace pulvis

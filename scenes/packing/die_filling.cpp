@@ -12,7 +12,7 @@ namespace {
 
 constexpr double margin = 2.5e-4;  // of the smallest particle's diameter
 constexpr double sweeps_of_hundred =
-    40'000;  // of 100 particles; of ten times as many 1.8 times fewer
+    40'000;  // for 100 particles; for ten times as many, 1.8 times fewer
 constexpr double touching = 1e-3;
 
 double smallest_of(const DieFilling& order) {

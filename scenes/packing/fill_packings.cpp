@@ -23,7 +23,7 @@ namespace {
 
 using portable::V2;
 
-constexpr double outline_deviation = 1e-3;  // of a particle's size, where it is no rounded polygon
+constexpr double outline_deviation = 1e-3;  // of a particle's size, unless it is a rounded polygon
 
 int sized_class(Scene& scene, int particle, double scale) {
   return class_of_size(scene.particles, particle, scale, [](ParticleSpec& spec, double factor) {
@@ -31,7 +31,7 @@ int sized_class(Scene& scene, int particle, double scale) {
   });
 }
 
-// What passes a sieve is the smallest width of the outline.
+// The sieve size is the minimum width of the outline.
 ParticleMeasure measure_of(const Scene& scene, const MixtureClass& mixed) {
   const Outline& outline = scene.particles[static_cast<std::size_t>(mixed.particle)].outline;
   const double area = outline_area(outline);
@@ -111,7 +111,7 @@ class RandomPacking {
     return true;
   }
 
-  // However high the die, some overlapped.
+  // Some overlapped, however high the die.
   void refuse_die() {
     const std::string key = ".width";
     problems_.add(origin(key), path_ + key,
@@ -162,7 +162,7 @@ class RandomPacking {
 
 double highest_point(const Scene& scene, const std::vector<BodySpec>& bodies) {
   double highest = std::numeric_limits<double>::lowest();
-  std::map<int, OutlineReach> reaches;  // of the classes
+  std::map<int, OutlineReach> reaches;  // by class
   for (const BodySpec& body : bodies) {
     const OutlineReach& reach =
         reaches.try_emplace(body.particle, scene.class_of(body).outline).first->second;
@@ -196,7 +196,7 @@ void put_tools_on(Scene& scene, const schema::Origins& origins, Problems& proble
     }
     ToolSpec& tool = scene.tools[t];
     const double rise = top_of_packings(scene) - tool.point.y();
-    for (Vec2& p : tool.points) p.y() += rise;  // of a drawn one
+    for (Vec2& p : tool.points) p.y() += rise;  // for a drawn one
     tool.point.y() += rise;
   }
 }

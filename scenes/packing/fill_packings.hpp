@@ -1,4 +1,4 @@
-// Random packings are made, and those in files read, once a scene has been read and found right.
+// Generates random packings and reads those in files, once a scene has been read and checked.
 #pragma once
 
 #include "scenes/language/table_reader.hpp"
@@ -6,8 +6,8 @@
 
 namespace pulvis {
 
-// Places the particles of every random and CSV packing, adds a particle class for every size that is not
-// that of its class, and puts the tools that rest on a packing on it.
+// Places the particles of every random and CSV packing, adds a particle class for every size that
+// differs from that of its class, and places the tools that rest on a packing.
 void fill_packings(Scene& scene, const schema::Origins& origins, Problems& problems);
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// The order in which particles are numbered: that of the tables that place them, in two and three dimensions.
+// Numbering order of the particles: that of the tables that place them, in two and three dimensions.
 #pragma once
 
 #include <algorithm>

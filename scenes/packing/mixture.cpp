@@ -11,7 +11,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double rounding_of_sums = 1e-6;  // three times 0.333333 is 1
+constexpr double rounding_of_sums = 1e-6;  // so that three times 0.333333 is 1
 
 class Mixer {
  public:
@@ -34,7 +34,7 @@ class Mixer {
   struct Law {
     std::vector<SizeShare> sizes;
     ParticleMeasure own;
-    double mean_content = 0;  // of a particle
+    double mean_content = 0;  // per particle
   };
 
   void refuse(const std::string& key, const std::string& message) {
@@ -149,7 +149,7 @@ class Mixer {
     return (packing_.dimensions == 3 ? k * k * k : k * k) * law.own.content;
   }
 
-  // Share of each class in the number of particles.
+  // Number fraction of each class.
   std::vector<double> number_shares() const {
     std::vector<double> shares;
     for (std::size_t c = 0; c < laws_.size(); ++c) {
@@ -160,7 +160,7 @@ class Mixer {
     return shares;
   }
 
-  // Of the room in the die, where the count is left open.
+  // From the room in the die, if the count is not given.
   int count(const std::vector<double>& shares) {
     double number = 0, sum = 0;
     for (std::size_t c = 0; c < shares.size(); ++c) {
@@ -193,7 +193,7 @@ class Mixer {
     for (const SizeShare& size : law.sizes) shares.push_back(size.share);
     const std::vector<int> numbers = apportioned(number, shares);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      if (numbers[i] == 0) continue;  // of a law with more sizes than particles
+      if (numbers[i] == 0) continue;  // for a law with more sizes than particles
       mixture.sizes.push_back({mixed.particle, scale(law, law.sizes[i]), numbers[i]});
       mixture.count += numbers[i];
       mixture.content += numbers[i] * content(law, law.sizes[i]);

@@ -1,4 +1,4 @@
-// Which particles a random packing consists of: its classes, shares and sizes as whole numbers. In two and three dimensions:
+// The particles of a random packing: its classes, fractions and sizes as whole numbers. In two and three dimensions:
 // "content" is an area or a volume.
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace pulvis {
 
 struct ParticleMeasure {
-  double size;     // m, what passes a sieve; 1 where the class has one size
+  double size;     // m, sieve size; 1 if the class has one size
   double content;  // m^2, m^3
 };
 
@@ -19,15 +19,15 @@ struct MixtureOrder {
   const std::vector<MixtureClass>& classes;
   std::optional<int> count;
   std::optional<double> density, height;
-  bool dense = false;  // a word instead of the density
+  bool dense = false;  // a keyword instead of the density
   double base = 0;     // width or area of the floor, m, m^2
   int dimensions = 2;
   std::filesystem::path folder = {};                                 // of sieve curves
-  std::function<ParticleMeasure(const MixtureClass&)> measure = {};  // of a class's own particle
+  std::function<ParticleMeasure(const MixtureClass&)> measure = {};  // of a class's original particle
 };
 
 struct MixtureSize {
-  int particle = 0;  // position in the scene's particles
+  int particle = 0;  // index in the scene's particles
   double scale = 1;  // of the class's shape
   int count = 0;
 };
@@ -35,10 +35,10 @@ struct MixtureSize {
 struct Mixture {
   std::vector<MixtureSize> sizes;  // class by class, from small to large
   int count = 0;
-  double content = 0;  // m^2, m^3, of all
+  double content = 0;  // m^2, m^3, total
 };
 
-// What the classes ask for; `path` is that of the packing. Problems are noted, the mixture is empty then.
+// What the classes describe; `path` is that of the packing. The mixture is empty if there are problems.
 Mixture mixture_of(const MixtureOrder& order, const std::string& path,
                    const schema::Origins& origins, Problems& problems);
 

@@ -14,7 +14,7 @@ namespace {
 
 double length_of(const Outline& outline) { return std::sqrt(outline_area(outline)); }
 
-// Half sizes of a box, and its corners and axes in space.
+// Half sizes of a box, and its corners and axes in scene coordinates.
 struct TurnedBox {
   Vec2 half, centre;
   Eigen::Matrix2d turn;
@@ -27,12 +27,12 @@ struct TurnedBox {
           centre + turn * Vec2(i % 2 == 0 ? -half.x() : half.x(), i < 2 ? -half.y() : half.y());
     return list;
   }
-  // How far a point lies from the box; inside, how far from its nearest side, negative.
+  // Distance of a point from the box; inside, the distance to its nearest side, negative.
   double distance(const Vec2& point) const {
     const Vec2 beyond = (turn.transpose() * (point - centre)).cwiseAbs() - half;
     return beyond.maxCoeff() <= 0 ? beyond.maxCoeff() : beyond.cwiseMax(0).norm();
   }
-  // Largest gap between this box and points along one of its axes; negative where they overlap.
+  // Largest gap between this box and points along one of its axes; negative if they overlap.
   double gap(const std::array<Vec2, 4>& points) const {
     Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
     for (const Vec2& point : points) {
@@ -44,8 +44,8 @@ struct TurnedBox {
   }
 };
 
-// Distance of two boxes: apart, a corner of one is closest; overlapping, minus the distance out (separating
-// axes, Gottschalk 1996).
+// Distance of two boxes: apart, a corner of one is closest; overlapping, minus the separating translation
+// (separating axes, Gottschalk 1996).
 double box_distance(const TurnedBox& a, const TurnedBox& b) {
   const auto of_a = a.corners(), of_b = b.corners();
   const double gap = std::max(a.gap(of_b), b.gap(of_a));

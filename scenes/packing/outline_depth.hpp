@@ -1,4 +1,4 @@
-// How deep placed outlines reach into each other.
+// Penetration depth of placed outlines.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace pulvis {
 
-// Outlines that are no rounded boxes are looked at as inscribed polygons with this deviation, of the root of
-// their area: two that touch are apart, and an overlap below twice of it is not seen.
+// Outlines other than rounded boxes are treated as inscribed polygons with this deviation, relative to the
+// root of their area: touching ones count as apart, and an overlap below twice of it is not detected.
 inline constexpr double check_deviation = 1e-4;
 
 std::vector<Vec2> check_polygon(const Outline& outline);
@@ -18,14 +18,14 @@ class OutlineDepths {
  public:
   explicit OutlineDepths(const Scene& scene);
 
-  // m, negative where they are apart; between rounded boxes exact.
+  // m, negative if they are apart; exact between rounded boxes.
   double between(const BodySpec& a, const BodySpec& b);
 
  private:
   RigidPose pose(const BodySpec& body) const;
 
   std::vector<std::optional<RoundedBox>> boxes_;  // by class
-  std::vector<RigidShape> shapes_;                // by class; of all, where one is no box
+  std::vector<RigidShape> shapes_;                // by class; of all, if one is not a box
   double unit_ = 0;                               // m
   RigidContacts contacts_;
 };

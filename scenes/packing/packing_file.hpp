@@ -1,5 +1,5 @@
-// Packings in files: `pulvis pack` writes them, [[packing]] with kind = "csv" reads them. Numbers are
-// written so that they are read back bit for bit.
+// Packing files: `pulvis pack` writes them, [[packing]] with kind = "csv" reads them. Numbers are
+// written so that reading them back gives identical bits.
 #pragma once
 
 #include "scenes/spec/scene.hpp"
@@ -10,7 +10,7 @@
 namespace pulvis {
 
 struct FiledParticle {
-  int particle = 0;  // position in Scene::particles
+  int particle = 0;  // index in Scene::particles
   double scale = 1;  // of its outline
   Vec2 position = Vec2::Zero();
   double angle = 0;
@@ -21,7 +21,7 @@ struct FiledPacking {
   std::optional<double> top;  // m, where a punch rests
 };
 
-// Throws SceneError at the file's line.
+// Throws SceneError with the line of the file.
 FiledPacking read_packing(const std::filesystem::path& file, const Scene& scene);
 
 // All particles of the scene.

@@ -1,4 +1,4 @@
-// What tables of packings have in common in two and three dimensions.
+// Shared parts of packing tables in two and three dimensions.
 #pragma once
 
 #include "scenes/language/csv_table.hpp"
@@ -10,10 +10,10 @@
 
 namespace pulvis {
 
-// Position of the class that a cell names. Throws SceneError, as all below.
+// Index of the class named in a cell. Throws SceneError, as do all functions below.
 int class_named_in(const csv::Table& table, std::size_t row, std::size_t column,
                    const std::vector<std::string>& names);
-std::vector<double> scales_in(const csv::Table& table);  // 1 where the table has none
+std::vector<double> scales_in(const csv::Table& table);  // 1 if the table has none
 std::optional<double> top_in(const csv::Table& table);   // m, of `# top: 0.1 m`
 
 template <class Particles>
@@ -25,7 +25,7 @@ int class_in(const csv::Table& table, std::size_t row, std::size_t column,
   return class_named_in(table, row, column, names);
 }
 
-// The name in the scene, of classes of one size that of the class that they are sizes of.
+// The class name in the scene; for classes of one size, that of the class that was scaled.
 template <class Particles>
 const std::string& name_of_class(const Particles& particles,
                                  const typename Particles::value_type& own) {

@@ -12,7 +12,7 @@
 namespace pulvis {
 namespace {
 
-// Evenly over a circle of radius 1.
+// Uniform in a circle of radius 1.
 Vec2 in_circle(portable::Random& random) {
   const double radius = std::sqrt(random.uniform());
   const double angle = random.between(0, 2 * std::numbers::pi);

@@ -1,7 +1,7 @@
-// How a random packing is made of rigid particles, in two and in three dimensions: they are thrown in, shaken, and pressed
-// together in small steps, until they are as dense as wanted or nothing moves any more; then shaken on and pressed again.
+// Generates a random packing of rigid particles, in two and three dimensions: they are scattered, shaken, and pressed
+// together in small steps, until they are as dense as required or nothing moves any more; then shaken and pressed again.
 //
-// A powder: scatter(height, random), shake(displacement, random), squeeze(height), relax(sweeps) -> whether no two overlap,
+// A powder has: scatter(height, random), shake(displacement, random), squeeze(height), relax(sweeps) -> true if no overlap,
 // poses(), restore(poses, height), height(), sweeps().
 #pragma once
 
@@ -12,29 +12,29 @@
 
 namespace pulvis {
 
-// Shares of a mean diameter, or of the height.
+// Relative to a mean diameter, or to the height.
 struct PressSteps {
-  double loosest = 0.45;     // density to start from; less where particles find no room
+  double loosest = 0.45;     // initial density; lower if particles find no room
   double first_step = 0.01;  // of the punch
   double widest_step = 0.02;
-  double last_step = 3e-4;    // a punch that cannot go so far rests
+  double last_step = 3e-4;    // the punch rests if it cannot move this far
   double quick_step = 0.005;  // after shaking
-  double faster = 1.3;        // next step after an easy one
+  double faster = 1.3;        // growth of the step after an easy one
   int easy_sweeps = 60;
-  int max_sweeps = 300;     // of one step
+  int max_sweeps = 300;     // in one step
   double vibration = 0.02;  // displacement of a particle in one step
-  double mixing = 0.15;     // displacement of a particle in one shaking of the loose powder
+  double mixing = 0.15;     // displacement of a particle in one shake of the loose powder
   int mixings = 30;
-  double hard_vibration = 0.05;  // of one between pressings
+  double hard_vibration = 0.05;  // displacement in one vibration between pressings
   int vibrations = 10;
   double lift = 0.02;  // of the punch between pressings
-  int patience = 12;   // pressings without gain
-  double gain = 2e-4;  // that counts
+  int patience = 12;   // pressings without gain before stopping
+  double gain = 2e-4;  // smallest increase that counts as gain
 };
 
 struct PressOrder {
-  double min_height = 0;        // the punch goes no farther
-  std::int64_t max_sweeps = 0;  // no shaking any more beyond these; 0: none at all
+  double min_height = 0;        // the punch does not go below it
+  std::int64_t max_sweeps = 0;  // no shaking beyond this number; 0: none at all
   std::uint64_t seed = 1;
 };
 
@@ -44,7 +44,7 @@ class Press {
   Press(Powder& powder, const PressOrder& order, const PressSteps& steps = {})
       : powder_(powder), order_(order), steps_(steps), random_(order.seed) {}
 
-  // `height_at`: by the density.
+  // `height_at`: height as a function of density.
   template <class HeightAt>
   void run(const HeightAt& height_at) {
     throw_in(height_at);
@@ -63,12 +63,12 @@ class Press {
     } while (!powder_.relax(10 * steps_.max_sweeps) && density > 1e-3);
   }
 
-  // Where particles were thrown chance has left holes and heaps, which shaking evens out while there is room.
+  // Random placement has left holes and heaps, which shaking evens out while there is room.
   void mix() { vibrate(steps_.mixing, steps_.mixings); }
 
   bool at_rest_on_stop() const { return powder_.height() <= order_.min_height; }
 
-  // The punch goes down as far as it can.
+  // The punch moves down as far as it can.
   void press(double step) {
     while (step > steps_.last_step && !at_rest_on_stop()) {
       const auto poses = powder_.poses();
@@ -85,7 +85,7 @@ class Press {
     }
   }
 
-  // Lifted a little, shaken, pressed again; the densest state is kept.
+  // Lifted slightly, shaken, pressed again; the densest state is kept.
   void shake_on() {
     auto best = powder_.poses();
     double minimum = powder_.height(), mark = minimum;

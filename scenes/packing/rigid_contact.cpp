@@ -13,15 +13,15 @@ using portable::Turn;
 using portable::V2;
 
 constexpr double none = std::numeric_limits<double>::lowest();
-constexpr double hair = 1e-9;  // share of a diameter, below which two gaps count as equal
+constexpr double hair = 1e-9;  // fraction of a diameter below which two gaps count as equal
 
 struct Widest {
   double gap = none;
   std::size_t side = 0;    // of the piece
-  std::size_t corner = 0;  // of the other one, deepest behind that side
+  std::size_t corner = 0;  // of the other piece, deepest behind that side
 };
 
-// The corner of a convex piece that lies deepest behind a side, sought from another one. Of two the first.
+// The corner of a convex piece that lies deepest behind a side, searched from a given corner. The first of two.
 std::size_t deepest_behind(V2 n, V2 from, const std::vector<V2>& corners, std::size_t begin) {
   const std::size_t count = corners.size();
   const auto gap = [&](std::size_t c) { return dot(n, corners[c] - from); };
@@ -42,9 +42,9 @@ std::size_t deepest_behind(V2 n, V2 from, const std::vector<V2>& corners, std::s
   return at;
 }
 
-// The side of `piece` that the other one lies farthest in front of, the first of several. From side to side the deepest
-// corner moves on by few. The other one's centre tells how far in front of a side it can lie at most: the side that promises
-// most is asked first, and those that promise less than it holds are not asked.
+// The side of `piece` with the largest gap to the other one, the first of several. From side to side the deepest
+// corner advances only a little. The other piece's centre gives an upper bound of the gap at each side: the side with the
+// largest bound is evaluated first, and sides whose bound is below the gap found are skipped.
 Widest widest_gap(const RigidPiece& piece, const RigidPiece& other, double enough) {
   const std::size_t sides = piece.normals.size();
   const auto promised = [&](std::size_t s) {
@@ -135,13 +135,13 @@ void RigidContacts::pieces(const RigidPiece& a, const RigidPiece& b, double rang
   if (!beside) return;  // the deepest corner lies in front of the side: that is the distance
   found_.resize(before);
   const V2 out = leader.normals.empty() ? V2{1, 0} : normals_sign_ * leader.normals[lead.side];
-  // (Of two stadiums end to end no side tells that they are apart.)
+  // (For two stadiums end to end, no side shows that they are apart.)
   if (lead.gap > -hair || lead.gap == none) return nearest(a, b, out, range);
   add(other.corners[lead.corner], leader.normals[lead.side],
       lead.gap - leader.radius - other.radius);
 }
 
-// The part of the other piece's side that lies in front of the leader's, by its ends.
+// The part of the other piece's side that lies in front of the leader's, given by its ends.
 void RigidContacts::sides(const RigidPiece& leader, const RigidPiece& other, std::size_t side,
                           std::size_t corner, double range) {
   const V2 n = leader.normals[side], from = leader.corners[side];
@@ -168,11 +168,11 @@ void RigidContacts::sides(const RigidPiece& leader, const RigidPiece& other, std
   if (end_share > begin_share) add_at(end_share);
 }
 
-// `out`: the normal where the two have a point in common.
+// `out`: the normal if the two have a point in common.
 void RigidContacts::nearest(const RigidPiece& a, const RigidPiece& b, V2 out, double range) {
   double minimum = std::numeric_limits<double>::max();
   V2 on_a, on_b;
-  // A corner this far from the circle around the other's corners cannot be nearest.
+  // A corner this far from the circle around the other piece's corners cannot be the nearest.
   const auto too_far = [&](V2 corner, const RigidPiece& piece) {
     const double reach = piece.reach - piece.radius, apart = length(corner - piece.centre) - reach;
     return apart > 0 && apart * apart > minimum;

@@ -1,4 +1,4 @@
-// Where two rigid particles touch, or come nearest to each other.
+// Contact points, or closest points, of two rigid particles.
 #pragma once
 
 #include "scenes/packing/rigid_shape.hpp"
@@ -16,9 +16,9 @@ struct RigidTouch {
   double gap;           // negative where they overlap
 };
 
-// The touches of two particles whose gap is below `range`: two where straight sides face each other, one
-// otherwise, for each pair of pieces. The least gap of them is the particles' distance; where pieces
-// overlap, minus the distance out of it (separating axes, Gottschalk 1996).
+// The contacts of two particles whose gap is below `range`: two where straight sides face each other,
+// otherwise one, for each pair of pieces. Their smallest gap is the particles' distance; where pieces
+// overlap, minus the minimum translation that separates them (separating axes, Gottschalk 1996).
 class RigidContacts {
  public:
   const std::vector<RigidTouch>& between(const RigidShape& a, const RigidPose& at_a,

@@ -1,7 +1,7 @@
-// Position-based dynamics of rigid bodies (Mueller et al. 2007; Jakobsen 2001): one overlap after the other
-// is taken away by moving and turning its two particles, in proportion to their mobilities, as an impulse
-// at the touch would. Sweeps over all pairs, forwards and backwards in turn, are Gauss-Seidel iterations
-// for a state without overlaps. No friction.
+// Position-based dynamics of rigid bodies (Mueller et al. 2007; Jakobsen 2001): one overlap after another
+// is removed by moving and rotating its two particles, in proportion to their mobilities, as an impulse
+// at the contact would. Sweeps over all pairs, alternately forwards and backwards, are Gauss-Seidel iterations
+// towards a state without overlaps. No friction.
 #include "scenes/packing/rigid_powder.hpp"
 
 #include <algorithm>
@@ -16,13 +16,13 @@ using portable::dot;
 using portable::Turn;
 using portable::V2;
 
-constexpr double list_range = 0.25;  // of a mean diameter: pairs this near are listed
+constexpr double list_range = 0.25;  // of a mean diameter: closer pairs are listed
 constexpr V2 tool_normals[4] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-constexpr double joint_share = 1.2;       // of the overlaps of two particles' touches, dealt out
-constexpr double max_displacement = 0.2;  // that one correction may move a particle
-constexpr double gap_range = 0.5;         // of a diameter: neighbours farther than this are none
-constexpr double kept_speed = 0.95;       // of the last sweep; without it pushes spread like heat
-constexpr double kept_margin = 0.1;       // of two margins, which a relaxed touch keeps
+constexpr double joint_share = 1.2;       // of the overlaps at two particles' contacts, shared out
+constexpr double max_displacement = 0.2;  // of a particle in one correction
+constexpr double gap_range = 0.5;         // of a diameter: farther particles are not neighbours
+constexpr double kept_speed = 0.95;       // from the last sweep; without it, displacements spread diffusively
+constexpr double kept_margin = 0.1;       // of two margins, which a relaxed contact keeps
 
 }  // namespace
 
@@ -81,7 +81,7 @@ bool RigidPowder::relax(int max_sweeps) {
   return false;
 }
 
-// Particles go on as they moved in the last sweep, but for a share that is lost.
+// Particles continue to move as in the last sweep, apart from a fraction that is lost.
 void RigidPowder::drift() {
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const Turn now = poses_[i].turn, then = before_[i].turn;
@@ -100,7 +100,7 @@ bool RigidPowder::lists_hold() const {
   return true;
 }
 
-// Cells as wide as two largest particles and the range; each looks at itself and at four of its
+// Cells as wide as two largest particles plus the range; each is checked against itself and four of its
 // neighbours.
 void RigidPowder::find_pairs(double range) {
   if (periodic_) return find_pairs_in_cell(range);
@@ -139,8 +139,8 @@ void RigidPowder::find_pairs(double range) {
   listed_ = poses_;
 }
 
-// The same for all particles brought home, with the cells of the grid beyond each border. Where the cell is narrower than
-// three of those, every image of every pair is looked at.
+// The same for all particles moved into the cell, with the grid cells beyond each border. If the cell is narrower than
+// three of those, every image of every pair is checked.
 void RigidPowder::find_pairs_in_cell(double range) {
   const double cell = 2 * largest_reach_ + range;
   const int columns = static_cast<int>(width_ / cell), rows = static_cast<int>(height_ / cell);
@@ -209,7 +209,7 @@ double RigidPowder::sweep() {
   return worst;
 }
 
-// Moves particle i as a push along `correction` at `arm` from its centroid does, whose strength is the length of
+// Moves particle i like an impulse along `correction` at `arm` from its centroid, whose magnitude is the length of
 // `correction` in units of area.
 void RigidPowder::correct(std::size_t i, V2 arm, V2 correction) {
   const RigidShape& s = shape(i);
@@ -263,7 +263,7 @@ void RigidPowder::touches_with_tools(std::size_t i, double range,
   }
 }
 
-// Of each tool the deepest corner, then again the deepest: where a flat side lies on a tool the other end.
+// For each tool, the deepest corner, then the deepest again: for a flat side on a tool, its other end.
 double RigidPowder::push_from_tools(std::size_t i) {
   double worst = 0;
   for (int round = 0; round < 2; ++round) {
@@ -336,7 +336,7 @@ std::vector<std::array<double, 3>> RigidPowder::near_gaps(double touching, int& 
       note(i, minimum);
     }
   }
-  listed_.clear();  // these lists are too long to work with
+  listed_.clear();  // these lists are too long to use
   return gaps;
 }
 

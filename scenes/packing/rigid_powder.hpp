@@ -1,5 +1,5 @@
-// Rigid particles between the walls, floor and top punch of a die, or in a periodic cell: pushed out of each other, shaken,
-// squeezed. Lengths in units of a mean diameter; the left wall and the floor go through the origin.
+// Rigid particles between the walls, floor and top punch of a die, or in a periodic cell: separated, shaken and
+// squeezed. Lengths in units of a mean diameter; the left wall and the floor pass through the origin.
 #pragma once
 
 #include "scenes/packing/rigid_contact.hpp"
@@ -12,16 +12,16 @@ namespace pulvis {
 
 class RigidPowder {
  public:
-  // `margin`: particles are pushed apart as if each were wider by this all around, so that what is left
-  // of their overlap at the end is a gap.
+  // `margin`: particles are separated as if each were larger by this all around, so that any overlap left
+  // at the end is still a gap.
   RigidPowder(std::vector<RigidShape> shapes, std::vector<int> shape_of, double width,
               double margin, bool periodic = false);
 
-  void scatter(double height, portable::Random& random);  // anywhere, overlaps and all
-  void squeeze(double height);  // every particle's place is scaled with it
-  void shake(double displacement, portable::Random& random);  // every particle by up to so much
+  void scatter(double height, portable::Random& random);  // anywhere, overlaps allowed
+  void squeeze(double height);  // scales all particle positions with it
+  void shake(double displacement, portable::Random& random);  // every particle by at most this
 
-  // Pushes particles apart until no two overlap; false where that takes more than so many sweeps.
+  // Separates particles until no two overlap; false if that takes more than `max_sweeps`.
   bool relax(int max_sweeps);
 
   double height() const { return height_; }
@@ -30,18 +30,18 @@ class RigidPowder {
   void restore(const std::vector<RigidPose>& poses, double height);
   std::int64_t sweeps() const { return sweeps_; }
 
-  double min_gap();  // of all particles to each other and to the tools; negative where they overlap
-  // Gaps of every particle to its three nearest neighbours, tools being neighbours, in its diameters; a
-  // particle without one within half a diameter counts half a diameter. `touches`: pairs of particles
+  double min_gap();  // of all particles to each other and to the tools; negative if they overlap
+  // Gaps of every particle to its three nearest neighbours, tools included, in its diameters; without a neighbour
+  // within half a diameter, half a diameter is used. `touches`: pairs of particles
   // whose gap is below `touching` diameters of the smaller one.
   std::vector<std::array<double, 3>> near_gaps(double touching, int& touches);
 
  private:
   struct Pair {
     std::int32_t a, b;
-    std::int32_t x = 0, y = 0;  // periods by which b is moved
+    std::int32_t x = 0, y = 0;  // periods by which b is shifted
   };
-  struct Home {  // periods that bring a particle into the cell
+  struct Home {  // periods that move a particle into the cell
     std::int32_t x = 0, y = 0;
   };
   RigidPose image(const Pair& pair) const {
@@ -56,7 +56,7 @@ class RigidPowder {
   void find_pairs(double range);
   bool lists_hold() const;
   void drift();
-  double sweep();  // largest overlap it met
+  double sweep();  // largest overlap found
   double push(const Pair& pair);
   double push_from_tools(std::size_t i);
   void correct(std::size_t i, portable::V2 arm, portable::V2 correction);
@@ -69,8 +69,8 @@ class RigidPowder {
   double height_ = 0;
   double largest_reach_ = 0;
   std::vector<RigidPose> poses_;
-  std::vector<RigidPose> before_;  // the last sweep
-  std::vector<RigidPose> listed_;  // where particles were when the pairs were found
+  std::vector<RigidPose> before_;  // from the last sweep
+  std::vector<RigidPose> listed_;  // positions when the pairs were found
   std::vector<Pair> pairs_;
   RigidContacts contacts_;
   std::vector<RigidTouch> tool_touches_;

@@ -15,7 +15,7 @@ using portable::V2;
 
 constexpr std::size_t max_corners = 240;
 
-// Corners that came from a library's sine may differ in their last bits: on this grid they do not.
+// Corners computed with a library's sine may differ in their last bits: on this grid they do not.
 V2 on_grid(V2 p) {
   constexpr double grid = 0x1p-34;
   return {grid * std::round(p.x / grid), grid * std::round(p.y / grid)};
@@ -27,7 +27,7 @@ struct Moments {  // of area
   double polar = 0;  // about the origin
 };
 
-// By triangles with the origin (Green's theorem).
+// From triangles with the origin (Green's theorem).
 Moments moments_of(const std::vector<V2>& polygon) {
   Moments m;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -83,8 +83,8 @@ double width_along(const RigidShape& shape, V2 n) {
   return high - low;
 }
 
-// The least one is square to a side of the convex hull; the sides of the pieces and a fan of directions
-// come near enough to it for what this is asked: whether a particle fits into its die.
+// The minimum is normal to a side of the convex hull; the sides of the pieces and a fan of directions
+// approximate it well enough for the purpose: whether a particle fits into its die.
 double min_width(const RigidShape& shape) {
   constexpr int fan = 64;
   double minimum = std::numeric_limits<double>::max();
@@ -113,7 +113,7 @@ void measure(RigidShape& shape, const Moments& moments) {
   shape.min_width = min_width(shape);
 }
 
-// Whether the side from one corner to another leaves none of those between by more than `deviation`.
+// Whether no corner in between is farther than `deviation` from the side that connects the two.
 bool is_near(const std::vector<Vec2>& corners, std::size_t from, std::size_t to, double deviation) {
   const Vec2 a = corners[from], along = corners[to % corners.size()] - a;
   const double length = along.norm();
@@ -136,12 +136,12 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& corners, double deviation) {
   return kept;
 }
 
-// Of few enough corners: `deviation` grows to what that takes.
+// With few enough corners: `deviation` grows as needed.
 std::vector<Vec2> rigid_polygon(const Outline& outline, double& deviation) {
   std::vector<Vec2> points = outline_polygon(outline, deviation);
   for (; points.size() > max_corners; deviation *= 2) {
     std::vector<Vec2> coarser = outline_polygon(outline, 2 * deviation);
-    // A curve through many points keeps a corner at each of them, however coarse.
+    // A curve through many points keeps a corner at each, however coarse.
     if (coarser.size() == points.size()) coarser = thinned(points, deviation);
     points = std::move(coarser);
   }

@@ -1,4 +1,4 @@
-// Outlines as rigid bodies, for packing them: convex pieces, each a polygon and all points within a radius
+// Outlines as rigid bodies, for packing: convex pieces, each a polygon plus all points within a radius
 // of it. A disc is one point with a radius, a rounded rectangle a rectangle with one.
 #pragma once
 
@@ -10,9 +10,9 @@
 namespace pulvis {
 
 struct RigidPiece {
-  std::vector<portable::V2> corners;  // counter-clockwise; one of a disc, two of a stadium
+  std::vector<portable::V2> corners;  // counter-clockwise; one for a disc, two for a stadium
   std::vector<portable::V2>
-      normals;  // outward, of the side from a corner to the next; none of a point
+      normals;  // outward, of the side from a corner to the next; none for a point
   double radius = 0;
   portable::V2 centre;  // of a circle around the piece
   double reach = 0;     // its radius
@@ -22,8 +22,8 @@ struct RigidPiece {
 
 struct RigidShape {
   std::vector<RigidPiece> pieces;
-  portable::V2 centroid;  // of the outline, in the outline's own frame; the pieces count from it
-  double reach = 0;       // farthest point from the centroid
+  portable::V2 centroid;  // of the outline, in the outline's local frame; the pieces are relative to it
+  double reach = 0;       // distance of the farthest point from the centroid
   double area = 0;        // of the outline without holes: what no other particle can enter
   double gyration = 0;    // square of the radius of gyration about the centroid
   double diameter = 0;    // of the disc of the same area
@@ -31,11 +31,11 @@ struct RigidShape {
   bool operator==(const RigidShape&) const = default;
 };
 
-// Of an outline that is no rounded box itself the pieces either contain it, reaching beyond it by at most
+// For an outline that is not a rounded box, the pieces either contain it, extending beyond it by at most
 // `deviation`, or lie inside.
 enum class Fit { around, inside };
 
-// In units of `unit` (m). `deviation` (m) is more where an outline would need too many corners.
+// In units of `unit` (m). `deviation` (m) is larger where an outline would need too many corners.
 RigidShape rigid_shape(const Outline& outline, double unit, double deviation,
                        Fit fit = Fit::around);
 

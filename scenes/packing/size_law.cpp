@@ -13,18 +13,18 @@
 namespace pulvis {
 namespace {
 
-constexpr int samples = 256;         // of every part of a law, by the midpoint rule
-constexpr double normal_limits = 3;  // deviations from the mean, where nothing else is said
+constexpr int samples = 256;         // for every part of a law, by the midpoint rule
+constexpr double normal_limits = 3;  // standard deviations from the mean, by default
 
-constexpr double min_size = 1e-12;  // m, of a sieve: less is no powder
+constexpr double min_size = 1e-12;  // m, of a sieve: smaller sizes are not a powder
 
-using Quantile = std::function<double(double)>;  // size by the share that is smaller
+using Quantile = std::function<double(double)>;  // size as a function of the smaller share
 
 Quantile uniform(const SizeLaw& law) {
   return [a = *law.minimum, b = *law.maximum](double p) { return a + (b - a) * p; };
 }
 
-// The part of the standard normal law between two limits.
+// The part of the standard normal distribution between two limits.
 Quantile cut_normal(double low, double high) {
   const double from = portable::normal_probability(low);
   const double to = portable::normal_probability(high);
@@ -40,7 +40,7 @@ Quantile normal(const SizeLaw& law) {
   return [=, m = law.mean, d = law.deviation](double p) { return m + d * z(p); };
 }
 
-// With mean m and deviation s of the size itself: sigma^2 = log(1 + s^2/m^2), mu = log m - sigma^2/2.
+// For mean m and deviation s of the size itself: sigma^2 = log(1 + s^2/m^2), mu = log m - sigma^2/2.
 Quantile lognormal(const SizeLaw& law) {
   const double ratio = law.deviation / law.mean;
   const double variance = portable::log(1 + ratio * ratio), sigma = std::sqrt(variance);
@@ -110,7 +110,7 @@ SieveCurve read_sieve_curve(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < size.size(); ++i) curve.push_back({size[i], passing[i]});
   for (std::size_t i = 0; i < curve.size(); ++i) check_point(table, i, curve);
   if (curve.size() < 2) csv::refuse(table, 0, 0, "one sieve, allowed: at least two");
-  // Flat parts at the ends hold no particles, and no quantile.
+  // Flat parts at the ends contain no particles and have no quantile.
   while (curve[1].passing == 0) curve.erase(curve.begin());
   while (curve[curve.size() - 2].passing == 1) curve.pop_back();
   return curve;
@@ -141,7 +141,7 @@ std::vector<SizeShare> sizes_of(const SizeLaw& law, const SieveCurve& curve, int
 std::vector<int> apportioned(int total, const std::vector<double>& shares) {
   const double whole = std::accumulate(shares.begin(), shares.end(), 0.0);
   std::vector<int> numbers;
-  std::vector<std::pair<double, std::size_t>> rest;  // what is missing, negative: largest first
+  std::vector<std::pair<double, std::size_t>> rest;  // negative remainder: largest first
   int given = 0;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const double wanted = total * (shares[i] / whole);

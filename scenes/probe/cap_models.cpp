@@ -15,10 +15,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double transition = cap_transition;
-constexpr double open = 0.1;         // of the largest pressure in the plane
-constexpr double other_side = 0.05;  // q below 0 by so much of the largest pressure
-// Weight of the logarithms' distance to the start, beside distances over the largest pressure: it decides where the points do
-// not, such as on the cohesion of a powder without any.
+constexpr double open = 0.1;         // fraction of the largest in-plane pressure
+constexpr double other_side = 0.05;  // q below 0 by this fraction of the largest pressure
+// Weight of the logarithms' distance from the start, relative to distances over the largest pressure: it decides where the
+// points do not, such as for the cohesion of a cohesionless powder.
 constexpr double prior = 0.005;
 using Values = Eigen::VectorXd;
 
@@ -37,13 +37,13 @@ struct Model {
   const char* name;
   std::vector<const char*> parameters;
   bool in_plane;
-  // Parameters to start from, all > 0; of the largest pressure and shear. The best of them is taken.
+  // Initial parameters, all > 0; from the largest pressure and shear. The best fit is taken.
   std::function<std::vector<Values>(double p, double q)> starts;
   std::function<bool(const Values& x, double p, double q)> elastic;
 };
 
-// Abaqus Theory Guide, modified Drucker-Prager/Cap: shear failure q = d + p tan(beta); cap an ellipse about p_a of radius
-// R (d + p_a tan(beta)); between them an arc.
+// Abaqus Theory Guide, modified Drucker-Prager/Cap: shear failure q = d + p tan(beta); cap an ellipse at p_a with radius
+// R (d + p_a tan(beta)); a transition arc between them.
 bool in_cap(const Values& x, double p, double q) {
   const double d = x[0], slope = portable::tan(x[1]), r = x[2], p_b = x[3];
   const double p_a = std::max((p_b - r * d) / (1 + r * slope), -d / slope);
@@ -73,12 +73,12 @@ bool in_gurson(const Values& x, double f, double p, double q) {
   return shear * shear + 2 * f * cosh_of(1.5 * p / x[0]) <= 1 + f * f;
 }
 
-// Contacts over all directions, those that close bear c: sigma = c int n n over them. With closing ones within theta of the
-// axis, p = c theta and tau = c/2 sin(2 theta).
+// Contacts in all directions; closing ones carry c: sigma = c int n n over them. If those within theta of the axis close,
+// p = c theta and tau = c/2 sin(2 theta).
 bool in_fleck_plane(const Values& x, double p, double tau) {
   return p >= 0 && p <= x[0] && tau <= x[0] / pi * portable::sin(pi * p / x[0]);
 }
-// The others bear -c.
+// The other contacts carry -c.
 bool in_fleck_plane_cohesive(const Values& x, double p, double tau) {
   return std::abs(p) <= x[0] && tau <= 2 * x[0] / pi * portable::cos(0.5 * pi * p / x[0]);
 }
@@ -147,7 +147,7 @@ double radius(const Model& model, const Values& x, double centre, double cosine,
   return low;
 }
 
-// Residuals over the logarithms of the parameters, which keeps them above 0: of the points, then of the prior.
+// Residuals as functions of the logarithms of the parameters, which keeps them positive: of the points, then the prior.
 struct Misfit {
   const Model& model;
   const std::vector<Plane>& points;
@@ -181,7 +181,7 @@ Fit fit_from(const Model& model, const std::vector<Plane>& points, double p_max,
   misfit(x, residuals);
   double squares = 0, n = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].p == 0 && points[i].q == 0) continue;  // no point of a probe
+    if (points[i].p == 0 && points[i].q == 0) continue;  // not a probe's point
     const double one = residuals[static_cast<Eigen::Index>(i)];
     squares += one * one, n += 1;
   }

@@ -1,4 +1,4 @@
-// Fitted caps as input that continuum codes read. Units: Pa; densities are relative.
+// Fitted caps as input blocks for continuum codes. Units: Pa; densities are relative.
 #pragma once
 
 #include <string>
@@ -23,20 +23,20 @@ struct CapRow {
 };
 
 // Abaqus: *ELASTIC and *CAP PLASTICITY against the relative density as field variable 1, *CAP HARDENING from p_b against the
-// volumetric plastic strain ln(density / first density). Rows by rising density.
+// volumetric plastic strain ln(density / first density). Rows in order of increasing density.
 std::string abaqus_block(const std::string& name, const std::vector<CapRow>& rows);
 
-// The slopes that Cam-Clay hardens and unloads with, of the void ratio e = (1 - density)/density: lambda = -de/d ln(p_c) over
+// The compression and swelling slopes of Cam-Clay, from the void ratio e = (1 - density)/density: lambda = -de/d ln(p_c) over
 // all rows by least squares, kappa = (1 + e) p/K at p_c/2 with the bulk modulus of the middle row.
 struct CamClay {
   double porosity = 0, lambda = 0, kappa = 0, m = 0, p_c = 0;  // of the first row, at rest
 };
 CamClay cam_clay_of(const std::vector<CapRow>& rows);
 
-// code_aster: DEFI_MATERIAU with CAM_CLAY, for the first of the rows. Fewer than two rows: empty, there is no slope.
+// code_aster: DEFI_MATERIAU with CAM_CLAY, for the first row. Fewer than two rows: empty, since no slope is defined.
 std::string code_aster_block(const std::string& name, const std::vector<CapRow>& rows);
 
-// Reads back what abaqus_block wrote, as somebody who pastes it would: rows of density, moduli and cap.
+// Reads back what abaqus_block wrote, as a user of the block would: rows of density, moduli and cap.
 std::vector<CapRow> read_abaqus_block(const std::string& text);
 
 }  // namespace pulvis

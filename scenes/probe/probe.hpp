@@ -1,4 +1,4 @@
-// A probe: powders loaded along paths in a periodic cell, and from their states at set densities probed in many directions
+// A probe: powders loaded along paths in a periodic cell; their states at given densities are probed in many directions
 // for the stress at which they yield.
 #pragma once
 
@@ -19,21 +19,21 @@ struct ProbePath {  // [[path]]
 struct ProbeSpec {
   enum class Control { strain, stress };
   std::string title;
-  std::vector<double> densities;       // -, relative, rising
-  std::vector<std::int64_t> seeds;     // none: each scene's own
+  std::vector<double> densities;       // -, relative, increasing
+  std::vector<std::int64_t> seeds;     // none: those of each scene
   std::vector<std::string> overrides;  // as for --set
   std::vector<ProbePath> paths;
   Control control = Control::strain;
   int directions = 12;
   double size = 0.02;            // -, strain; or stress over the pressure of the state
-  double duration = 0;           // s, of a probe, and of the release before it
-  double release = 0.5;          // -, of the state's stress
-  double elastic_strain = 2e-4;  // -, until which a probe is taken as elastic
+  double duration = 0;           // s, of a probe, and of the unloading before it
+  double release = 0.5;          // -, fraction of the state's stress
+  double elastic_strain = 2e-4;  // -, up to which a probe is treated as elastic
   double offset_strain = 0.002;  // -
-  double dissipation = 0.002;    // -, of pressure times volume
+  double dissipation = 0.002;    // -, fraction of pressure times volume
 };
 
-// A run that loads a powder, along one path and with one seed; it keeps a state at each density.
+// A run that loads a powder, along one path and with one seed; it saves a state at each density.
 struct ProbeLoading {
   std::string name;  // "isostatic,seed=1"
   std::string path;

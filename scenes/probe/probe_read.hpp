@@ -1,4 +1,4 @@
-// Reads a probe file and the scenes of its paths. Everything that is wrong is thrown as one SceneError before anything runs.
+// Reads a probe file and the scenes of its paths. All errors are thrown as one SceneError before anything runs.
 #pragma once
 
 #include <string>

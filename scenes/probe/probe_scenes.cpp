@@ -12,7 +12,7 @@
 namespace pulvis {
 namespace {
 
-constexpr std::int64_t samples = 400, frames = 2;  // of a probe
+constexpr std::int64_t samples = 400, frames = 2;  // per probe
 
 document::Value parsed_table(const std::string& text) { return {document::parse(text), {}}; }
 
@@ -23,7 +23,7 @@ void set(document::Table& table, const std::string& key, document::Value value) 
     table.push_back({key, {}, std::move(value)});
 }
 
-// What is expected of the path's own scene is not expected of these.
+// Expectations of the path's own scene do not apply to these.
 document::Table without_expectations(const LoadedScene& scene) {
   document::Table root = document::parse(scene.text);
   std::erase_if(root, [](const document::Entry& entry) { return entry.key == "expect"; });

@@ -1,4 +1,4 @@
-// The scenes that a probe runs, as TOML: made from those of its paths.
+// The scenes that a probe runs, as TOML: derived from those of its paths.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace pulvis {
 
-// The scene of the path, its last stage once for every density, whose state is kept. A density's stage is called by it.
+// The path's scene, its last stage repeated for every density, where the state is saved. Stages are named by density.
 std::string loading_scene(const LoadedScene& scene, const ProbeSpec& spec);
 std::string density_name(double density);  // "0.85"
 
-// From a state: unloaded, then probed. `angle` in rad; none: sheared.
+// Starts from a state: unloads, then probes. `angle` in rad; none: shear.
 struct ProbeStart {
-  std::string state;               // path of the file, from the scene's folder
+  std::string state;               // path of the file, relative to the scene's folder
   std::array<double, 2> stress{};  // Pa, of the state: xx yy
   double pressure = 0;             // Pa, of the state
 };

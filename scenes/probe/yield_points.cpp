@@ -12,7 +12,7 @@ namespace {
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-// Strain less elastic strain, xx and yy.
+// Total strain minus elastic strain, xx and yy.
 std::array<double, 2> plastic_strain(const ProbeCurve& curve, const PowderModuli& m,
                                      std::size_t i) {
   const double sx = curve.stress[i][0] - curve.stress[0][0];
@@ -22,7 +22,7 @@ std::array<double, 2> plastic_strain(const ProbeCurve& curve, const PowderModuli
           curve.strain[i][1] - (m.c11 * sy - m.c12 * sx) / det};
 }
 
-// Of the sample before which, and the share of the way from it, at which `measure` first passes `bound`.
+// The sample before which `measure` first reaches `bound`, and the fraction of that interval.
 struct Passing {
   std::size_t after;
   double share;
@@ -45,7 +45,7 @@ YieldPoint point_at(const ProbeCurve& curve, const PowderModuli& moduli, const P
     point.stress[k] =
         (1 - at.share) * curve.stress[at.after - 1][k] + at.share * curve.stress[at.after][k];
   const auto now = plastic_strain(curve, moduli, at.after);
-  // Its direction: of what comes until it is half as much again.
+  // Its direction: from the increment until it has grown by half.
   const double wanted = 1.5 * length(now[0], now[1]);
   std::size_t end = at.after;
   auto later = now;
@@ -135,7 +135,7 @@ void find_normality(std::vector<YieldPoint>& points, const std::array<double, 2>
     const double size = length(tx, ty);
     const auto& plastic = points[i].plastic;
     if (size == 0 || (plastic[0] == 0 && plastic[1] == 0)) continue;
-    // Outwards of a surface that is gone round counter-clockwise: (ty, -tx).
+    // Outward normal of a surface traversed counter-clockwise: (ty, -tx).
     const double cosine = (ty * plastic[0] - tx * plastic[1]) / size;
     points[i].normality = portable::acos(std::clamp(cosine, -1.0, 1.0));
   }

@@ -19,14 +19,14 @@
 namespace pulvis {
 namespace {
 
-constexpr std::int64_t steps_between = 256;  // looks, at least
-constexpr std::int64_t most_wait = 64;       // times as many, where nothing was gained
-constexpr double tolerance = 0.1;            // of the slowest over the mean
-constexpr double least_gain = 0.05;          // of the slowest
-constexpr std::size_t least_steps = 32;      // whose median counts
+constexpr std::int64_t steps_between = 256;  // between checks, at least
+constexpr std::int64_t most_wait = 64;       // times as many, if nothing was gained
+constexpr double tolerance = 0.1;            // slowest rank over the mean, minus 1
+constexpr double least_gain = 0.05;          // fraction of the slowest rank's cost
+constexpr std::size_t least_steps = 32;      // for a meaningful median
 
-// What a row takes in a plastic element's time, and what more if it touches: from the systems' seconds in
-// summary.json of regular-25, hexagonal-1683 and random-100-copper. Only how a rank's cost is dealt out depends on them.
+// Cost of a row in units of a plastic element's time, and extra cost if it touches: from the systems' seconds in
+// summary.json of regular-25, hexagonal-1683 and random-100-copper. Used only to split a rank's cost over its chunks.
 struct RowCost {
   double row, touching;
 };
@@ -34,7 +34,7 @@ constexpr RowCost plane_row{0.05, 7}, space_row{0.2, 15};
 
 struct ChunkCost {
   std::array<double, 3> centre;  // m
-  double weight;                 // elements' time
+  double weight;                 // in element times
 };
 
 template <class P>
@@ -55,7 +55,7 @@ std::array<double, 3> centre_of(const World& share, const Bodies& bodies, int ch
   return sum;
 }
 
-// Rows of a chunk in elements' time.
+// Cost of a chunk's rows, in element times.
 template <class At>
 double rows_cost(const World& share, const std::vector<std::int32_t>& begin, int chunk,
                  RowCost cost) {
@@ -134,7 +134,7 @@ bool Balance::divide() {
   return true;
 }
 
-// Empty where all stays as it is.
+// Empty if nothing changes.
 std::vector<int> Balance::new_owners(const std::vector<Ranks::Bytes>& told) {
   if (!costs_ && imbalance_of(seconds_) <= tolerance) return {};
   const std::vector<int>& now = share_.resource<RankLink>().owner;
@@ -157,7 +157,7 @@ std::vector<int> Balance::new_owners(const std::vector<Ranks::Bytes>& told) {
   return owner != now && (costs_ || pays(cost, owner)) ? owner : std::vector<int>();
 }
 
-// What the slowest rank saves until the next look is more than the last rebalancing took, and no mere noise.
+// Whether the slowest rank saves more until the next check than the last rebalancing cost, and more than noise.
 bool Balance::pays(const std::vector<double>& cost, const std::vector<int>& owner) const {
   std::vector<double> then(seconds_.size());
   for (std::size_t chunk = 0; chunk < cost.size(); ++chunk)
@@ -167,7 +167,7 @@ bool Balance::pays(const std::vector<double>& cost, const std::vector<int>& owne
   return gain > least_gain * slowest && gain * static_cast<double>(every_ * wait_) > price;
 }
 
-// Whether the last rebalancing was of use: where not, the next look is put off.
+// Checks if the last rebalancing reduced the imbalance: if not, the next check is postponed.
 void Balance::compare() {
   wants_after_ = false;
   if (costs_) return;

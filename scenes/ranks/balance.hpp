@@ -1,9 +1,9 @@
-// Load balance: which chunks each rank owns, by what its steps have taken.
+// Load balancing: decides which chunks each rank owns, from the measured time of its steps.
 //
-// The cost of a rank is the processor time of its threads in a step, without that in which it waits for others: the median
-// over the steps since the last look. It is dealt out to its chunks by their elements and contact rows. Where the slowest
-// rank is slower than the mean by more than a tenth, chunks are divided anew by these costs and the positions they have by
-// now. Times decide who computes what, and no bit of it.
+// The cost of a rank is the processor time of its threads per step, excluding time spent waiting for others: the median
+// over the steps since the last check. It is split over its chunks by their elements and contact rows. If the slowest
+// rank is slower than the mean by more than a tenth, chunks are redistributed by these costs and their current
+// positions. Timings decide who computes what, but never change a bit of the result.
 #pragma once
 
 #include <cstdint>
@@ -16,43 +16,43 @@
 
 namespace pulvis {
 
-// A migration: chunks that went to other ranks.
+// A migration: chunks that moved to other ranks.
 struct Rebalancing {
-  std::int64_t step = 0;  // after it
+  std::int64_t step = 0;  // the step it follows
   int chunks = 0;
   double seconds = 0;  // that it took
-  // s, own work of every rank in a step; `after` is empty where it is not known yet.
+  // s, own work of every rank per step; `after` is empty if not yet known.
   std::vector<double> before, after;
 };
 
-// Of the slowest over the mean.
+// Slowest rank over the mean, minus 1.
 double imbalance_of(const std::vector<double>& seconds);
 
 class Balance {
  public:
-  // Of every chunk, > 0, in any unit.
+  // For every chunk, > 0, in any unit.
   using Costs = std::function<std::vector<double>(std::int64_t step, int chunks)>;
 
   explicit Balance(World& share);
 
-  // Runs a step and takes its time.
+  // Runs a step and measures its time.
   template <class Step>
   void measure(const Step& step) {
     const double before = own_seconds();
     step();
     own_.push_back(own_seconds() - before);
   }
-  // Looks at the costs of all ranks. Collective. True where chunks have migrated: the step's graphs have to be made anew.
+  // Compares the costs of all ranks. Collective. True if chunks have migrated: the step's graphs must be rebuilt.
   bool divide();
-  // Of the steps since the last look, where they are enough; known on all ranks then. Collective.
+  // Shares the costs since the last check, if there are enough steps; all ranks know them then. Collective.
   void tell_costs();
 
-  // ---- of the root
+  // ---- only on the root
   bool is_due() const { return static_cast<std::int64_t>(own_.size()) >= every_ * wait_; }
-  // s, own work of every rank in a step; empty where it is not known.
+  // s, own work of every rank per step; empty if not known.
   const std::vector<double>& seconds() const { return seconds_; }
   const std::vector<Rebalancing>& rebalancings() const { return rebalancings_; }
-  // Instead of what steps take, `costs` say it, every so many steps, and no gain is too small.
+  // Uses `costs` instead of measured times, at this interval of steps, and accepts any gain, however small.
   void follow(std::int64_t every, Costs costs) {
     every_ = every;
     costs_ = std::move(costs);
@@ -66,12 +66,12 @@ class Balance {
 
   World& share_;
   Ranks& ranks_;
-  std::vector<double> own_;  // s, of every step since the last look
+  std::vector<double> own_;  // s, of every step since the last check
   std::vector<double> seconds_;
   std::vector<Rebalancing> rebalancings_;
-  bool wants_after_ = false;  // the last of them
+  bool wants_after_ = false;  // the last rebalancing has no `after` yet
   std::int64_t every_;
-  std::int64_t wait_ = 1;  // looks that are left out, and one
+  std::int64_t wait_ = 1;  // interval between checks, in multiples of `every_`
   Costs costs_;
 };
 

@@ -1,4 +1,4 @@
-// What goes from rank to rank: rows of columns as bytes.
+// What is sent from rank to rank: rows of columns as bytes.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace pulvis {
 
-// Kinds of entities whose rows stand in the order of their particles' slots, and are not divided by chunks.
+// Kinds of entities whose rows are ordered by their particles' slots, and are not divided by chunks.
 inline constexpr const char* row_entities[] = {Contact::name, ToolContact::name, FaceContact::name,
                                                FaceToolContact::name};
 inline bool is_with_tools(const std::string& entity) {
@@ -49,9 +49,9 @@ inline std::span<const std::byte> rows_of(const ColumnBase& column, std::size_t 
   return {column.data() + first * column.row_bytes, (last - first) * column.row_bytes};
 }
 
-// Slot, edge or face, other of every row; empty where the world has no such rows.
+// Slot, edge or face, other of every row; empty if the world has no such rows.
 std::span<const std::int32_t> keys_of(const World& world, const char* entity);
-// From them, where the rows of every slot begin: [slots + 1].
+// Computes from them where the rows of every slot begin: [slots + 1].
 std::vector<std::int32_t> begins_of(std::span<const std::int32_t> keys, std::size_t slots);
 
 }  // namespace pulvis

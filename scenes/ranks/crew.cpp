@@ -24,7 +24,7 @@ double peak_memory() {
   return static_cast<double>(usage.ru_maxrss) * 1024;
 }
 
-// Of a column, as Crew::numbers_of takes it.
+// Name of a column, as Crew::numbers_of expects it.
 template <class C>
 std::string name_of() {
   return fmt::format("{}/{}", C::Entity::name, C::info.name);

@@ -1,6 +1,6 @@
-// The ranks of a run under its root. The root drives the simulation, and tells the others before every call what is to be
-// done; they follow. Results are the root's alone: it has a second world, of the whole scene, into which what they need is
-// fetched, and which takes memory for no longer than they do.
+// The ranks of a run and their root. The root drives the simulation, and announces every call to the others, which
+// follow. Only the root produces results: it has a second world, of the whole scene, into which the necessary data are
+// fetched, and which uses memory only while results are written.
 #pragma once
 
 #include <memory>
@@ -16,23 +16,23 @@
 
 namespace pulvis {
 
-// What the root tells the others to do.
+// What the root orders the others to do.
 struct Order {
   enum class Kind {
     run,      // to a time
     observe,  // and fetch
     move,
     fetch,      // columns, index of rows
-    particles,  // values, of a field of the mesh or of the state
+    particles,  // values of a field of the mesh or of the state
     restore,
     leave
   };
   Kind kind = Kind::leave;
   double time = 0;                       // s
-  std::vector<std::uint64_t> columns{};  // numbers, of World::columns
+  std::vector<std::uint64_t> columns{};  // indices in World::columns
   bool rows = false;                     // their index
   std::string file{};                    // a checkpoint
-  std::uint64_t field = 0;               // of mesh_values; beyond them the state
+  std::uint64_t field = 0;               // of mesh_values; one past them: the state
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -42,48 +42,48 @@ struct Order {
 
 class Crew {
  public:
-  // `whole`: on the root, as build_whole_world made it. `values`: of the fields of the mesh, and last of the state.
+  // `whole`: on the root, from build_whole_world. `values`: of the fields of the mesh, and last of the state.
   Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
        std::vector<ParticleValues> values);
-  ~Crew();  // of the root it tells the others to leave; collective
+  ~Crew();  // on the root it tells the others to leave; collective
 
   bool leads() const { return ranks_.is_root(); }
-  // Of the root, to all.
+  // From the root to all.
   void tell(Order order);
-  // Of the others.
+  // On the others.
   Order listen();
-  // What follows a step: the root's answer, on all ranks.
+  // What follows a step: the root's decision, on all ranks.
   enum class Next : std::uint8_t { step, balance, stop };
   Next next(bool root_stops);
   Balance& balance() { return balance_; }
 
-  // What a rank does for it.
+  // A rank's part in a fetch.
   void fetch(const Order& order);
   void visit_particles(const Order& order, const ValueSink& take = {});
-  // Steps that were run through, and what this rank sent in them.
+  // What this rank has sent in all; `ran` adds steps and the bytes sent in them.
   std::uint64_t bytes_sent() const { return ranks_.bytes_sent(); }
   void ran(std::int64_t steps, std::uint64_t bytes) {
     steps_ += steps;
     bytes_ += static_cast<std::int64_t>(bytes);
   }
 
-  // ---- of the root
+  // ---- only on the root
   World& whole() { return *whole_; }
-  // `looks`: at what the observers of the whole look.
+  // `looks`: what the observers of the whole world read.
   Order fetch_sample(const std::vector<std::string>& looks) const;
   Order fetch_rows() const;     // index of the rows, for a checkpoint
-  Order fetch_history() const;  // and what the state's hash takes of those that touch
+  Order fetch_history() const;  // plus the data of touching rows that the state's hash needs
   Order state_of_all() const;
   Order fetch_start() const;
-  // What was last found in the whole, for as long as nothing is found anew.
+  // Restores what was last found in the whole, valid until the next search.
   void restore_findings(const Checkpoint& checkpoint);
-  // What was fetched takes no memory any more, but for small columns.
+  // Frees the memory of fetched data, except for small columns.
   void drop();
   void drop(const ColumnBase& column);
   std::size_t number_of(const ColumnBase& column) const;
-  // bytes, the most that each rank has held; known likewise.
+  // bytes, peak of each rank; known likewise.
   const std::vector<double>& memory() const { return memory_; }
-  double bytes_a_step() const {  // of all ranks together; known when rows were fetched
+  double bytes_a_step() const {  // all ranks together; known once rows were fetched
     return steps_ > 0 ? static_cast<double>(bytes_of_all_) / static_cast<double>(steps_) : 0;
   }
 
@@ -95,12 +95,12 @@ class Crew {
   Ranks& ranks_;
   std::vector<ParticleValues> values_;  // of fields, and last of the state
   Balance balance_;
-  bool needs_motion_;  // results look at nodes at every sample
+  bool needs_motion_;  // results read nodes at every sample
   std::int64_t steps_ = 0, bytes_ = 0, bytes_of_all_ = 0;
   std::vector<double> memory_;
 };
 
-// Throws SceneError where a run over several ranks cannot have what is in the scene.
+// Throws SceneError if the scene has something that a run over several ranks does not support.
 void require_ranks_can_run(const Scene& scene);
 
 }  // namespace pulvis

@@ -43,7 +43,7 @@ struct Division {
     const double wanted = all * low_ranks / ranks;
     std::size_t low = 0;
     double sum = 0;
-    // A chunk belongs to the side that has the greater part of it.
+    // A chunk belongs to the side that has the larger part of it.
     while (low < chunks.size() &&
            sum + 0.5 * cost[static_cast<std::size_t>(chunks[low])] < wanted)
       sum += cost[static_cast<std::size_t>(chunks[low++])];

@@ -19,7 +19,7 @@
 namespace pulvis {
 namespace {
 
-// Found by the step, or by the root where results are taken, and not what all ranks have alike.
+// Set by the step, or by the root when results are taken, and not identical on all ranks.
 bool is_of_a_share(const std::string& resource) {
   static const std::set<std::string> own{
       "bodies",        "rank_link",          "contact_index",      "contact_quality",
@@ -35,7 +35,7 @@ bool is_of_a_share(const std::string& resource) {
 Gatherer::Gatherer(World& share, World* whole)
     : share_(share), whole_(whole), ranks_(*share.resource<RankLink>().ranks) {}
 
-// What each chunk has, of all ranks, in the order of the chunks; on the root.
+// Joins the data of every chunk from all ranks, in chunk order; on the root.
 std::vector<std::byte> Gatherer::joined(std::span<const std::byte> own,
                                          const std::vector<std::size_t>& bytes_of_chunk) {
   const std::vector<Ranks::Bytes> all = ranks_.gather(own);
@@ -55,7 +55,7 @@ std::vector<std::byte> Gatherer::joined(std::span<const std::byte> own,
 
 namespace {
 
-// What a column holds of a chunk. `begin`: first row of every slot, where it is of contact rows.
+// The part of a column that belongs to a chunk. `begin`: first row of every slot, for contact rows.
 std::span<const std::byte> of_chunk(const ColumnBase& column, int chunk,
                                     const std::vector<std::int32_t>& begin) {
   if (is_by_chunk(column)) return column.of_chunk(chunk);
@@ -70,12 +70,12 @@ void Gatherer::column(std::size_t number) {
   const RowBegins begins = is_by_chunk(own) ? RowBegins{} : row_begins(own.entity);
   if (whole_ != nullptr && !is_by_chunk(own))
     whole_->room_for(*whole_->columns()[number], static_cast<std::size_t>(begins.whole.back()));
-  // In parts, so that nobody holds a column twice.
+  // In parts, so that no rank holds a column twice.
   constexpr int at_once = 32;
   const int chunks = share_.resource<Bodies>().chunks();
   for (int first = 0; first < chunks; first += at_once)
     part_of_column(number, begins, first, std::min(first + at_once, chunks));
-  // Those of a rank count from the beginning of its own list.
+  // The ranges of a rank count from the start of its own list.
   if (whole_ != nullptr && share_.has<space::TriangleLists>() &&
       &own == &share_.column<space::TriangleRange>())
     space::TriangleLists::make_consecutive(
@@ -139,7 +139,7 @@ void Gatherer::particles(const ParticleValues& values, const ValueSink& take) {
   }
 }
 
-// How many rows every slot has: here, and on the root of all.
+// First row of every slot: here, and on the root of the whole.
 Gatherer::RowBegins Gatherer::row_begins(const std::string& entity) {
   const ContactIndex& index = share_.resource<ContactIndex>();
   const Bodies& bodies = share_.resource<Bodies>();
@@ -179,7 +179,7 @@ void Gatherer::row_index() {
   neighbours();
 }
 
-// What the rows of all ranks can touch of tools that are meshes: every rank has a list of its own rows.
+// Triangles of mesh tools that the rows of all ranks can touch: every rank has a list for its own rows.
 void Gatherer::triangles(const RowBegins& begins) {
   if (!share_.has<space::TriangleLists>()) return;
   const ColumnBase* ranges = &share_.column<space::TriangleRange>();
@@ -205,7 +205,7 @@ void Gatherer::triangles(const RowBegins& begins) {
   if (whole_ != nullptr) whole_->resource<space::TriangleLists>().triangles = all;
 }
 
-// Of all particles, as the broad phase found them.
+// Neighbours of all particles, as found by the broad phase.
 void Gatherer::neighbours() {
   const ContactIndex& own = share_.resource<ContactIndex>();
   const Bodies& bodies = share_.resource<Bodies>();
@@ -264,7 +264,7 @@ void Gatherer::common() {
   }
 }
 
-// ---- a checkpoint dealt out -----------------------------------------------------------------------
+// ---- distributing a checkpoint --------------------------------------------------------------------
 namespace {
 
 // Rows that this rank computes, or whose other particle it owns.

@@ -1,4 +1,4 @@
-// The shares of all ranks put together on the root, and a checkpoint dealt out to them. Every function is collective.
+// Gathers the shares of all ranks on the root, and distributes a checkpoint to them. Every function is collective.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@
 
 namespace pulvis {
 
-// The world of the whole scene on the root, with the same columns as its share; null on other ranks.
+// The world of the whole scene on the root, with the same columns as its share; null on the other ranks.
 class Gatherer {
  public:
   Gatherer(World& share, World* whole);
 
-  // Column number `column` (of World::columns), of a kind of entity that is divided by chunks or of contact rows: these in the
-  // order that one process has them in.
+  // Column number `column` (of World::columns), of an entity divided by chunks or of contact rows; these in the
+  // order of a single-process run.
   void column(std::size_t column);
-  // Values of all particles by number: to `take`, on the root.
+  // Values of all particles by number: passed to `take`, on the root.
   void particles(const ParticleValues& values, const ValueSink& take);
-  // The index of all contact rows; their pairs have been gathered.
+  // The index of all contact rows; their pairs must have been gathered.
   void row_index();
-  // What all ranks have alike: tools, and resources that are not of a share. The root's own are taken.
+  // What is identical on all ranks: tools, and resources that are not part of a share. Copied from the root.
   void common();
 
  private:
-  struct RowBegins {  // first row of every slot: here, and on the root of all
+  struct RowBegins {  // first row of every slot: here, and on the root of the whole
     std::vector<std::int32_t> own, whole;
   };
   RowBegins row_begins(const std::string& entity);
@@ -46,7 +46,7 @@ class Gatherer {
   Ranks& ranks_;
 };
 
-// Takes of the checkpoint what `share` holds, and finds its border. Throws BadState where it does not fit the scene.
+// Takes from the checkpoint what `share` holds, and finds its border. Throws BadState if it does not fit the scene.
 void restore_share(const Checkpoint& checkpoint, World& share,
                    std::set<std::string> left_alone = {});
 

@@ -36,7 +36,7 @@ class Migration {
   void neighbours() const;
 
  private:
-  // [ranks] rows of this one, in the order of their slots.
+  // [ranks] rows of this rank, in the order of their slots.
   using RowsOfRanks = std::vector<std::vector<std::int32_t>>;
 
   std::size_t count() const { return static_cast<std::size_t>(ranks_.count()); }
@@ -56,7 +56,7 @@ class Migration {
   const std::vector<int>& owner_;
 };
 
-// ---- what is divided by chunks ----------------------------------------------------------------------
+// ---- data divided by chunks -------------------------------------------------------------------------
 void Migration::column(ColumnBase& column) const {
   std::vector<Ranks::Bytes> to(count());
   for (const int chunk : bodies_.own_chunks)
@@ -76,7 +76,7 @@ void Migration::column(ColumnBase& column) const {
   }
 }
 
-// The rows of chunks in a row that are other ranks' take no memory any more. Of a particle itself everybody holds all.
+// Frees the rows of chunks that other ranks own. Columns of particles themselves are held in full by all ranks.
 void Migration::drop_others(ColumnBase& column) const {
   if (column.entity == Particle::name) return;
   const std::vector<std::int32_t>& begin = column.owner().chunk_begin;
@@ -91,7 +91,7 @@ void Migration::drop_others(ColumnBase& column) const {
 }
 
 // ---- contact rows -----------------------------------------------------------------------------------
-// Those that this rank computes go to who will compute them, and to who will own the other particle.
+// Rows computed here are sent to the rank that will compute them, and to the one that will own the other particle.
 Migration::RowsOfRanks Migration::rows_of_ranks(const char* entity) const {
   const std::vector<std::int32_t>& begin = begin_of(entity);
   const std::span<const std::int32_t> keys = keys_of(share_, entity);
@@ -108,7 +108,7 @@ Migration::RowsOfRanks Migration::rows_of_ranks(const char* entity) const {
   return rows;
 }
 
-// What all ranks give to this one, one rank after the other.
+// What all ranks send to this one, rank by rank.
 std::vector<std::byte> Migration::exchanged(const ColumnBase& column,
                                             const RowsOfRanks& rows) const {
   std::vector<Ranks::Bytes> to(count());
@@ -135,7 +135,7 @@ std::vector<std::int32_t> Migration::exchanged_triangles(const RowsOfRanks& rows
   return list_in<std::int32_t>(all);
 }
 
-// In the order of the slots that they have taken: those of a slot come from one rank, in their order.
+// Sorts by slot: the rows of a slot come from one rank, and keep their order.
 std::vector<std::int32_t> order_of(std::span<const std::int32_t> keys) {
   std::vector<std::int32_t> order(keys.size() / 3);
   std::iota(order.begin(), order.end(), 0);
@@ -153,7 +153,7 @@ std::vector<std::byte> in_order(const std::vector<std::byte>& rows, std::size_t 
   return sorted;
 }
 
-// `range` as the rows have come, with their triangles in the same order.
+// `range`: in the order received; the triangles are put into the same order as the sorted rows.
 std::vector<std::int32_t> triangles_in_order(std::vector<std::int32_t> range,
                                              std::vector<std::int32_t> triangles,
                                              const std::vector<std::int32_t>& order) {
@@ -195,7 +195,7 @@ void Migration::rows(const char* entity) const {
   share_.resource<space::TriangleLists>().triangles = std::move(triangles);
 }
 
-// Of the particles as the broad phase found them: slot, how many, these, in a cell their images.
+// Neighbours found by the broad phase: slot, count, neighbours, and in a periodic cell their images.
 void Migration::neighbours() const {
   ContactIndex& index = share_.resource<ContactIndex>();
   if (index.neighbour_begin.empty()) return;

@@ -1,4 +1,4 @@
-// Migration: chunks that go to other ranks while a run goes on.
+// Migration: chunks that move to other ranks during a run.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace pulvis {
 
-// Between two steps: gives `share` the chunks that are its own by `owner` ([chunks], a rank each), with all that a checkpoint
-// would keep of them, and finds its border anew. What a chunk that was given away held takes no memory any more. No bit of
-// the run depends on it. Collective. The graphs of a step are of the chunks before: they have to be made anew.
+// Between two steps: gives `share` the chunks that `owner` ([chunks], a rank each) assigns to it, with all that a checkpoint
+// would store of them, and recomputes its border. Memory of chunks that were given away is freed. The results do not change
+// by a bit. Collective. The graphs of a step refer to the old chunks: they must be rebuilt.
 void migrate(World& share, const std::vector<int>& owner);
 
 }  // namespace pulvis

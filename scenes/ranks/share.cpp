@@ -6,7 +6,7 @@
 namespace pulvis {
 namespace {
 
-// Of the particles of a chunk.
+// Mean over the particles of a chunk.
 std::array<double, 3> mean_of_chunk(const Bodies& bodies,
                                     const std::vector<std::array<double, 3>>& centre, int chunk) {
   std::array<double, 3> sum{};

@@ -1,4 +1,4 @@
-// What of a world a rank holds from the start.
+// The part of a world that a rank holds from the start.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace pulvis {
 
-// All of a scene, the share of one of several ranks, or room for all with none in it.
+// All of a scene, the share of one of several ranks, or a world with room for all and nothing in it.
 struct Part {
   Ranks* ranks = nullptr;
   bool empty = false;
@@ -19,8 +19,8 @@ struct Part {
 
 std::unique_ptr<World> empty_world(const Part& part);
 
-// Of ranks: divides the chunks among them, and links the world with the others. `centre`: m, [slots], of slots with a
-// particle; `cost`: [chunks], in any unit.
+// For ranks: divides the chunks among them, and links the world with the others. `centre`: m, [slots], of slots with
+// a particle; `cost`: [chunks], in any unit.
 void hold_part(World& world, const Part& part, Bodies& bodies,
                const std::vector<std::array<double, 3>>& centre, const std::vector<double>& cost);
 

@@ -1,4 +1,4 @@
-// What several tables of reduce.toml share: keys for a record's columns, and the powders of Table 3.2.
+// Shared by several tables of reduce.toml: keys for a record's columns, and the powders of Table 3.2.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Declarations of reduce.toml: records of a press whose die is filled, for compression curves.
+// Declarations of reduce.toml: records of a press with a filled die, for compression curves.
 #include "scenes/keys/declare.hpp"
 #include "scenes/records/declare_columns.hpp"
 #include "scenes/records/declare_lab.hpp"
@@ -66,7 +66,7 @@ Key<Spec> error_key(const char* name, double Spec::*member, const char* doc) {
           to(member)};
 }
 
-// Of one filling of the die.
+// For one filling of the die.
 template <class Spec>
 std::vector<Key<Spec>> filling_keys() {
   return {

@@ -1,4 +1,4 @@
-// Declarations of reduce.toml: instruments, compact, clocks and what is taken from the curves.
+// Declarations of reduce.toml: instruments, compact, clocks and the evaluation of the curves.
 #include "scenes/records/declare_lab.hpp"
 
 #include "scenes/keys/declare.hpp"

@@ -1,4 +1,4 @@
-// The tables of reduce.toml, declared as those of a scene are.
+// The tables of reduce.toml, declared like those of a scene.
 #pragma once
 
 #include "scenes/records/lab_settings.hpp"

@@ -1,4 +1,4 @@
-// Declarations of reduce.toml: one sliding-plate test, its records and the condition it was made under.
+// Declarations of reduce.toml: one sliding-plate test, its records and its test condition.
 #include "scenes/keys/declare.hpp"
 #include "scenes/records/declare_columns.hpp"
 #include "scenes/records/declare_lab.hpp"

@@ -12,9 +12,9 @@
 namespace pulvis::lab {
 namespace {
 
-constexpr std::size_t max_places = 300;    // tried for the start of sliding
+constexpr std::size_t max_places = 300;    // candidates for the start of sliding
 constexpr double sure_drift = 3;           // standard uncertainties: a smaller drift is not applied
-constexpr std::size_t max_samples = 1500;  // of the press's record that each try looks at
+constexpr std::size_t max_samples = 1500;  // of the press's record used for each candidate
 
 struct Hold {
   std::vector<double> time, displacement;
@@ -28,7 +28,7 @@ Hold hold_of(const PressRecord& press, const Samples& s) {
   return {part(press.time), part(press.displacement)};
 }
 
-// Sum of squares that remains of the punch displacement when the plate starts at `start`.
+// Residual sum of squares of the punch displacement when the plate starts at `start`.
 double unexplained(const Hold& hold, const LoggerRecord& logger, const Sliding& sliding,
                    double start) {
   const std::size_t stride = 1 + hold.time.size() / max_samples;
@@ -69,8 +69,8 @@ std::optional<Event> event_in(const Hold& hold, double middle, double window) {
   return found ? std::optional(found->event) : std::nullopt;
 }
 
-// One offset from both events, each with the weight of its uncertainty. What the clocks may have
-// drifted apart until the end is part of that: any rate up to the largest is as likely.
+// One offset from both events, weighted by their uncertainties. The possible drift between the
+// clocks until the end is included: any rate up to the largest is equally likely.
 void share_offset(Clocks& clocks, const Event& press_end, const Event& logger_end,
                   double largest_drift) {
   const double at_start = clocks.press_start.time - clocks.logger_start.time;
@@ -80,7 +80,7 @@ void share_offset(Clocks& clocks, const Event& press_end, const Event& logger_en
       largest_drift * (logger_end.time - clocks.logger_start.time) / std::sqrt(3.0);
   const double u_end = std::hypot(press_end.uncertainty, logger_end.uncertainty, drifted);
   const double squares = u_start * u_start + u_end * u_end;
-  if (!(squares > 0)) return;  // records without noise: the start is exact
+  if (!(squares > 0)) return;  // noise-free records: the start is exact
   const double offset = (at_start * u_end * u_end + at_end * u_start * u_start) / squares;
   clocks.press_start.time = clocks.logger_start.time + offset;
   clocks.offset_uncertainty = u_start * u_end / std::sqrt(squares);
@@ -131,10 +131,10 @@ void find_offset(Clocks& clocks, const PressRecord& press, const LoggerRecord& l
   clocks.offset_uncertainty = std::hypot(start->uncertainty, sliding.start.uncertainty);
 }
 
-// The end of the loading lies within the tolerance as well, and moves the punch much farther than the hold does: left out is
-// what comes before the force is as near to its level as it mostly is.
+// The end of the loading also lies within the tolerance, and moves the punch much farther than the hold does: this skips
+// the part before the force is as close to its level as it typically is.
 Samples without_loading(const PressRecord& press, Samples hold) {
-  constexpr double usual = 4;  // medians of the distance from the median
+  constexpr double usual = 4;  // in units of the median deviation from the median
   const auto median = [](std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

@@ -13,7 +13,7 @@
 namespace pulvis::lab {
 namespace {
 
-// One standard uncertainty put into what the curve is reduced with.
+// A change of the reduction's inputs by one standard uncertainty.
 struct Change {
   std::string source;
   Filling filling;
@@ -51,7 +51,7 @@ FitRange range_of(const PressCurve& curve, const CurveSpec& spec, const Compress
                        c.fit_until.value_or(largest));
 }
 
-// A law that the changed curve no longer bears, or bears with fewer terms, leaves the whole value unsure.
+// If a law no longer fits the changed curve, or only with fewer terms, the whole value is uncertain.
 double change_of(const DensityFit& changed, const DensityFit& fit, std::size_t parameter) {
   const double value = fit.parameters[parameter].value;
   if (changed.parameters.size() != fit.parameters.size()) return std::abs(value);
@@ -76,7 +76,7 @@ std::vector<LawFit> laws_of(const FitRange& range) {
   return laws;
 }
 
-// A curve to be looked up by x: samples where it grows, both of them positive.
+// A curve that can be looked up by x: samples where x increases, both values positive.
 struct Growing {
   std::vector<double> x, y;
 };
@@ -114,7 +114,7 @@ ReducedCurve reduce_curve(const PressRecord& record, const CurveSpec& spec,
 std::vector<OverCurves> over_curves(const std::vector<ReducedCurve>& curves) {
   std::vector<OverCurves> all;
   for (std::size_t l = 0; l < curves.front().laws.size(); ++l) {
-    std::vector<std::string> names;  // in the order of the law's
+    std::vector<std::string> names;  // in the order of the law's parameters
     std::vector<std::vector<double>> values;
     std::vector<OverCurves> found;
     for (const ReducedCurve& curve : curves)

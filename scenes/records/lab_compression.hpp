@@ -1,9 +1,9 @@
-// Compression curves reduced: the laws of Heckel, Kawakita and Cooper and Eaton fitted to the loading with intervals,
-// and a simulation laid over.
+// Reduction of compression curves: the laws of Heckel, Kawakita and Cooper and Eaton fitted to the loading with
+// confidence intervals, and comparison with a simulation.
 //
-// Interval  scatter of the samples about the law (scenes/results/density_fit_errors.hpp), and what one standard
-//           uncertainty of height, mass and compliance changes: the curve is reduced and fitted anew with each
-// Misfit    over the densities that both loadings cover, at evenly spaced ones of them: mean and root mean square of
+// Interval  scatter of the samples about the law (scenes/results/density_fit_errors.hpp), and the effect of one
+//           standard uncertainty of height, mass and compliance: the curve is reduced and fitted again with each
+// Misfit    over the densities that both loadings cover, at evenly spaced densities: mean and root mean square of
 //           ln(P_simulated/P_measured); and of the density at equal pressures
 #pragma once
 
@@ -18,7 +18,7 @@ namespace pulvis::lab {
 
 struct LawFit {
   DensityFit fit;                    // with the reason where it is not fitted
-  std::vector<Measured> parameters;  // in the order of the fit's
+  std::vector<Measured> parameters;  // in the order of the fit's parameters
 };
 
 struct ReducedCurve {
@@ -43,7 +43,7 @@ std::vector<OverCurves> over_curves(const std::vector<ReducedCurve>& curves);
 struct SimulatedCompression {
   std::string name;
   std::vector<double> density,
-      pressure;  // of the loading, up to the largest density; density grows
+      pressure;  // of the loading, up to the largest density; density increases
 };
 
 SimulatedCompression read_compression(const std::filesystem::path& run_folder,
@@ -51,7 +51,7 @@ SimulatedCompression read_compression(const std::filesystem::path& run_folder,
 
 struct CompressionMisfit {
   std::string simulation, curve;
-  std::string not_compared;                       // why; empty: it is
+  std::string not_compared;                       // why; empty: it was compared
   double from = 0, until = 0;                     // -, densities
   double log_pressure = 0, rms_log_pressure = 0;  // -
   double rms_density = 0;                         // -

@@ -24,7 +24,7 @@ struct Slice {
   double stress_ratio = 0, friction = 0;
 };
 
-// None where a punch or the wall bears nothing, or the gauge lies above the compact.
+// Empty where a punch or the wall carries no load, or the gauge lies above the compact.
 std::optional<Slice> slice_of(const SliceState& s, const DieCurve& die) {
   if (!(s.top > 0) || !(s.bottom > 0) || !(s.radial > 0)) return std::nullopt;
   const double loss = std::log(s.top / s.bottom);
@@ -42,7 +42,7 @@ struct Column {
   SliceState mean;
 };
 
-// The value in the middle of a line through the samples, and its standard error.
+// The value of a fitted line in the middle of the samples, and its standard error.
 struct Middle {
   double value = 0, error = 0, freedom = 1;
 };
@@ -153,7 +153,7 @@ std::vector<SliceStep> slice_steps(const DieCurve& curve, const Settings& settin
                                    bool is_measured) {
   const GaugesSpec& gauges = settings.gauges;
   const double largest = std::ranges::max(curve.top);
-  std::map<long, Column> columns;  // by the step's number
+  std::map<long, Column> columns;  // by step number
   for (std::size_t i = 0; i < curve.density.size(); ++i) {
     const SliceState state{curve.top[i], curve.bottom[i], curve.radial[i], curve.height[i]};
     const auto slice = slice_of(state, curve);

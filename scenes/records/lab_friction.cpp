@@ -15,8 +15,8 @@ double largest_ratio(double exponent) {
 }
 
 // Newton's method from mu = r, which lies below the solution. mu exp(-k mu) is concave up to there, so
-// no step goes too far, and the steps end when rounding turns one back. Near k r = 1/e, where two
-// solutions meet, each step halves the distance: 60 of them reach round-off.
+// no step overshoots, and the iteration ends when rounding reverses one. Near k r = 1/e, where two
+// solutions merge, each step halves the distance: 60 of them reach round-off.
 std::optional<double> friction_coefficient(double ratio, double exponent) {
   constexpr int max_steps = 100;
   if (ratio > largest_ratio(exponent)) return std::nullopt;

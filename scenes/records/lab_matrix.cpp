@@ -15,7 +15,7 @@
 namespace pulvis::lab {
 namespace {
 
-// The level of a run as text, and the number it is sorted by.
+// The level of a run as text, and the number that it is sorted by.
 struct Level {
   double order = 0;
   std::string text;
@@ -65,7 +65,7 @@ Factor factor_of(const std::string& name, const LevelOf& level_of,
   return factor;
 }
 
-// Effect coding: a factor of n levels has n - 1 columns, the last level is minus their sum.
+// Effect coding: a factor of n levels has n - 1 columns; the last level is minus their sum.
 struct Design {
   Eigen::MatrixXd matrix;              // runs, columns
   std::vector<const Factor*> factors;  // those with more than one level
@@ -190,7 +190,7 @@ class EffectsFinder {
                                     static_cast<int>(last), result_));
   }
 
-  // What the means of the conditions differ from the sum of the effects, against the scatter of repeated runs.
+  // Deviation of the condition means from the sum of the effects, tested against the scatter of repeated runs.
   void add_interactions() {
     const int freedom =
         static_cast<int>(conditions_.size()) - static_cast<int>(design_.matrix.cols());

@@ -1,13 +1,13 @@
-// A matrix of conditions: sliding-plate tests under different load, roughness, direction, speed and powder, to a mean with
+// A test matrix: sliding-plate tests at different load, roughness, direction, speed and powder, reduced to a mean with
 // its interval for each condition, and to the effect of each factor.
 //
-// Model     y = m + sum over the factors of the effect of its level; the effects of a factor sum up to zero over its levels
-// Source    Montgomery, Design and Analysis of Experiments: general linear model by effect coding; a factor is tested by what
-//           the sum of squares loses without it (type III), the model by its lack of fit against the scatter of
+// Model     y = m + sum over the factors of the effect of its level; the effects of a factor sum to zero over its levels
+// Source    Montgomery, Design and Analysis of Experiments: general linear model by effect coding; a factor is tested by
+//           the loss in the sum of squares without it (type III), the model by its lack of fit against the scatter of
 //           repeated runs (chapters 5 and 11)
-// Variance  pure error: scatter of runs of the same condition, over all conditions; without repeated runs that of the
-//           residuals of the model, which then holds interactions, too
-// Interval  Student's distribution with the freedom of that variance
+// Variance  pure error: scatter of runs of the same condition, over all conditions; without replicates that of the
+//           residuals of the model, which then also contains interactions
+// Interval  Student's distribution with the degrees of freedom of that variance
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ namespace pulvis::lab {
 
 struct Factor {
   std::string name;                 // "load", "roughness", ...
-  std::vector<std::string> levels;  // as text, by rising number or as they come
+  std::vector<std::string> levels;  // as text, in ascending numerical order or order of appearance
   std::vector<std::size_t> of_run;  // level of each run
 };
 
@@ -29,7 +29,7 @@ struct Factor {
 std::vector<Factor> factors_of(const std::vector<RunSpec>& runs);
 
 struct Condition {
-  std::vector<std::size_t> levels;  // one a factor
+  std::vector<std::size_t> levels;  // one per factor
   std::vector<std::size_t> runs;
 };
 std::vector<Condition> conditions_of(const std::vector<Factor>& factors);
@@ -43,18 +43,18 @@ struct Effect {
 struct FactorTest {
   std::string factor;  // "interactions": the lack of fit
   double f = 0;
-  int freedom = 0;         // of the numerator
-  double probability = 1;  // of such an F or a larger one, if there were no effect
+  int freedom = 0;         // degrees of freedom of the numerator
+  double probability = 1;  // p-value: of this F or a larger one, if there were no effect
 };
 
 struct Effects {
-  std::string not_found;  // why; empty: they are
+  std::string not_found;  // why; empty: they were found
   double mean = 0;
   std::optional<double> mean_half_width;
   std::vector<Effect> effects;
   std::vector<FactorTest> tests;
-  double deviation = 0;  // of one run
-  int freedom = 0;       // of it
+  double deviation = 0;  // standard deviation of one run
+  int freedom = 0;       // its degrees of freedom
   bool is_pure_error = false;
 };
 

@@ -14,13 +14,13 @@ namespace pulvis::lab {
 namespace {
 
 constexpr std::size_t fewest_loading = 20;                 // samples
-constexpr double unloads_from = 0.9, unloads_until = 0.4;  // of the largest pressure: the modulus
+constexpr double unloads_from = 0.9, unloads_until = 0.4;  // of the largest pressure: modulus
 
 std::size_t peak_of(const std::vector<double>& force) {
   return static_cast<std::size_t>(std::ranges::max_element(force) - force.begin());
 }
 
-// The first sample from which on the force stays above the contact's, up to the peak.
+// The first sample after which the force stays above the contact threshold, up to the peak.
 std::size_t begin_of(const std::vector<double>& force, std::size_t peak, double share) {
   std::size_t begin = peak;
   while (begin > 0 && force[begin - 1] > share * force[peak]) --begin;
@@ -143,7 +143,7 @@ std::optional<Unloading> unloading_of(const PressCurve& curve) {
   }
   constexpr std::size_t fewest = 5;
   if (strain.size() < fewest) return found;
-  // The strain by the pressure: the larger errors are those of the displacement.
+  // Strain as a function of pressure: the larger errors are those of the displacement.
   const double slope = fit_line(pressure, strain).slope;
   if (slope > 0) found.modulus = 1 / slope;
   return found;

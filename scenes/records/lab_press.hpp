@@ -1,14 +1,14 @@
 // Compression curves from the records of a press: force and displacement to pressure and relative density.
 //
-//   u = u_0 - h + g(F)      displacement of the punch: h height of the compact, g what the press itself gives
+//   u = u_0 - h + g(F)      displacement of the punch: h height of the compact, g compliance of the press
 //   D = m / (rho_s A h)     relative density: m mass, rho_s density of the solid, A area of the punch
 //   P = F / A               axial pressure on the punch
 //
-// g        a polynomial of the force, given or fitted to the loading of the empty press, whose constant is the
+// g        a polynomial of the force, given or fitted to the loading of the empty press, whose constant term is the
 //          displacement u_0 at which the punches meet
-// u_0      of three: the height where the displacement is zero, that of the unloaded compact at the end of the record, or that
-//          of the empty press, if both records count their displacement from the same zero
-// Loading  from where the force passes compression.contact of its largest value, up to that; unloading from there on
+// u_0      one of three: the height at zero displacement, that of the unloaded compact at the end of the record, or that
+//          of the empty press, if both records measure displacement from the same zero
+// Loading  from where the force exceeds compression.contact of its maximum, up to that; unloading from there on
 #pragma once
 
 #include "scenes/records/lab_record.hpp"
@@ -20,30 +20,30 @@
 namespace pulvis::lab {
 
 struct Compliance {                  // g(F) = c[0] F + c[1] F^2 + ...
-  std::vector<double> coefficients;  // m/N, m/N^2, ...; none: a rigid press
+  std::vector<double> coefficients;  // m/N, m/N^2, ...; empty: a rigid press
   std::optional<double> meeting;     // m, u_0
-  double largest_force = 0;          // N, of the record; 0: given, without limit
-  double rms = 0;                    // m, of the record about the polynomial
+  double largest_force = 0;          // N, of the record; 0: coefficients given, no limit
+  double rms = 0;                    // m, residual of the record about the polynomial
   std::size_t samples = 0;
 
   double at(double force) const;
 };
 
 Compliance compliance_of(const PressRecord& empty, const CompressionSpec& spec);
-// As the settings say: of the empty press's record, given, or rigid.
+// As specified in the settings: from the empty press's record, given, or rigid.
 Compliance machine_of(const Settings& settings);
 
-struct PressCurve {  // one value a sample, from the begin of the loading on
+struct PressCurve {  // one value per sample, from the start of the loading on
   std::vector<double> height, density, pressure;  // m, -, Pa
-  std::size_t first = 0;                          // the record's sample that is the first here
-  std::size_t peak = 0;                           // the sample of the largest force
-  double machine_give = 0;                        // m, there
+  std::size_t first = 0;                          // index in the record of the first sample here
+  std::size_t peak = 0;                           // index of the sample with the largest force
+  double machine_give = 0;                        // m, at the peak
 
   std::span<const double> loading_density() const { return std::span(density).first(peak + 1); }
   std::span<const double> loading_pressure() const { return std::span(pressure).first(peak + 1); }
 };
 
-// Refuses a record that is no single loading, or whose compact would have no height.
+// Rejects a record that is not a single loading, or whose compact would have no height.
 PressCurve press_curve(const PressRecord& record, const Filling& filling, const DieSpec& die,
                        const CompressionSpec& spec, const Compliance& machine);
 
@@ -53,7 +53,7 @@ struct Unloading {
   std::optional<double> modulus;               // Pa, slope of pressure against axial strain
 };
 
-// None where the record ends at its largest force.
+// Empty where the record ends at its largest force.
 std::optional<Unloading> unloading_of(const PressCurve& curve);
 
 }  // namespace pulvis::lab

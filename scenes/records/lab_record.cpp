@@ -13,7 +13,7 @@ namespace pulvis::lab {
 namespace {
 
 constexpr std::size_t fewest_samples = 30;
-constexpr std::size_t flat_top = 10;  // equal samples running at an extreme
+constexpr std::size_t flat_top = 10;  // equal consecutive samples at an extreme
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -21,7 +21,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Strain has no dimension; these are the ways it is headed.
+// Strain has no dimension; these are the ways its column may be labelled.
 std::optional<double> strain_factor(const std::string& unit) {
   static const std::map<std::string, double> factors{
       {"um/m", 1e-6},    {"µm/m", 1e-6},    {"μm/m", 1e-6}, {"ue", 1e-6},  {"µe", 1e-6},
@@ -102,7 +102,7 @@ double largest_size(const std::vector<double>& values) {
   return -*low > *high ? *low : *high;
 }
 
-// Presses count pressing as tension or as compression, and strokes up or down.
+// Presses record compression with either sign, and strokes up or down.
 void turn(std::vector<double>& values, double sign) {
   if (sign < 0)
     for (double& value : values) value = -value;
@@ -121,7 +121,7 @@ void take_press(const csv::Table& table, std::size_t force, std::size_t displace
   turn(record.displacement, record.displacement[at] - record.displacement.front());
 }
 
-// The walls bear a part of what the top punch, which is the moved one, presses with.
+// The walls carry part of the force of the top punch, which is the moving one.
 void refuse_exchanged(const csv::Table& table, std::size_t bottom, const DieRecord& record) {
   constexpr double error = 0.05;  // more than gauges differ
   const double from_top = largest_size(record.force), below = largest_size(record.bottom);

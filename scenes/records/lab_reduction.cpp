@@ -18,7 +18,7 @@ std::vector<double> calibrated(const LoggerRecord& logger, const LoadCellSpec& c
   return force;
 }
 
-// The shear force while the plate stands still: its mean, and the noise about it.
+// The shear force while the plate is at rest: its mean and noise.
 Sample standstill(const LoggerRecord& logger, const std::vector<double>& shear, double start) {
   const Samples s = between(logger.time, logger.time.front(), start - logger.interval);
   return sample_of(std::span(shear).subspan(s.begin, s.count()));
@@ -94,7 +94,7 @@ FrictionCurve dynamic_part(const Curve& curve, const Dynamic& dynamic) {
   return {part(curve.distance), part(curve.time), part(curve.friction), part(curve.shear_force)};
 }
 
-// Drops samples where noise makes the distance go back.
+// Drops samples where noise makes the distance decrease.
 struct Forward {
   std::vector<double> distance, values;
 };
@@ -108,7 +108,7 @@ Forward forward(const std::vector<double>& distance, const std::vector<double>& 
   return kept;
 }
 
-// Mean of linear pieces over [low, high].
+// Mean of the piecewise linear curve over [low, high].
 double mean_over(const Forward& f, double low, double high) {
   double area = 0, x = low, y = interpolated(f.distance, f.values, low);
   const auto add = [&](double to, double value) {
@@ -161,7 +161,7 @@ Dynamic dynamic_mean(const Curve& curve, const AnalysisSpec& spec) {
 
 namespace {
 
-// The dynamic coefficient of an elastic compact; none where (3.1) with (3.2) has no solution for one.
+// The dynamic coefficient of an elastic compact; empty where (3.1) with (3.2) has no solution.
 std::optional<double> elastic_dynamic(Curve curve, const Settings& settings) {
   const CompactSpec& compact = settings.compact;
   for (std::size_t i = 0; i < curve.friction.size(); ++i) {

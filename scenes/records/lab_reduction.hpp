@@ -1,12 +1,12 @@
-// Sliding-plate tests from their raw records to friction curves, values and repeatability.
+// Reduction of sliding-plate tests from raw records to friction curves, values and repeatability.
 //
 //   records -> sliding (LVDT) -> one clock -> forces -> friction coefficient -> values -> over the runs
 //
 // Curve    samples of the logger from the start of sliding to its end; the press's force and
 //          displacement are interpolated between its samples
-// Static   the largest coefficient within analysis.static_within of the start, one sample
-// Dynamic  the mean over distance (trapezoidal rule) from analysis.dynamic_from on, the ends of the
-//          window interpolated
+// Static   the largest coefficient within analysis.static_within of the start, a single sample
+// Dynamic  the mean over distance (trapezoidal rule) from analysis.dynamic_from on, interpolated
+//          at the ends of the window
 // Trend    slope of the straight line through the same part, per metre
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace pulvis::lab {
 
-struct Curve {                       // one value a sample
+struct Curve {                       // one value per sample
   std::vector<double> time;          // s, since the start of sliding, on the logger's clock
   std::vector<double> distance;      // m
   std::vector<double> shear_force;   // N
@@ -33,7 +33,7 @@ struct Curve {                       // one value a sample
 
 struct Static {
   double value = 0, distance = 0;  // -, m
-  bool is_distinct = false;        // above the dynamic mean, beyond stick-slip and noise
+  bool is_distinct = false;        // above the dynamic mean by more than stick-slip and noise
 };
 
 struct Dynamic {
@@ -48,12 +48,12 @@ struct ReducedRun {
   Clocks clocks;
   bool has_end = false;   // the plate stopped within the record
   double speed = 0;       // m/s, mean
-  double shear_zero = 0;  // N, taken off the calibrated shear force
+  double shear_zero = 0;  // N, subtracted from the calibrated shear force
   double noise = 0;       // -, of the coefficient, from the load cell at standstill
   Curve curve;
   Static peak;
   Dynamic dynamic;
-  std::optional<double> elastic_dynamic;  // -, where K is given: with that of an elastic compact
+  std::optional<double> elastic_dynamic;  // -, where K is given: value for an elastic compact's K
   std::optional<StickSlip> stick_slip;
 };
 
@@ -66,17 +66,17 @@ struct RunFiles {
 ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Settings& settings,
                   const RunFiles& run);
 
-// The values of a curve that is there already; `noise` as in ReducedRun.
+// The values of an existing curve; `noise` as in ReducedRun.
 Static static_peak(const Curve& curve, double within);
 Dynamic dynamic_mean(const Curve& curve, const AnalysisSpec& spec);
 
-// A curve on the grid 0, step, 2 step, ... up to its end: linear between samples that go forward.
+// A curve on the grid 0, step, 2 step, ... up to its end: linear between samples that move on.
 std::vector<double> on_grid(const std::vector<double>& distance, const std::vector<double>& values,
                             double step);
 
 struct Repeatability {
-  Sample peak, dynamic, amplitude, period;  // the last two of the runs with stick-slip
-  std::vector<Sample> friction;             // on the grid, as far as all runs go
+  Sample peak, dynamic, amplitude, period;  // the last two over the runs with stick-slip
+  std::vector<Sample> friction;             // on the grid, up to the end of the shortest run
 };
 
 Repeatability repeatability(const std::vector<ReducedRun>& runs, double step);

@@ -125,7 +125,7 @@ class SettingsReader {
     }
   }
 
-  // Records of one kind only: each has its own tables.
+  // Records of one kind only: each kind has its own tables.
   void check_kinds(const Settings& all) {
     std::vector<std::string> kinds;
     if (!all.wedge.loops.empty()) kinds.emplace_back("wedge");

@@ -1,4 +1,4 @@
-// What a reduction has to know beside the records (sliding-plate tests, compressions, an AFM's friction loops):
+// What a reduction needs besides the records (sliding-plate tests, compressions, an AFM's friction loops):
 // reduce.toml.
 // Sources of the defaults: Kim (thesis), sections 3.2.2 to 3.2.6; declared in declare_lab.cpp.
 #pragma once
@@ -45,10 +45,10 @@ struct CompactSpec {
   std::optional<double> fill_height;  // m, at zero punch displacement
   std::optional<double> poissons_ratio;
   std::optional<double> stress_ratio;   // -, radial over axial
-  std::optional<int> powder;            // position in the list of powders
-  std::optional<double> wall_friction;  // none: the coefficient that is measured
+  std::optional<int> powder;            // index in the list of powders
+  std::optional<double> wall_friction;  // empty: the measured coefficient
 
-  double poisson() const;  // of the powder where no ratio is given
+  double poisson() const;  // of the powder where no stress ratio is given
   double elastic_ratio() const { return poisson() / (1 - poisson()); }
   double radial_ratio() const { return stress_ratio.value_or(elastic_ratio()); }
 };
@@ -58,7 +58,7 @@ struct ClockSpec {
   int drift = 0;             // Drift
   double largest_drift = 0;  // -
   double window = 0;         // s, to either side of an event
-  double longest_gap = 0;    // of the median interval between samples
+  double longest_gap = 0;    // in units of the median interval between samples
 };
 
 struct AnalysisSpec {
@@ -87,7 +87,7 @@ struct DieSpec {
 
   bool is_slot() const { return shape == static_cast<int>(Shape::slot); }
   double area() const;         // m^2, of the punch
-  double wall_length() const;  // m, round: D/4; slot: W/2: area over the perimeter that rubs
+  double wall_length() const;  // m, round: D/4; slot: W/2: area over the rubbing perimeter
 };
 
 struct Filling {  // of the die
@@ -112,7 +112,7 @@ struct CurveSpec : Filling {
 };
 
 struct WedgeSpec {         // another kind of record: friction loops of an AFM
-  std::string loops;       // file, from the folder of the settings; empty: sliding-plate tests
+  std::string loops;       // file, relative to the settings' folder; empty: sliding-plate tests
   double adhesion = 0;     // N
   double slope_error = 0;  // rad
   double load_error = 0;   // -
@@ -134,12 +134,12 @@ struct TransmissionSpec : Filling {
 
 struct RunSpec {
   std::string name;
-  std::string press, logger;     // files, from the folder of the settings
+  std::string press, logger;     // files, relative to the settings' folder
   std::optional<double> offset;  // s
-  // The condition it was made under: all runs state the same ones of these.
+  // The condition of the test: all runs state the same ones of these.
   std::optional<double> load, roughness, speed;  // N, m, m/s
   std::string direction;
-  std::optional<int> powder;     // position in the list of powders
+  std::optional<int> powder;     // index in the list of powders
   std::optional<double> length;  // m, of this run's compact
   SourceMark mark = {};
 
@@ -170,26 +170,26 @@ struct Settings {
 
   // With the compact of one run.
   Settings of_run(const RunSpec& run) const;
-  // Records that fill the die of [die]: no compact on a plate.
+  // Records of a filled die as in [die]: no compact on a plate.
   bool fills_die() const { return !curves.empty() || !transmissions.empty(); }
 };
 
 struct LoadedSettings {
   Settings settings;
-  document::Table root = {};  // what they were read from, with overrides and defaults
-  // The same as TOML. It stands alone: its paths lead to copies of the records beside it.
+  document::Table root = {};  // the settings as read, with overrides and defaults
+  // The same as TOML. It is self-contained: its paths lead to copies of the records next to it.
   std::string text = {};
   std::vector<InputFile> inputs = {};
 };
 
-// Of `runs`, each with records and a name, as [[run]] tables behind those that are there.
+// Appends `runs`, each with records and a name, as [[run]] tables after the existing ones.
 void add_runs(LoadedSettings& loaded, const std::vector<RunSpec>& runs);
 
 const schema::Language& language();
 std::string reference();    // docs/reduce.md
 std::string json_schema();  // docs/reduce.schema.json
 
-// Throws SceneError with everything that is wrong. An empty path: defaults and overrides only.
+// Throws SceneError with all errors. An empty path: defaults and overrides only.
 LoadedSettings load_settings(const std::filesystem::path& file,
                              const std::vector<std::string>& overrides);
 LoadedSettings load_settings_text(const std::string& text, const std::filesystem::path& file,

@@ -19,7 +19,7 @@ std::vector<std::string> tools_in(const csv::Table& history) {
   return tools;
 }
 
-// Friction drives the compact along with the target: both signs depend on how the scene is laid out.
+// Friction moves the compact along with the target: both signs depend on the layout of the scene.
 void make_positive(std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;

@@ -15,13 +15,13 @@ struct SimulatedCurve {
   std::vector<double> friction;  // -, lateral over normal force on the target
 };
 
-// What a run is called: its folder.
+// The name of a run: its folder.
 std::string name_of_run(const std::filesystem::path& run_folder);
 
-// history.csv of a run. Refused: none, or one of a run in three dimensions.
+// history.csv of a run. Rejected: none, or one of a run in three dimensions.
 csv::Table history_of_run(const std::filesystem::path& run_folder);
 
-// Refused: no such tool, a target that does not move along x.
+// Rejected: no such tool, a target that does not move along x.
 SimulatedCurve read_simulation(const std::filesystem::path& run_folder, const std::string& target);
 
 }  // namespace pulvis::lab

@@ -8,9 +8,9 @@
 namespace pulvis::lab {
 namespace {
 
-constexpr double standing_still = 0.1;  // of the sliding speed: a slower plate counts as at rest
+constexpr double standing_still = 0.1;  // of the sliding speed: below it the plate is at rest
 
-// Where the straight line through 5 and 20 % of the distance meets its beginning.
+// Where the chord through 5 and 20 % of the distance meets zero distance.
 double start_by_chord(const std::vector<double>& t, const std::vector<double>& distance,
                       double whole) {
   const auto reaches = [&](double share) {
@@ -22,7 +22,7 @@ double start_by_chord(const std::vector<double>& t, const std::vector<double>& d
   return t5 - (t20 - t5) / 3;
 }
 
-// The plate leaves rest; `distance` is counted from there.
+// The plate starts to move; `distance` is counted from there.
 std::optional<BendEvent> departure(const std::vector<double>& t,
                                    const std::vector<double>& distance, double whole,
                                    double window) {
@@ -35,7 +35,7 @@ std::optional<BendEvent> departure(const std::vector<double>& t,
 
 std::optional<Event> find_end(const LoggerRecord& logger, const Sliding& sliding, double whole,
                               double window) {
-  // The distance back to where the plate ends up, as if time ran backwards.
+  // The distance from the plate's final position, as if time ran backwards.
   std::vector<double> t = logger.time, distance = sliding.distance;
   std::reverse(t.begin(), t.end());
   std::reverse(distance.begin(), distance.end());
@@ -46,8 +46,8 @@ std::optional<Event> find_end(const LoggerRecord& logger, const Sliding& sliding
   return Event{-found->event.time, found->event.uncertainty};
 }
 
-// The last sample at which the plate is known to go on, since the next one is further: in the sample with which it
-// arrives at the end the load cell may have let go. `distance` ends at `whole`, but for noise.
+// The last sample at which the plate is known to be moving, since the next one is further: by the sample of its
+// arrival the load cell may have unloaded. `distance` ends at `whole`, except for noise.
 std::size_t last_moving(const std::vector<double>& t, const std::vector<double>& distance,
                         double start, double whole) {
   const double sample_distance =

@@ -1,4 +1,4 @@
-// Start, end and distance of sliding, from the logger's LVDT.
+// Start, end and distance of sliding, from the logger's LVDT signal.
 #pragma once
 
 #include "scenes/lever/lab_fit.hpp"
@@ -9,11 +9,11 @@
 
 namespace pulvis::lab {
 
-struct Sliding {  // as the logger saw it
+struct Sliding {  // as recorded by the logger
   Event start;
-  std::optional<Event> end;      // none: the record ends while the plate moves
+  std::optional<Event> end;      // empty: the record ends while the plate moves
   double last_time = 0;          // s, the end or the last sample
-  std::vector<double> distance;  // m, of every sample, 0 where the plate stood before the start
+  std::vector<double> distance;  // m, of every sample, 0 while the plate is at rest at the start
 };
 
 Sliding find_sliding(const LoggerRecord& logger, const Settings& settings);

@@ -15,7 +15,7 @@ constexpr std::size_t fewest_slips = 3;
 constexpr double max_scatter = 0.5;      // of the period
 constexpr double spectral_match = 0.25;  // of the period
 
-// Power of one frequency, with the sums of sine and cosine made orthogonal by the shift tau.
+// Power at one frequency, with the sine and cosine sums made orthogonal by the shift tau.
 double lomb_power(std::span<const double> x, std::span<const double> y, double omega) {
   double sine2 = 0, cosine2 = 0;
   for (const double at : x) {
@@ -58,7 +58,7 @@ Slips slips_of(const FrictionCurve& curve, std::span<const double> rest,
   return slips;
 }
 
-// Mean climb from one sample to the next between a trough and the next peak.
+// Mean rise from one sample to the next between a trough and the next peak.
 double climb(std::span<const double> rest, const std::vector<TurningPoint>& points) {
   double sum = 0, samples = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {

@@ -1,17 +1,17 @@
-// Stick-slip in a friction curve: how high its teeth are and how far apart.
+// Stick-slip in a friction curve: amplitude and period of its sawtooth.
 //
-// How      The straight line through the curve is taken off. Turning points are those that the curve
-//          comes back from by more than a threshold: six times the noise of the load cell at
-//          standstill, and 0.5 % of the mean at least. A slip is a fall from a peak to the next trough.
-//            amplitude   mean fall, peak to peak
+// How      The straight line through the curve is subtracted. Turning points are those from which the
+//          curve returns by more than a threshold: six times the noise of the load cell at
+//          standstill, and at least 0.5 % of the mean. A slip is a drop from a peak to the next trough.
+//            amplitude   mean drop, peak to peak
 //            period      mean distance from peak to peak
 //          It counts as stick-slip when there are at least three slips, the periods scatter by less
 //          than half of their mean, and the strongest line of the spectrum (Lomb 1976, Scargle 1982:
 //          samples need not be evenly spaced) lies within a quarter of that period. Otherwise the
-//          fluctuation is random, and only its standard deviation is told.
+//          fluctuation is random, and only its standard deviation is reported.
 // Bias     A peak or trough between two samples is missed: the amplitude is too low by up to
-//          `resolution`, what the curve climbs from one sample to the next. Noise raises it, by about
-//          twice the standard deviation where it is larger than that climb.
+//          `resolution`, the rise of the curve from one sample to the next. Noise increases it, by
+//          about twice the standard deviation where that is larger than this rise.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct StickSlip {
   std::size_t slips = 0;
   double amplitude = 0, amplitude_deviation = 0;  // -, over the slips
   double resolution = 0;                          // -
-  double force = 0;                               // N, mean fall of the shear force
+  double force = 0;                               // N, mean drop of the shear force
   double period = 0, period_deviation = 0;        // m
   double period_time = 0;                         // s
   double spectral_period = 0;                     // m
@@ -41,14 +41,14 @@ struct FrictionCurve {
 // `noise`: standard deviation of the coefficient at standstill.
 std::optional<StickSlip> find_stick_slip(const FrictionCurve& curve, double noise);
 
-// Positions of alternating peaks and troughs that the values come back from by more than `threshold`.
+// Indices of alternating peaks and troughs from which the values return by more than `threshold`.
 struct TurningPoint {
   std::size_t at = 0;
   bool is_peak = false;
 };
 std::vector<TurningPoint> turning_points(std::span<const double> values, double threshold);
 
-// Period of the strongest line of the spectrum, between half of the span and two samples.
+// Period of the strongest line of the spectrum, between half of the range and two samples.
 double spectral_period(std::span<const double> x, std::span<const double> y);
 
 }  // namespace pulvis::lab

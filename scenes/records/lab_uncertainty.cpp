@@ -14,7 +14,7 @@ double Measured::standard() const {
 }
 
 double Measured::half_width(double confidence) const {
-  constexpr double most_freedom = 1000;  // beyond it Student's distribution is the normal one
+  constexpr double most_freedom = 1000;  // beyond it Student's distribution is effectively normal
   const double u = standard();
   if (!(u > 0)) return 0;
   const double share = contributions.front().error / u;

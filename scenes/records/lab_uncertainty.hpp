@@ -1,8 +1,8 @@
-// A value with what makes it unsure: the scatter of its samples, and instruments whose uncertainty is stated.
+// A value and its sources of uncertainty: the scatter of its samples, and instruments with a stated one.
 //
-// Source   JCGM 100:2008 (GUM): contributions add as squares; the interval is that of Student's distribution with
-//          u^4 / (u_scatter^4 / v_scatter) degrees of freedom (Welch-Satterthwaite, G.4; those of stated
-//          uncertainties count as without end)
+// Source   JCGM 100:2008 (GUM): contributions add in quadrature; the interval is from Student's distribution with
+//          u^4 / (u_scatter^4 / v_scatter) degrees of freedom (Welch-Satterthwaite, G.4; stated
+//          uncertainties count as having infinitely many)
 #pragma once
 
 #include <optional>
@@ -19,11 +19,11 @@ struct Contribution {
 struct Measured {
   std::string name, unit;
   double value = 0;
-  double freedom = 1;                       // degrees, of the first contribution
+  double freedom = 1;                       // degrees of freedom of the first contribution
   std::vector<Contribution> contributions;  // scatter first
 
   double standard() const;                     // u
-  double half_width(double confidence) const;  // of the interval
+  double half_width(double confidence) const;  // of the confidence interval
 };
 
 }  // namespace pulvis::lab

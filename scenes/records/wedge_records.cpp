@@ -13,7 +13,7 @@
 namespace pulvis::wedge {
 namespace {
 
-constexpr std::size_t fewest_places = 10;  // of a trace, the ends left out
+constexpr std::size_t fewest_places = 10;  // of a trace, without the ends
 
 std::vector<double> column(const csv::Table& table, const char* name, const char* unit) {
   return csv::numbers(table, csv::column_at(table, name), unit);
@@ -65,13 +65,13 @@ std::vector<Loop> loops_of_traces(const csv::Table& table, double skip) {
 
 }  // namespace
 
-// Records of other instruments may have lines before their header: whoever reads them says what is wrong.
+// Records of other instruments may have lines before their header: their readers report errors.
 bool holds_loops(const std::filesystem::path& file) {
   try {
     const csv::Table table = csv::read(file);
     return csv::has_column(table, "slope") && csv::has_column(table, "load") &&
            (csv::has_column(table, "half_width") || csv::has_column(table, "trace") ||
-            csv::has_column(table, "forth"));  // refused with its new name
+            csv::has_column(table, "forth"));  // rejected with a hint to its new name
   } catch (const SceneError&) {
     return false;
   }

@@ -1,10 +1,10 @@
-// Friction loops as an experimenter has them, for the wedge calibration (scenes/lever/wedge_calibration.hpp).
+// Experimental friction loops for the wedge calibration (scenes/lever/wedge_calibration.hpp).
 //
 // One CSV file: `slope` of the facet (> 0: the trace runs uphill), `load`, and either
-//   half_width, offset   volts of each loop, if known with half_width_error, offset_error
-//   trace, retrace       raw traces in volts, one row a place; rows of the same slope and load that follow
-//                        each other are one loop, and `skip` of them is left out at both ends, where the tip
-//                        sticks after it has turned
+//   half_width, offset   volts of each loop, with half_width_error, offset_error if known
+//   trace, retrace       raw traces in volts, one row per position; consecutive rows of the same slope and
+//                        load form one loop, and a share of `skip` is left out at both ends, where the tip
+//                        sticks after the reversal
 // Half-width and offset of raw traces are half the difference and half the sum of their means. The error of
 // a mean is s/sqrt(n_eff), n_eff = n (1 - r)/(1 + r) with r the correlation of neighbours.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace pulvis::wedge {
 
-// Whether its first line names the columns of loops.
+// Whether the first line contains the columns of loops.
 bool holds_loops(const std::filesystem::path& file);
 
 // Throws SceneError with file, line and what is allowed.

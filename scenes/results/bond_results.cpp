@@ -29,7 +29,7 @@ double largest_share(const std::vector<FragmentSize>& fragments) {
   return most / all;
 }
 
-// Of one particle, or of all. NaN where nothing was bonded at the start.
+// For one particle, or for all. NaN where nothing was bonded at the start.
 double damage(double bonded, double broken) {
   return bonded + broken > 0 ? broken / (bonded + broken) : no_value;
 }
@@ -41,7 +41,7 @@ double total_damage(const Fragments& found) {
 }
 
 // ---- lines on the outlines --------------------------------------------------------------------------
-// The part of its edge that Gauss point g stands for, from 0 to 1.
+// The part of its edge that Gauss point g represents, from 0 to 1.
 double begin_of_point(int g) {
   double begin = 0;
   for (int i = 0; i < g; ++i) begin += entry(kernels::edge_w, i);
@@ -105,7 +105,7 @@ struct BondLines {
   }
 };
 
-// As they have moved since.
+// At their current positions.
 Lines crack_lines(const World& world) {
   Lines lines;
   const Outlines outlines = outlines_of(world);

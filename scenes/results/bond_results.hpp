@@ -1,5 +1,5 @@
-// What a run with bonds hands back of them: series, fields of the frames, a table of the cracks, figures of the summary.
-// A scene without bonds has none of it.
+// Results of a run with bonds: series, fields of the frames, a table of the cracks, figures of the summary.
+// Empty for a scene without bonds.
 #pragma once
 
 #include <optional>
@@ -18,19 +18,19 @@ void append_bond_sample(const World& world, std::vector<double>& row);
 std::vector<FieldInfo> bond_fields(const Scene& scene);
 void append_bond_frame(const World& world, std::vector<std::vector<double>>& fields);
 
-// /cracks, a row for every contact point that broke, in the order in which they did.
+// /cracks, one row for every contact point that broke, in order of breaking.
 std::vector<TableInfo> bond_tables(const Scene& scene);
-// Rows from that one on. None without bonds.
+// Rows from `first` on. Empty without bonds.
 std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t first);
 
-// As last observed.
+// From the last observation.
 struct BondFindings {
-  std::int64_t made = 0, broken = 0;  // contact points; both sides of a pair have theirs
+  std::int64_t made = 0, broken = 0;  // contact points; each side of a pair has its own
   double crack_length = 0;            // m
-  double fracture_energy = 0;         // J, spent by damage
-  double crack_energy = 0;            // J, of the cracks by their laws
+  double fracture_energy = 0;         // J, dissipated by damage
+  double crack_energy = 0;            // J, of the cracks, from their laws
   std::optional<double>
-      shear_share;  // -, of mode II in the energy of what broke; none where nothing did
+      shear_share;  // -, mode II share of the energy of broken bonds; empty if nothing broke
   std::optional<double> damage;  // -, broken length over that of all bonds made at the start
   std::vector<FragmentSize> fragments;
   double largest_share = 0;  // -, of the area

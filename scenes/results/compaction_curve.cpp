@@ -10,16 +10,16 @@
 namespace pulvis {
 namespace {
 
-constexpr int pieces = 8;  // of the loading, of equal change of density
+constexpr int pieces = 8;  // of the loading, each with an equal change of density
 constexpr double min_force_share =
-    0.01;  // of the largest: before that the punch touches nothing yet
+    0.01;  // of the largest: below it the punch is not in contact yet
 
 struct Walls {
   double friction = 0, poissons_ratio = 0;
-  std::string unlike;  // why there is no single number for them
+  std::string unlike;  // why there is no single value for them
 };
 
-// The tools at the sides of the die; none where there is no die.
+// The tools at the sides of the die; empty where there is no die.
 std::vector<std::string> names_of_walls(const Scene& scene) {
   if (!scene.space) {
     const auto cell = die_cell(scene);
@@ -41,7 +41,7 @@ std::vector<std::string> names_of_walls(const Scene& scene) {
   return names;
 }
 
-// What the formulas put in; they know one powder between its walls.
+// Inputs of the formulas, which assume a single powder between its walls.
 Walls walls_of(const Scene& scene) {
   const std::vector<std::string> names = names_of_walls(scene);
   Walls walls;
@@ -75,7 +75,7 @@ TransmissionShare mean_transmission(const std::vector<CompactionSample>& samples
   return share;
 }
 
-// A square die has as much wall for its area as a round one.
+// A square die has the same ratio of wall to cross-section as a round one.
 void lay_beside(TransmissionShare& share, double mu, double nu, bool in_space) {
   const double slenderness = share.height_over_width, elastic = nu / (1 - nu);
   share.round_die = std::exp(-4 * mu * elastic * slenderness);
@@ -84,7 +84,7 @@ void lay_beside(TransmissionShare& share, double mu, double nu, bool in_space) {
   share.slot_measured_ratio = std::exp(-2 * mu * share.lateral_ratio * slenderness);
 }
 
-// The loading under force, in pieces of equal change of density.
+// The loading while under force, in pieces of equal change of density.
 std::vector<std::vector<CompactionSample>> loading(const std::vector<CompactionSample>& samples) {
   const auto last = std::ranges::max_element(samples, {}, &CompactionSample::density);
   double maximum = 0;
@@ -128,7 +128,7 @@ CompactionCurve::CompactionCurve(const Scene& scene)
   top_ = name(cell_->top);
 }
 
-// Of a box its width is that of the square with its area.
+// The width of a box is that of a square of the same area.
 void CompactionCurve::sample_room(const Results& results) {
   const auto place = [&](const std::string& tool) {
     double sum = 0;

@@ -1,10 +1,10 @@
-// What a compaction in a die is judged by: forces on the four tools, density and size of the die, sample
-// by sample; and how much of the top punch's force reaches the bottom, beside what theory says.
+// Data for assessing a compaction in a die: forces on the four tools, density and size of the die, sample
+// by sample; and the share of the top punch's force that reaches the bottom, compared with theory.
 //
 // Sources   round die: F_b = F_t exp(-4 mu nu L / (D (1 - nu)))   (thesis 3.1; D: here the width W)
 //           slot, plane strain: F_b = F_t exp(-(mu_l + mu_r) K H / W), from the balance of a slice of the
-//           compact whose walls carry K times the axial stress. Elastic: K = nu/(1 - nu); and with the K
-//           that the run itself shows. Valid where the compact slides at both walls, away from one punch.
+//           compact whose walls carry K times the axial stress. Elastic: K = nu/(1 - nu); also with the K
+//           measured in the run. Valid where the compact slides at both walls, away from one punch.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ namespace pulvis {
 
 struct CompactionSample {
   double density = 0;
-  // N, towards the tool, in three dimensions N/m: over the die's area by its width; lateral: mean of the walls.
+  // N towards the tool; in three dimensions N/m: over the die's area by its width; lateral: mean of the walls.
   double top = 0, bottom = 0, lateral = 0;
   double width = 0, height = 0;  // m
   double bottom_place = 0;       // m, of the bottom punch, along the axis
@@ -34,7 +34,7 @@ struct CompactionSample {
 class CompactionCurve {
  public:
   explicit CompactionCurve(const Scene& scene);
-  void sample(const Results& results);  // nothing where the scene has no die
+  void sample(const Results& results);  // does nothing where the scene has no die
   bool has_die() const { return cell_ || room_; }
   bool in_space() const { return room_.has_value(); }
   const std::vector<CompactionSample>& samples() const { return samples_; }
@@ -45,7 +45,7 @@ class CompactionCurve {
   const std::string& left() const { return left_; }
   const std::string& right() const { return right_; }
 
-  // What a checkpoint keeps; the rest is the scene's.
+  // Stored in a checkpoint; the rest comes from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(samples_);
@@ -54,16 +54,16 @@ class CompactionCurve {
  private:
   void sample_room(const Results& results);
   std::optional<DieCell> cell_;
-  std::optional<DieRoom> room_;  // instead of it: of three dimensions
+  std::optional<DieRoom> room_;  // used instead of it in three dimensions
   std::string left_, right_, bottom_, top_;
   double thickness_ = 0;
   std::vector<CompactionSample> samples_;
 };
 
-// Coefficient at the die's walls; none where there is no die, or no single one.
+// Friction coefficient at the die's walls; empty where there is no die, or no single value.
 std::optional<double> wall_friction(const Scene& scene);
 
-struct TransmissionShare {  // means over a piece of the loading
+struct TransmissionShare {  // means over a part of the loading
   double density = 0;
   double height_over_width = 0;
   double lateral_ratio = 0;  // measured K: wall stress / mean axial stress
@@ -72,10 +72,10 @@ struct TransmissionShare {  // means over a piece of the loading
 };
 
 struct Transmission {
-  std::string not_measured;  // why; empty: it is
-  std::string not_compared;  // why there is no theory beside it; empty: there is
+  std::string not_measured;  // why; empty: it was measured
+  std::string not_compared;  // why there is no theory to compare with; empty: there is
   double wall_friction = 0, poissons_ratio = 0;
-  std::vector<TransmissionShare> shares;  // by rising density; the last one ends at the largest
+  std::vector<TransmissionShare> shares;  // ascending by density; the last one ends at the largest
 };
 
 Transmission transmission(const Scene& scene, const CompactionCurve& curve);

@@ -9,8 +9,8 @@
 namespace pulvis {
 namespace {
 
-constexpr double stiff = 10;        // contact.stiffness that leaves 1% to metals
-constexpr double stiffest = 100;    // that a scene may have
+constexpr double stiff = 10;        // contact.stiffness at which the error for metals is 1%
+constexpr double stiffest = 100;    // largest value that a scene may have
 constexpr double min_force = 1e-3;  // of the largest: below it an approach has no meaning
 
 double largest_tool_force(const World& world) {
@@ -22,7 +22,7 @@ double largest_tool_force(const World& world) {
   return largest;
 }
 
-// y at x, of a curve with rising xs; 0 before it begins.
+// y at x, of a curve with ascending xs; 0 before its start.
 double value_at(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
   const auto after = std::ranges::lower_bound(xs, x);
   if (after == xs.begin() || after == xs.end()) return after == xs.end() ? ys.back() : 0;
@@ -68,7 +68,7 @@ std::optional<double> ContactLoading::force_error() const {
   if (force_.empty()) return std::nullopt;
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(force_) - force_.begin());
   if (!(force_[peak] > 0) || peak == 0) return std::nullopt;
-  // Tools did not do this work: what was thrown against them did.
+  // The tools did not do this work: bodies with initial velocity did.
   if (!(approach_[peak] > sunk_[peak])) return std::nullopt;
   std::vector<double> approaches, forces;
   for (std::size_t i = 0; i <= peak; ++i) {
@@ -91,7 +91,7 @@ ContactFindings ContactLoading::findings() const {
   return found;
 }
 
-// Penetrations go with 1/stiffness.
+// Penetrations are proportional to 1/stiffness.
 double ContactFindings::stiffness_to_do() const {
   return std::min(std::max(stiff, 4 * stiffness), stiffest);
 }

@@ -1,13 +1,13 @@
-// What a run's contacts tell about its mesh and its contact stiffness, from the first loading.
+// What a run's contacts show about its mesh and its contact stiffness, from the first loading.
 //
-// Penetration  Surfaces that sink into each other cost the tools displacement. By virtual work that is
+// Penetration  Surfaces that penetrate each other cost the tools extra displacement. By virtual work that is
 //              u = sum(f g)/F, normal forces f and penetrations g of all contact points, F the force of the
-//              tool that bears most. In three dimensions sum(f g) is taken as twice the energy of the contact
-//              springs. Hard contacts would have given F at the approach a - u, with a = integral of dW/F, W
-//              the work of the tools. So what the run shows at a - u is too little by the share
+//              tool under the largest force. In three dimensions sum(f g) is taken as twice the energy of the
+//              contact springs. Rigid contacts would have given F at the approach a - u, with a = integral of
+//              dW/F, W the work of the tools. So the force at a - u is too low by the share
 //              1 - F(a - u)/F(a): all from the run's own curve
 // Narrow       A contact narrower than two boundary edges is not resolved (docs/accuracy.md)
-// Range        up to the largest force before anything is sheared or unloaded
+// Range        up to the largest force before any shearing or unloading
 #pragma once
 
 #include <optional>
@@ -21,14 +21,14 @@
 namespace pulvis {
 
 struct ContactFindings {
-  // More is told. On a coarse mesh the estimate of the force is good to 0.03.
+  // Larger values are reported. On a coarse mesh the estimate of the force is good to 0.03.
   static constexpr double most_narrow = 0.1;       // -, of the force
   static constexpr double max_force_error = 0.05;  // -
 
   double narrow_share = 0;            // -, of the contact force, when that was largest
   double narrow_edges = 0;            // -, mean width of those contacts in boundary edges
-  double edge_to_do = 0;              // m, of the boundary edges of which they would have two
-  std::optional<double> force_error;  // -, of the largest force, by penetration: < 0, too low
+  double edge_to_do = 0;              // m, boundary edge length at which they would span two edges
+  std::optional<double> force_error;  // -, of the largest force, due to penetration: < 0, too low
   double stiffness = 0;               // -, the scene's contact.stiffness
 
   bool too_narrow() const { return narrow_share > most_narrow; }
@@ -36,14 +36,14 @@ struct ContactFindings {
   double stiffness_to_do() const;
 };
 
-// Looks at every sample.
+// Inspects every sample.
 class ContactLoading {
  public:
   explicit ContactLoading(const Scene& scene);
   void sample(const Results& results, const World& world);
   ContactFindings findings() const;
 
-  // What a checkpoint keeps; the rest is the scene's.
+  // Stored in a checkpoint; the rest comes from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(approach_, force_, sunk_, work_, heaviest_);
@@ -57,7 +57,7 @@ class ContactLoading {
   double stiffness_ = 0;
   std::vector<double> approach_, force_, sunk_;  // m, N, m: of every sample
   double work_ = 0;                              // J, of the tools so far
-  ContactQuality heaviest_;                      // when the contacts bore most
+  ContactQuality heaviest_;                      // when the contact force was largest
 };
 
 }  // namespace pulvis

@@ -11,18 +11,18 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double closest_ratio = 1.05;  // of k2 to k1; nearer than that the two terms are one
+constexpr double closest_ratio = 1.05;  // of k2 to k1; below it the two terms are treated as one
 
 constexpr double min_k =
-    1e-4;  // as shares of the largest pressure: beyond these a term is a constant,
-constexpr double max_k = 1e2;  // or nothing, within the pressures that were measured
+    1e-4;  // as shares of the largest pressure: beyond these a term is constant,
+constexpr double max_k = 1e2;  // or zero, within the measured pressures
 
 double k_of(double log_k) { return std::clamp(std::exp(log_k), min_k, max_k); }
 
-// exp(-k/P) of every sample. P is a share of the largest pressure here, k too.
+// exp(-k/P) of every sample. P and k are shares of the largest pressure here.
 Vector shape_of(const Vector& p, double k) { return (-k / p.array()).exp(); }
 
-// Best a1, a2 >= 0 for two shapes.
+// Best a1, a2 >= 0 for two given exponentials.
 std::array<double, 2> best_shares(const Vector& first, const Vector& second, const Vector& y) {
   const double ff = first.squaredNorm(), ss = second.squaredNorm(), fs = first.dot(second);
   const double fy = first.dot(y), sy = second.dot(y);
@@ -37,7 +37,7 @@ std::array<double, 2> best_shares(const Vector& first, const Vector& second, con
                                                : std::array{0.0, alone_second};
 }
 
-// What is left for log k1, log k2 once the best a1, a2 are put in.
+// Residuals for log k1, log k2 with the best a1, a2 inserted.
 struct Remainder {
   const Vector& p;
   const Vector& y;
@@ -86,7 +86,7 @@ CooperEaton with_terms(const Candidate& best, const Vector& p, const Vector& y, 
   std::array k{k_of(best.log_k[0]), k_of(best.log_k[1])};
   auto a = best_shares(shape_of(p, k[0]), shape_of(p, k[1]), y);
   if (k[0] > k[1]) std::swap(k[0], k[1]), std::swap(a[0], a[1]);
-  if (a[0] > 0 && a[1] > 0 && k[1] < closest_ratio * k[0]) {  // one term in two halves
+  if (a[0] > 0 && a[1] > 0 && k[1] < closest_ratio * k[0]) {  // one term split in two
     a = {a[0] + a[1], 0};
     k[0] = std::sqrt(k[0] * k[1]);
   }

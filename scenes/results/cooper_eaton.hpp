@@ -1,10 +1,10 @@
-// The sum a1 exp(-k1/P) + a2 exp(-k2/P) that is nearest to given values, in the sense of least squares.
+// Least-squares fit of the sum a1 exp(-k1/P) + a2 exp(-k2/P) to given values.
 //
-// For given k1 and k2 the best a1 and a2 >= 0 follow in closed form, so only log k1 and log k2 are sought
+// For given k1 and k2 the best a1 and a2 >= 0 follow in closed form, so only log k1 and log k2 are fitted
 // (variable projection; Golub & Pereyra 1973): a coarse grid first, then Levenberg-Marquardt (Eigen) from
 // its best points, because two exponentials have more than one local optimum. k stays between 1e-4 and 100
-// of the largest pressure. Where the second term gains
-// nothing (an a of 0, or k1 and k2 closer than 5%) one term is left.
+// times the largest pressure. Where the second term does not
+// improve the fit (an a of 0, or k1 and k2 closer than 5%) one term is kept.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace pulvis {
 
 struct CooperEaton {
-  int terms = 0;                   // 0: nothing found
+  int terms = 0;                   // 0: no fit found
   std::array<double, 2> a{}, k{};  // -, Pa; k[0] < k[1]
   double at(double pressure) const {
     double sum = 0;

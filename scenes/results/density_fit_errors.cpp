@@ -31,7 +31,7 @@ Law law_of(const std::string& name) {
   return {cooper_eaton_sum, [](double d, double d0, double) { return (1 - d0 / d) / (1 - d0); }};
 }
 
-// Those that were fitted: Heckel's yield pressure follows from K.
+// The fitted parameters: Heckel's yield pressure follows from K.
 Parameters free_parameters(const DensityFit& fit) {
   Parameters q;
   for (const FitParameter& p : fit.parameters)
@@ -39,7 +39,7 @@ Parameters free_parameters(const DensityFit& fit) {
   return q;
 }
 
-// Columns scaled by the parameters: their relative changes.
+// Columns scaled by the parameters: derivatives with respect to their relative changes.
 Eigen::MatrixXd derivatives(const Law& law, const Parameters& at, const FitRange& range) {
   constexpr double step = 1e-5;
   Eigen::MatrixXd j(static_cast<Eigen::Index>(range.pressure.size()),
@@ -85,7 +85,7 @@ FitErrors fit_errors(const DensityFit& fit, const FitRange& range) {
   errors.freedom = std::max(1.0, samples * (1 - r) / (1 + r) - count);
   std::size_t k = 0;
   for (const FitParameter& p : fit.parameters) {
-    // 1/K is as sure as K, as a share of it.
+    // 1/K has the same relative uncertainty as K.
     const std::size_t of = p.name == "yield_pressure" ? 0 : k++;
     const auto at = static_cast<Eigen::Index>(of);
     errors.standard.push_back(std::abs(p.value) * std::sqrt(std::max(0.0, covariance(at, at))));

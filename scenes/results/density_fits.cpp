@@ -41,7 +41,7 @@ double sum_of_squares(const std::vector<double>& a, const std::vector<double>& b
   return sum;
 }
 
-// How well `law` follows the ordinate that was fitted, and `densities` the measured ones.
+// How well `law` fits the fitted ordinate, and `densities` the measured ones.
 void judge(DensityFit& fit, const FitRange& range, const std::vector<double>& ordinate,
            const std::vector<double>& law, std::vector<double> densities) {
   const double count = static_cast<double>(ordinate.size());
@@ -60,7 +60,7 @@ std::vector<double> each(const std::vector<double>& values, const Function& func
   return out;
 }
 
-// What falls before the largest density is reached is no single loading.
+// If density decreases before its maximum is reached, this is not a single loading.
 std::string falls(std::span<const double> density, std::size_t last) {
   for (std::size_t i = 1; i <= last; ++i)
     if (density[i] < density[i - 1] - allowed_fall)

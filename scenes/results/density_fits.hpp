@@ -6,11 +6,11 @@
 // D is the relative density, P the axial pressure on the punch, V the volume of the compact, V0 at the
 // first sample, Vinf at D = 1; with no mass lost C = 1 - D0/D and (V0 - V)/(V0 - Vinf) = C/(1 - D0).
 //
-// Range     the loading: samples up to the largest density, of which only those count whose pressure is
-//           at least 1% of the largest one of the loading (before that the punch touches nothing yet) and
-//           whose density is below 1. Every sample weighs the same; Heckel and Kawakita are straight lines
-//           by least squares in the coordinates above, Cooper-Eaton is fitted to its own left side.
-// A curve that a law says nothing about is not fitted, and the reason is kept.
+// Range     the loading: samples up to the largest density. Of these only those count whose pressure is
+//           at least 1% of the largest one of the loading (below that the punch is not in contact yet) and
+//           whose density is below 1. All samples weigh the same; Heckel and Kawakita are straight lines
+//           by least squares in the coordinates above, Cooper-Eaton is fitted to its left side.
+// A curve outside the scope of a law is not fitted, and the reason is kept.
 #pragma once
 
 #include <span>
@@ -26,13 +26,13 @@ struct FitParameter {
 
 struct DensityFit {
   std::string law;         // "heckel"
-  std::string not_fitted;  // why; empty: it is fitted
+  std::string not_fitted;  // why; empty: it was fitted
   std::vector<FitParameter> parameters;
-  double rms = 0;          // of what is fitted, in its unit
+  double rms = 0;          // of the fitted quantity, in its unit
   std::string rms_unit;    // "-" or "Pa"
-  double r_squared = 0;    // of what is fitted
-  double rms_density = 0;  // of the density that the law gives at each pressure: compares the laws
-  std::vector<double> densities;  // that the law gives at FitRange::pressure; for drawing
+  double r_squared = 0;    // of the fitted quantity
+  double rms_density = 0;  // of the density from the law at each pressure: compares the laws
+  std::vector<double> densities;  // that the law gives at FitRange::pressure; for plotting
 };
 
 struct FitRange {
@@ -45,10 +45,10 @@ inline constexpr std::size_t fewest_fit_samples = 8;
 inline constexpr double min_density_change = 1e-3;
 inline constexpr double min_pressure_share = 0.01;  // of the largest
 
-// Of a whole history; pressure in Pa, compression > 0.
+// From a whole history; pressure in Pa, compression > 0.
 FitRange fit_range(std::span<const double> density, std::span<const double> pressure);
 
-// Of a loading that somebody else has cut out, samples with low <= pressure <= high.
+// From a loading that was already extracted, samples with low <= pressure <= high.
 FitRange range_between(double first_density, std::span<const double> density,
                        std::span<const double> pressure, double low, double high);
 

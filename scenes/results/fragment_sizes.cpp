@@ -35,7 +35,7 @@ SizeDistribution::SizeDistribution(std::span<const FragmentSize> fragments, Weig
   for (double& share : shares_) share /= sum;
 }
 
-// Sums of equal parts miss a share by round-off.
+// Sums of equal parts can miss a share by round-off.
 double SizeDistribution::diameter(double share) const {
   constexpr double round_off = 1e-12;
   const auto at = std::ranges::lower_bound(shares_, share - round_off);

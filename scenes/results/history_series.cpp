@@ -34,7 +34,7 @@ bool is_servo_driven(const Scene& scene, const ToolSpec& tool) {
   });
 }
 
-// Series and what they are, in the order of the history's columns.
+// Series with their descriptions, in the order of the history's columns.
 class SeriesList {
  public:
   explicit SeriesList(const Scene& scene) : scene_(scene) {}
@@ -148,7 +148,7 @@ class SeriesList {
 
 namespace {
 
-// Energies and health are those of two dimensions; tools and contacts have their own names there.
+// Energies and quality measures as in two dimensions; tools and contacts have their own names.
 std::vector<SeriesInfo> history_in_space(const Scene& scene) {
   SeriesList list(scene);
   list.add(space::tool_series(scene));

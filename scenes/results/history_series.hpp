@@ -1,4 +1,4 @@
-// Which series the history of a run has, and what they are.
+// The series in the history of a run, with their descriptions.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace pulvis {
 
-// The series that a run of the scene keeps, in the order of Results::sample().
+// The series recorded by a run of the scene, in the order of Results::sample().
 std::vector<SeriesInfo> history_series(const Scene& scene);
-// Of Results::momentum(), which the history leaves out: it costs a walk over all nodes.
+// For Results::momentum(), which the history omits: it costs a loop over all nodes.
 std::vector<SeriesInfo> momentum_series(const Scene& scene);
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// The values of particles in two and three dimensions.
+// Per-particle values in two and three dimensions.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,12 @@
 
 namespace pulvis {
 
-// Fields of the mesh, in the order of ResultParts::fields, of which they are the first.
+// Fields of the mesh; they come first in ResultParts::fields, in this order.
 std::vector<ParticleValues> mesh_values(const World& world);
-// What the next step starts from: positions, velocities, plastic state.
+// The initial state of the next step: positions, velocities, plastic state.
 ParticleValues state_values();
 
-// Of all particles by number, one after the other.
+// All particles in order of number, one after the other.
 void visit_all(const World& world, const ParticleValues& values, const ValueSink& take);
 
 }  // namespace pulvis

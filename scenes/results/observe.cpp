@@ -13,7 +13,7 @@
 namespace pulvis {
 namespace {
 
-// Edges that one element alone has: outline and holes, with the material on the left.
+// Edges that belong to only one element: outline and holes, with the material on the left.
 std::vector<DensityGrid::OutlineEdge> outline_of(const Shape& shape) {
   std::map<std::pair<int, int>, int> count;
   const auto key = [](Row<Node> a, Row<Node> b) {

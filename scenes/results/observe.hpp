@@ -1,4 +1,4 @@
-// What a scene asks for under [output] beyond forces and energies: its columns and resources, its series
+// What a scene requests under [output] beyond forces and energies: its columns and resources, its series
 // and fields.
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace pulvis {
 
-// Refuses what cannot be observed of this scene.
+// Rejects output that is not available for this scene.
 void check_output(const Scene& scene, const schema::Origins& origins, Problems& problems);
 
-// Gives a world that has its bodies what the scene asks for.
+// Adds what the scene requests to a world that has its bodies.
 void add_observed(World& world, const Scene& scene);
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// Series and fields of what is observed beyond forces and energies; see scenes/results/observe.hpp.
+// Series and fields observed in addition to forces and energies; see scenes/results/observe.hpp.
 #include "scenes/results/observed_results.hpp"
 
 #include <cmath>
@@ -16,12 +16,12 @@ namespace {
 
 using Fields = std::vector<std::vector<double>>;
 
-// What numbers of a particle column lies in a slot.
+// First value of the particle in a slot, in a particle column.
 template <class C>
 const double* in_slot(const World& world, int slot) {
   const Lane* row = world.column<C>().lanes() + std::ptrdiff_t{slot / lane_count} * C::count;
   return reinterpret_cast<const double*>(row) +
-         slot % lane_count;  // the next is lane_count further
+         slot % lane_count;  // the next one is lane_count further
 }
 
 template <class C>
@@ -76,7 +76,7 @@ void append_network_frame(const World& world, Fields& fields) {
 }
 
 // ---- density ------------------------------------------------------------------------------------------
-// A cell that a tool fills but for round-off has no density.
+// A cell filled by a tool except for round-off has no density.
 double density_of(double filled, double room, double cell) {
   return room > 1e-9 * cell ? filled / room : std::numeric_limits<double>::quiet_NaN();
 }
@@ -122,7 +122,7 @@ void append_density(const World& world, std::vector<double>& row) {
     filled += grid.filled[c];
     room += grid.room[c];
     if (std::isnan(cells[c])) continue;
-    minimum = std::fmin(minimum, cells[c]);  // the other one where one is no number
+    minimum = std::fmin(minimum, cells[c]);  // ignores the argument that is NaN
     maximum = std::fmax(maximum, cells[c]);
   }
   const double mean = filled / room;

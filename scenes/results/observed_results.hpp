@@ -1,4 +1,4 @@
-// Series and fields of what a run observes beside motion and forces.
+// Series and fields that a run observes beyond motion and forces.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace pulvis {
 std::vector<SeriesInfo> observed_series(const Scene& scene);
 std::vector<FieldInfo> observed_fields(const Scene& scene);
 
-// Of an observed world. `die_area` m^2, between the tools; 0 where no four planes make a die.
+// From an observed world. `die_area` m^2, between the tools; 0 where no four planes form a die.
 void append_observed_sample(const World& world, double die_area, std::vector<double>& row);
 void append_observed_frame(const World& world, std::vector<std::vector<double>>& fields);
 

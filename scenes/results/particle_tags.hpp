@@ -1,4 +1,4 @@
-// What tells particles apart all through a run: number, material and class. Written once, and no column of the step.
+// Identifies particles throughout a run: number, material and class. Written once; not a column of the step.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// By particle number. A size that a packing made is of the class that it was scaled from, a grain of its particle's.
+// By particle number. A size made by a packing has the class that it was scaled from, a grain that of its particle.
 std::vector<ParticleTag> particle_tags(const Scene& scene, const World& world);
 
 }  // namespace pulvis

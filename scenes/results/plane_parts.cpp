@@ -172,7 +172,7 @@ void PlaneParts::append_cell(const Energies& e, std::vector<double>& row) const 
   }
 }
 
-// m^2, of what is around the powder; 0: nothing is.
+// m^2, of the enclosure of the powder; 0: there is none.
 double PlaneParts::enclosed_area() const {
   if (world_.has<PeriodicCell>()) return world_.resource<PeriodicCell>().area();
   return cell_ ? die_area(world_, *cell_) : 0;

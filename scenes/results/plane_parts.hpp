@@ -1,4 +1,4 @@
-// Results of two dimensions.
+// Results in two dimensions.
 #pragma once
 
 #include <optional>
@@ -36,7 +36,7 @@ class PlaneParts : public ResultParts {
 
   const World& world_;
   std::optional<DieCell> cell_;
-  std::optional<double> yield_stress_;  // where all particles share one
+  std::optional<double> yield_stress_;  // where all particles share one value
   double particle_area_ = 0;
   std::int64_t elements_ = 0;
   std::vector<ParticleTag> tags_;

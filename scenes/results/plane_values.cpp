@@ -14,7 +14,7 @@ struct CellStress {
   double xx = 0, yy = 0, zz = 0, xy = 0, effective = 0, pressure = 0;
 };
 
-// Of one particle, in the element columns of formulation F; values stand `lane_count` apart.
+// Values of one particle, in the element columns of formulation F; they are `lane_count` apart.
 template <class F>
 class Elements {
  public:
@@ -22,7 +22,7 @@ class Elements {
       : deviator_(first_value<DeviatoricStress<F::points>>(world, slot)),
         mean_stress_(first_value<MeanStress<F::volumes>>(world, slot)) {}
 
-  // Mean over the points of an element; the effective stress is the mean of theirs.
+  // Mean over the points of an element; the effective stress is the mean of the pointwise values.
   CellStress stress(std::size_t e) const {
     CellStress c;
     const double* s = deviator_ + e * 3 * F::points * lane_count;
@@ -54,7 +54,7 @@ class Elements {
   const double* mean_stress_;
 };
 
-// `append` of every element's stress.
+// Calls `append` with every element's stress.
 template <class F, class Append>
 ParticleValues of_stress(const Append& append) {
   return [append](const World& world, int slot, std::vector<double>& out) {

@@ -1,4 +1,4 @@
-// Nodes and elements of two dimensions.
+// Nodal and element values in two dimensions.
 #pragma once
 
 #include <vector>

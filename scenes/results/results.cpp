@@ -14,7 +14,7 @@ namespace pulvis {
 
 namespace {
 
-// Sum over the particles in the order of their numbers; empty lanes do not count.
+// Sum over the particles in the order of their numbers; empty lanes are skipped.
 template <class C>
 double total(const World& world) {
   const Bodies& bodies = world.resource<Bodies>();
@@ -70,17 +70,17 @@ void Results::take_energies() {
   e.external = totals.external_work;
   const double all = e.kinetic + e.elastic + e.plastic + e.hourglass + e.contact + e.friction +
                      e.damping + e.bulk_damping + e.bonds + e.fracture;
-  if (first_) initial_energy_ = all - e.external;  // a state to begin with has its own
+  if (first_) initial_energy_ = all - e.external;  // an initial state has energy of its own
   first_ = false;
   e.balance = all - e.external - initial_energy_;
-  // "Not smaller" instead of "larger": a NaN must come through to the limits.
+  // "Not smaller" instead of "larger": a NaN must reach the limits.
   if (!(std::abs(e.balance) <= worst_balance_)) worst_balance_ = std::abs(e.balance);
   largest_energy_ = std::max({largest_energy_, std::abs(e.external), std::abs(initial_energy_)});
   take_kinetic_ratio();
 }
 
-// Samples with hardly any internal energy do not count: nothing is quasi-static at first touch. Which these are is
-// known in the end only, so all are kept that no other outdoes in both figures.
+// Samples with hardly any internal energy do not count: nothing is quasi-static at first contact. Which these are is
+// only known at the end, so all samples are kept that no other exceeds in both figures.
 void Results::take_kinetic_ratio() {
   const double internal = energies_.internal();
   largest_internal_ = std::max(largest_internal_, internal);
@@ -183,7 +183,7 @@ double Results::tool_position(int tool, int axis) const {
 
 double Results::value(const std::string& series) const { return last_.at(position_.at(series)); }
 
-// The state that was just observed is the next step's to look at, if there is one.
+// Includes the state just observed, which is only checked by the next step, if there is one.
 double Results::min_jacobian() const {
   double minimum = world_.resource<Totals>().min_jacobian;
   for (const int slot : world_.resource<Bodies>().slot_of_number)
@@ -192,8 +192,8 @@ double Results::min_jacobian() const {
   return minimum;
 }
 
-// The forces of a step are those at its ends: where surfaces meet within it, the balance is off by up to half of its
-// work. Fifty of them bring in enough for that to be a hundredth.
+// The forces of a step are those at its ends: where surfaces meet within it, the energy error is up to half of the
+// step's work. Fifty steps supply enough work for that to be a hundredth.
 double Results::energy_balance_error() const {
   constexpr double round_off = 1e-12, steps_of_a_touch = 50;
   const double unresolved = steps_of_a_touch * world_.resource<Totals>().largest_work;

@@ -1,4 +1,4 @@
-// What a run hands back: history series, frame fields and the mesh, taken from an observed world.
+// Output of a run: history series, frame fields and the mesh, taken from an observed world.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@
 
 namespace pulvis {
 
-// Largest sizes of some series over all samples.
+// Largest values of some series over all samples.
 struct Peaks {
   double elastic = 0, plastic = 0, hourglass = 0;  // J
   double penetration = 0;                          // -, of a boundary edge's length
@@ -36,37 +36,37 @@ class Results {
   const std::vector<TableInfo>& tables() const { return tables_; }
   RunMesh mesh() const { return parts_->mesh(); }
 
-  // One value a series. Keeps the worst energy error and ratios seen, for the summary.
+  // One value per series. Keeps the worst energy error and ratios so far, for the summary.
   std::vector<double> sample();
-  // One list a field: particles in the order of their numbers, each with its nodes or elements.
+  // One list per field: particles in the order of their numbers, each with its nodes or elements.
   std::vector<std::vector<double>> frame() const;
-  // The same field by field, asked for in their order. The first ones are those of mesh_values, which `mesh` visits by number.
+  // The same field by field, requested in order. The first ones are those of mesh_values, which `mesh` visits by number.
   using VisitMesh = std::function<void(std::size_t field, const ValueSink& take)>;
   FrameValues frame_values(VisitMesh mesh) const;
 
-  // Of the last sample.
+  // From the last sample.
   double value(const std::string& series) const;
   bool has(const std::string& series) const { return !last_.empty() && position_.contains(series); }
-  // Along the axes, and angular about the origin: momentum_series. Forces within the powder leave all three alone, step by
-  // step and not only in the limit: positions at t_n, velocities at t_(n-1/2).
+  // Along the axes, and angular about the origin: momentum_series. Internal forces of the powder conserve all three in
+  // every step and not only in the limit: positions at t_n, velocities at t_(n-1/2).
   std::vector<double> momentum() const { return parts_->momentum(); }
   const Energies& energies() const { return energies_; }
   const Peaks& peaks() const { return peaks_; }
-  // Largest |balance| so far over the largest energy that came in or was there at the start: what is reported,
-  // expected and judged by `limits`, at every sample. At first touch there is next to no energy to compare with:
-  // what the tools do in `steps_of_a_touch` of their strongest steps does not count, and no round-off.
+  // Largest |balance| so far over the largest energy that was supplied or present at the start: the value reported,
+  // expected and checked against `limits`, at every sample. At first contact there is hardly any energy to compare with:
+  // the work of the tools in their `steps_of_a_touch` strongest steps is ignored, and so is round-off.
   double energy_balance_error() const;
-  // Largest kinetic over internal energy so far, from a tenth of the run on (nothing is quasi-static at first
-  // touch), while the internal one is above 1% of its largest so far. Reported and judged as well.
+  // Largest kinetic over internal energy so far, after the first tenth of the run (nothing is quasi-static at first
+  // contact), while internal energy exceeds 1% of its maximum so far. Also reported and checked.
   double kinetic_ratio() const;
-  // Smallest det F of any element at any step so far.
+  // Smallest det F of any element in any step so far.
   double min_jacobian() const;
   std::int64_t elements() const { return parts_->elements(); }
   const ShearResults& shear() const { return shear_; }
   double tool_position(int tool, int axis) const;  // m
   double end_time() const { return world_.resource<Clock>().end; }
 
-  // What a checkpoint keeps; the rest is the scene's.
+  // Stored in a checkpoint; the rest comes from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(last_, energies_, initial_energy_, worst_balance_, largest_energy_, largest_internal_,
@@ -93,7 +93,7 @@ class Results {
   double stiffness_energy_ = 0;  // J, largest bulk modulus times volume of the particles
   double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
   double largest_internal_ = 0;
-  // Kinetic over internal energy and the internal energy, of samples that may be the worst.
+  // Kinetic over internal energy and the internal energy, for samples that may be the worst.
   std::vector<std::pair<double, double>> kinetic_ratios_;
   ShearResults shear_;
   bool first_ = true;

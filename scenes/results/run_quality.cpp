@@ -13,7 +13,7 @@ namespace {
 
 constexpr double most_hourglass = 0.03;  // of the internal energy
 
-// What helps, in the order of the figures.
+// Advice, in the order of the figures.
 constexpr const char* of_energy_balance =
     "use smaller steps (a lower time.safety), or more elements where they are most distorted";
 constexpr const char* of_kinetic_energy =
@@ -37,7 +37,7 @@ std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
                          "stiff as possible"
                        : "use shorter boundary edges (boundary_edges): the contacts are already as "
                          "stiff as possible";
-  // Of powders: springs that give way offset what coarse faces add to the force (docs/accuracy.md).
+  // For powders: soft springs offset the extra force due to coarse faces (docs/accuracy.md).
   return fmt::format(
       "use contact.stiffness = {:g}{}", contacts.stiffness_to_do(),
       scene.space && any_material_yields(scene)
@@ -45,7 +45,7 @@ std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
           : "");
 }
 
-// Two digits, without a power of ten.
+// Two digits, without an exponent.
 std::string short_number(double value) {
   return fmt::format("{:g}", std::stod(fmt::format("{:.2g}", value)));
 }
@@ -79,7 +79,7 @@ void add_lost_force(Figures& figures, const Scene& scene, const ContactFindings&
               stiffer(scene, contacts));
 }
 
-// What three dimensions know of their contacts.
+// Contact figures in three dimensions.
 void add_contacts_in_space(Figures& figures, const Scene& scene, const Totals& totals,
                            double penetration, const ContactFindings& contacts) {
   figures.add(

@@ -1,5 +1,5 @@
-// Whether the numbers of a run can be relied on, and what to do where they cannot: the one table of it. The terminal
-// says it at the end of a run, summary.json (`quality`) has it, and report and studies read it there.
+// Whether the results of a run are reliable, and what to do where they are not: one table for all. The terminal
+// prints it at the end of a run, summary.json (`quality`) stores it, and reports and studies read it there.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ struct QualityFigure {
   std::string line() const;  // "hourglass energy 5.4% (limit 3%)", and what to do
 };
 
-// Without those that the run does not have.
+// Omits those that the run does not have.
 std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
                                        const Results& results, const ContactFindings& contacts);
 

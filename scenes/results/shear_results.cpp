@@ -16,8 +16,8 @@ namespace pulvis {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double straight = 1 - 1e-9;  // cosine between directions that are taken for one
-constexpr double goes_along = 0.1;     // share of the target's speed that a locked particle may lag
+constexpr double straight = 1 - 1e-9;  // cosine between directions that count as parallel
+constexpr double goes_along = 0.1;     // share of the target's speed by which a particle may lag
 constexpr double static_share = 0.25;  // of the sliding distance, from its beginning
 constexpr double dynamic_share = 0.5;  // of the sliding distance, to its end
 
@@ -49,7 +49,7 @@ Vec2 velocity_of(const World& world, int slot) {
   return sum / nodes;
 }
 
-// The longest move of a stage along a tool's own face.
+// The longest move in a stage along a tool's own face.
 std::optional<ShearSetup> target_of(const Scene& scene, const StageSpec& stage) {
   std::optional<ShearSetup> target;
   double longest = 0;
@@ -138,7 +138,7 @@ const ToolProgram::Stage& ShearResults::stage() const {
   return entry(world_.resource<ToolProgram>().stages, setup_->stage);
 }
 
-// m, of the target along itself, by servos and drives that give.
+// m, of the target along itself, due to servos and compliant drives.
 double ShearResults::travel_now() const {
   if (!world_.has<ServoTravel>()) return 0;
   return vector_of(world_.column<ServoTravel>().values(), setup_->target).dot(setup_->along);
@@ -227,7 +227,7 @@ void ShearResults::append_frame(std::vector<std::vector<double>>& fields) const 
   if (setup_) fields.push_back(slip_);
 }
 
-// Means are over the distance, not over time.
+// Means are over distance, not over time.
 std::optional<ShearFigures> ShearResults::figures() const {
   if (samples_.empty()) return std::nullopt;
   ShearFigures f;

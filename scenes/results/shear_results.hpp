@@ -1,5 +1,5 @@
-// What a shear stage is about: a target surface drawn along under the powder, the friction that it meets, and
-// how the compact answers.
+// Results of a shear stage: a target surface dragged along under the powder, the friction on it, and
+// the response of the compact.
 #pragma once
 
 #include <optional>
@@ -12,19 +12,19 @@
 
 namespace pulvis {
 
-// The first stage of kind "shear" in which a tool moves along its own face: the one that moves farthest so is the target.
+// The first stage of kind "shear" in which a tool moves along its own face: the tool that moves farthest is the target.
 struct ShearSetup {
   int stage = 0, target = 0;
   int punch = -1;              // the plane on the other side of the powder; -1: none
-  int wall = -1;               // the plane that the target draws the powder against; -1: none
+  int wall = -1;               // the plane against which the target drags the powder; -1: none
   Vec2 along = Vec2::UnitX();  // the direction in which the target moves
-  Vec2 up = Vec2::UnitY();     // out of the target
-  double width = 0;            // m, between the walls; 0: there are no two
+  Vec2 up = Vec2::UnitY();     // outward normal of the target
+  double width = 0;            // m, between the walls; 0: there are no two walls
 };
 std::optional<ShearSetup> shear_setup(const Scene& scene);
 
-// Static and dynamic friction of the shear stage, which later ones do not change, and how much went into them. None where
-// the target bore nothing there, where there is no width, or no punch.
+// Static and dynamic friction of the shear stage, unaffected by later ones, and the data behind them. Empty where
+// the target carried no load there, or where there is no width or no punch.
 struct ShearFigures {
   double distance = 0;                      // m
   std::optional<double> static_friction;    // largest in the first quarter of the distance
@@ -42,14 +42,14 @@ class ShearResults {
   static std::vector<SeriesInfo> series(const Scene& scene);
   static std::vector<FieldInfo> fields(const Scene& scene);
 
-  // In the order of series(); of an observed world and what it has spent in plastic flow [J]. Sums up slip over
+  // In the order of series(); from an observed world and its plastic dissipation [J]. Accumulates slip over
   // samples.
   void append_sample(double plastic, std::vector<double>& row);
   void append_frame(std::vector<std::vector<double>>& fields) const;
-  // None before the target has moved.
+  // Empty before the target has moved.
   std::optional<ShearFigures> figures() const;
 
-  // What a checkpoint keeps; the rest is the scene's.
+  // Stored in a checkpoint; the rest comes from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(punch_at_begin_, punch_before_, time_before_, work_, lateral_before_, distance_before_,
@@ -67,7 +67,7 @@ class ShearResults {
   const ToolProgram::Stage& stage() const;
   double travel_now() const;
   double distance_now() const;
-  int take_touching(bool sliding);  // sums up slip while sliding; returns how many go along
+  int take_touching(bool sliding);  // accumulates slip while sliding; returns the number locked
 
   std::optional<ShearSetup> setup_;
   const World& world_;
@@ -75,10 +75,10 @@ class ShearResults {
   double punch_before_ = 0;
   double time_before_ = 0, work_ = 0, lateral_before_ = 0, distance_before_ = 0;
   std::vector<double> slip_;                // m, [particles]
-  std::vector<Sample> samples_;             // of the shear stage, as long as the target goes on
+  std::vector<Sample> samples_;             // of the shear stage, while the target moves
   double plastic_at_begin_ = 0;             // J
   double travel_at_begin_ = 0;              // m
-  double pressed_ = 0, normal_before_ = 0;  // N m, the normal force over the distance; N
+  double pressed_ = 0, normal_before_ = 0;  // N m, normal force integrated over the distance; N
 };
 
 }  // namespace pulvis

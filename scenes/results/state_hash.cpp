@@ -43,7 +43,7 @@ class StateHash {
 
   int number_in(int slot) const { return bodies_.slots[static_cast<std::size_t>(slot)].number; }
 
-  // `add_row`: what a row that touches carries on.
+  // `add_row`: adds the history of a row in contact.
   template <class At, class Partner, class AddRow>
   void add_contacts(const Partner& partner, const AddRow& add_row) {
     if (!world_.has<ContactPair<At>>()) return;
@@ -93,7 +93,7 @@ class StateHash {
   Xxh3 hash_;
 };
 
-// Of a column that has no lanes: its rows stand in the order of the mesh.
+// For a column without lanes: its rows are in the order of the mesh.
 template <class C>
 void add_column(const World& world, Xxh3& hash) {
   if (!world.has<C>()) return;
@@ -108,7 +108,7 @@ std::uint64_t solid_hash(const World& world) {
   add_column<SolidMemory>(world, hash);
   add_column<ProbeForce>(world, hash);
   add_column<ProbeMemory>(world, hash);
-  // Target, and the stiffness that the factors were made from: they may serve the next increment again.
+  // Target, and the stiffness that was factorised: the next increment may reuse the factors.
   for (const World::SavedResource& resource : world.saved_resources()) hash.add(resource.state());
   return hash.value();
 }

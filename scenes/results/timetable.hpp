@@ -1,4 +1,4 @@
-// When a run is sampled: evenly over its time, the first at 0, the last at its end.
+// Sampling times of a run: evenly spaced over its time, the first at 0, the last at its end.
 #pragma once
 
 namespace pulvis {
@@ -12,7 +12,7 @@ class Timetable {
     while (next_ <= count_ && time >= at(next_)) ++next_;
   }
 
-  // What a checkpoint keeps; the rest is the scene's.
+  // Stored in a checkpoint; the rest comes from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(next_);

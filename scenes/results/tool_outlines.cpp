@@ -12,7 +12,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double share_of_box = 0.06;  // thickness of a body over the size of the box
+constexpr double share_of_box = 0.06;  // thickness of a body relative to the size of the box
 
 Vec2 place_of(const World& world, std::size_t tool) {
   const double* at = world.column<ToolPosition>().values() + tool_axes * tool;
@@ -36,7 +36,7 @@ ToolOutlines::ToolOutlines(const Scene& scene, const World& world, const std::ve
   for (std::size_t i = 0; i + 1 < nodes.size(); i += 2) take_in({nodes[i], nodes[i + 1]});
   const Vec2 middle = 0.5 * (box_.low + box_.high);
   const double far = (box_.high - box_.low).norm();
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {  // those far off lengthen no other
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {  // distant ones do not lengthen the others
     if (scene.tools[t].shape != ToolSpec::Shape::plane) continue;
     const Vec2 n = scene.tools[t].normal;
     const Vec2 foot = middle + n.dot(place_of(world, t) - middle) * n;
@@ -61,7 +61,7 @@ void ToolOutlines::take_in(const Vec2& point) {
   box_.high = box_.high.cwiseMax(point);
 }
 
-// A polyline goes on straight beyond its ends: as far as the box does, or a little.
+// A polyline is extended straight beyond its ends: as far as the box extends, or a little.
 std::vector<Vec2> ToolOutlines::endless_face(const ToolSpec& tool, const Vec2& at) const {
   const std::vector<Vec2> drawn = drawn_points(make_surface(tool.points, tool.rounding));
   const std::size_t last = drawn.size() - 1;
@@ -99,7 +99,7 @@ ToolLines ToolOutlines::lines() const {
   return lines;
 }
 
-// Of the line that goes along `punch`, what lies on the powder's side of `wall`: parameters from its place.
+// Clips the line along `punch` to the powder's side of `wall`: parameters from its position.
 void ToolOutlines::clip(const World& world, const Body& wall, const Body& punch, double& from,
                         double& to) const {
   const double slope = wall.normal.dot(along(punch.normal));
@@ -121,7 +121,7 @@ std::vector<Vec2> ToolOutlines::face_of_plane(const World& world, const Body& pl
   if (!is_wall(plane.normal))
     for (const Body& other : bodies_)
       if (is_wall(other.normal)) clip(world, other, plane, left, right);
-  if (left < right) from = left, to = right;  // else it stands outside of them
+  if (left < right) from = left, to = right;  // otherwise it lies outside them
   return {at + from * tangent, at + to * tangent};
 }
 

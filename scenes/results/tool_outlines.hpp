@@ -1,6 +1,6 @@
-// Outlines of the tools for pictures, frame by frame. Planes and polylines have no end for the powder; here they are
-// bodies as long as the powder was at the start: planes that face up or down are punches as wide as the walls beside
-// them leave room, the others walls.
+// Outlines of the tools for plots, frame by frame. To the powder, planes and polylines are infinite; here they are
+// bodies as long as the powder was at the start: planes that face up or down are punches that fill the width
+// between the walls, the others are walls.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class ToolOutlines {
   static FieldInfo field();
   bool empty() const { return bodies_.empty(); }
   ToolLines lines() const;
-  // x, y of every tool's corners in turn, counted as `lines` does: along its face, then two behind it.
+  // x, y of the corners, tool by tool, counted as in `lines`: along the face, then two behind it.
   std::vector<double> points(const World& world) const;
 
  private:
@@ -30,7 +30,7 @@ class ToolOutlines {
     std::size_t tool;
     std::string name;
     Vec2 normal;                   // out of its face
-    std::vector<Vec2> face;        // of a polyline, from the tool's place; empty: of a plane
+    std::vector<Vec2> face;        // of a polyline, relative to the tool's position; empty: a plane
     Vec2 foremost = Vec2::Zero();  // of a polyline's points, the one furthest along the normal
   };
   void take_in(const Vec2& point);
@@ -41,7 +41,7 @@ class ToolOutlines {
   double depth_behind(const Body& body, const std::vector<Vec2>& face) const;
 
   std::vector<Body> bodies_;
-  Box box_;               // of the powder and the tools around it, at the start
+  Box box_;               // of the powder and the surrounding tools, at the start
   double thickness_ = 0;  // m, of the bodies
 };
 

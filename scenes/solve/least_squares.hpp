@@ -1,4 +1,4 @@
-// Least squares: Eigen's decompositions and search, compiled once for all who use them.
+// Least squares: Eigen's decompositions and search, compiled once for all users.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,12 +6,12 @@
 
 namespace pulvis {
 
-// x of least |a x - b|, by QR with column pivots; a has as many columns as x and full rank.
+// x that minimises |a x - b|, by QR with column pivoting; a has as many columns as x and full rank.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::Index rank_of(const Eigen::MatrixXd& a);
 
-// Of a matrix of any rank, by its complete orthogonal decomposition: the shortest x of least |a x - b|, and the
-// Moore-Penrose inverse.
+// For a matrix of any rank, by its complete orthogonal decomposition: the minimum-norm x that minimises |a x - b|, and
+// the Moore-Penrose inverse.
 Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
@@ -20,11 +20,11 @@ using Residuals = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& 
 
 struct SearchLimits {
   int evaluations;            // of the residuals, at most
-  double tolerance = 1.5e-8;  // relative, of x and of the sum of squares; the root of rounding
-  double difference = 0;      // relative error of the residuals, for the steps of the slopes
+  double tolerance = 1.5e-8;  // relative, of x and of the sum of squares; square root of rounding
+  double difference = 0;      // relative error of the residuals, for finite-difference steps
 };
 
-// Takes x to a least sum of squares of `count` residuals near it, with slopes by differences (Levenberg-Marquardt; More 1978).
+// Moves x to a local minimum of the sum of `count` squares, slopes by differences (Levenberg-Marquardt; More 1978).
 void levenberg_marquardt(const Residuals& residuals, Eigen::Index count, const SearchLimits& limits,
                          Eigen::VectorXd& x);
 

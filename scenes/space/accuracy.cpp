@@ -14,7 +14,7 @@ struct Counts {
   const char* word;
   std::int64_t divisions, rings;
 };
-// What counts is how finely contacts are resolved; more layers cost and change little (docs/accuracy.md).
+// The contact resolution is what matters; more layers cost time and change little (docs/accuracy.md).
 constexpr std::array<Counts, 3> presets_in_space{
     {{"draft", 4, 1}, {"standard", 7, 1}, {"fine", 8, 2}}};
 
@@ -31,7 +31,7 @@ Table* table_of_mesh(Table& particle, const document::Origin& origin) {
   return particle.back().value.as<Table>();
 }
 
-// True when the particle's mesh came from the preset.
+// True if the particle's mesh came from the preset.
 bool fill_counts(Value& element, const Counts& counts) {
   Table* particle = element.as<Table>();
   Table* mesh = particle == nullptr ? nullptr : table_of_mesh(*particle, element.origin);
@@ -46,7 +46,7 @@ bool fill_counts(Value& element, const Counts& counts) {
 constexpr double stiffness_of_elastic_contacts = 10;
 constexpr document::Origin of_no_file{{1, 1}, -1};
 
-// By its yield stress, or by a table of hardening that begins with it.
+// By its yield stress, or by a hardening table that starts with it.
 bool yields(const Table& material) {
   return document::find(material, "yield_stress") != nullptr ||
          document::find(material, "hardening") != nullptr;

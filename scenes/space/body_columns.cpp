@@ -15,7 +15,7 @@
 namespace pulvis::space {
 namespace {
 
-// What the materials ask for.
+// What the materials require.
 struct MaterialNeeds {
   bool plastic = false, curved = false, damped = false;
 };

@@ -1,4 +1,4 @@
-// The deformable bodies of a world in three dimensions: tables and columns, and what stands in them at the start.
+// The deformable bodies of a world in three dimensions: tables and columns, and their initial values.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@ struct Placed {
   Rotation turn = Rotation::Identity();  // from the frame of its mesh to the scene's
 };
 
-// Uniform over all rotations (Shoemake 1992), the same on every machine.
+// Uniform over all rotations (Shoemake 1992), identical on every machine.
 Rotation random_rotation(std::mt19937_64& random);
 
-// Adds what the scene's materials and formulation need of nodes, elements and particles. Bodies::slots are known.
+// Adds the node, element and particle columns that the materials and formulation need. Requires Bodies::slots.
 void add_body_columns(World& world, const Scene& scene, const Bodies& bodies, const Shapes& shapes);
 
-// Positions and velocities. `placed`: by slot; where nobody stands the mesh rests at the origin.
+// Positions and velocities. `placed`: by slot; in empty slots the mesh rests at the origin.
 void fill_bodies(World& world, const std::vector<std::optional<Placed>>& placed,
                  const Bodies& bodies, const Shapes& shapes);
 

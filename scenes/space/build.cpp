@@ -18,7 +18,7 @@
 namespace pulvis::space {
 namespace {
 
-// Of materials without one: linear hardening, whose constants are in columns.
+// For materials without one: linear hardening, whose constants are in columns.
 void add_flow_laws(World& world, const Scene& scene) {
   if (std::ranges::none_of(scene.materials, [](const MaterialSpec& m) { return bool(m.flow); }))
     return;
@@ -35,7 +35,7 @@ void add_run_state(World& world, const Scene& scene) {
   world.emplace<Totals>();
 }
 
-// m, of every slot where a particle stands.
+// m, of every occupied slot.
 std::vector<std::array<double, 3>> centres(const Layout& layout) {
   std::vector<std::array<double, 3>> all(layout.placed.size());
   for (std::size_t slot = 0; slot < all.size(); ++slot)

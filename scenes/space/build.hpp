@@ -1,4 +1,4 @@
-// From a scene in three dimensions to the world that is computed.
+// Builds the world for a scene in three dimensions.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace pulvis::space {
 
-// Throws SceneError for what only the placed particles show: overlaps, travel beyond full density. Of several
-// ranks the part of one of them.
+// Throws SceneError for errors seen only in placed particles: overlaps, travel beyond full density. With
+// several ranks, builds the part of one of them.
 std::unique_ptr<World> build_world(const Scene& scene, const Part& part);
 
 }  // namespace pulvis::space

@@ -23,7 +23,7 @@ bool is_lattice_kind(const PackingSpec& packing) {
   return packing.kind != PackingSpec::Kind::random && packing.kind != PackingSpec::Kind::csv;
 }
 
-// As many as the lattice has at most: cells hold one to four.
+// The maximum for the lattice: cells hold one to four.
 std::int64_t most_particles(const PackingSpec& packing) {
   const std::int64_t cells = std::int64_t{packing.cells[0]} * packing.cells[1] * packing.cells[2];
   using Kind = PackingSpec::Kind;
@@ -32,7 +32,7 @@ std::int64_t most_particles(const PackingSpec& packing) {
                                                        : 1);
 }
 
-// Over the diameter of spheres that touch.
+// Relative to the diameter of touching spheres.
 double touching_spacing(PackingSpec::Kind kind) {
   using Kind = PackingSpec::Kind;
   if (kind == Kind::body_centred) return 2 / std::sqrt(3.0);
@@ -59,7 +59,7 @@ class SpaceChecks {
   }
 
  private:
-  // A default has no place of its own: its table's is told, or the table's above.
+  // A default has no source location: report that of its table, or of the table above.
   document::Origin nearest_origin(std::string path) const {
     while (origins_.count(path) == 0 && path.find('.') != std::string::npos)
       path.erase(path.rfind('.'));
@@ -90,7 +90,7 @@ class SpaceChecks {
     const ParticleSpec& of = space_.particles[i];
     const std::string path = fmt::format("particle[{}]", i);
     check_shape(of.shape, path, refusal());
-    // Between two corners of the cube there is a node of four faces, or none on all its edges.
+    // Either there is a four-face node between two corners of the cube, or on none of its edges.
     if (of.mesh.axial_divisions && of.mesh.divisions < 2)
       refuse(path + ".mesh.axial_divisions", "needs divisions of at least 2");
     const auto* cylinder = std::get_if<CylinderShape>(&of.shape);

@@ -1,4 +1,4 @@
-// Checks of a scene in three dimensions that need more than one key, run once every key is read.
+// Checks of a scene in three dimensions that involve more than one key, once all keys are read.
 #pragma once
 
 #include "scenes/language/problem.hpp"

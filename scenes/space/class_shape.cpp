@@ -35,7 +35,7 @@ std::vector<std::string> coarse_surface_warnings(const Scene& scene) {
   constexpr double far = 0.05;
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < scene.space->particles.size(); ++i) {
-    if (scene.space->particles[i].class_of >= 0) continue;  // of another size only
+    if (scene.space->particles[i].class_of >= 0) continue;  // differs only in size
     const Shape shape = class_shape(scene, i);
     if (surface_error_share(shape) <= far) continue;
     lines.push_back(fmt::format(

@@ -16,7 +16,7 @@
 namespace pulvis::space {
 namespace {
 
-// Surfaces move by this many skins against each other before they can have come near who were no neighbours.
+// Surfaces must move by this many skins relative to each other before non-neighbours can come close.
 constexpr double skins_of_neighbourhood = 8;
 
 ContactRules rules_of(const Scene& scene) {
@@ -29,11 +29,11 @@ ContactRules rules_of(const Scene& scene) {
   return rules;
 }
 
-// m, the least of an element at its middle.
+// m, the minimum of an element at its centre.
 double edge_of(const Shape::Element& element) {
   double steepest = 0;
   for (std::size_t k = 0; k < 9; k += 3) {
-    const auto& rows = element.fibre;  // as long as 1/4 over an edge
+    const auto& rows = element.fibre;  // of length 1/4 over an edge
     steepest = std::max(steepest,
                         rows[k] * rows[k] + rows[k + 1] * rows[k + 1] + rows[k + 2] * rows[k + 2]);
   }
@@ -68,7 +68,7 @@ struct Touching {  // what can touch, and how
   }
 };
 
-// Where each particle's Bezier points stand, and how many rows a chunk has of what `count` counts in a particle.
+// The number of rows of each chunk, where `count` gives that of one particle.
 template <class Count>
 std::vector<std::int32_t> of_chunks(const World& world, const Count& count) {
   const Bodies& bodies = world.resource<Bodies>();

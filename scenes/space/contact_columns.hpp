@@ -1,4 +1,4 @@
-// What contact asks for in three dimensions: tables, columns, rules and the shapes of tools.
+// Contact data in three dimensions: tables, columns, rules and the shapes of tools.
 #pragma once
 
 #include "engine/world.hpp"
@@ -6,7 +6,7 @@
 
 namespace pulvis::space {
 
-// Nothing where nothing can touch. The world has Bodies, Shapes, its particles and nodes, and the columns of its tools.
+// Does nothing if nothing can touch. The world must have Bodies, Shapes, its particles and nodes, and its tool columns.
 void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis::space

@@ -16,7 +16,7 @@ struct Numbered {
   std::uint64_t order = 0;
 };
 
-// Number of a cell on a curve through all cells of a cube (Morton 1966): bits of x, y and z in turn.
+// Index of a cell on a curve through all cells of a cube (Morton 1966): bits of x, y, z interleaved.
 class CurveThroughSpace {
  public:
   explicit CurveThroughSpace(const std::vector<BodySpec>& bodies) {
@@ -26,7 +26,7 @@ class CurveThroughSpace {
     }
   }
   std::uint64_t operator()(const Vec3& position) const {
-    constexpr int bits = 16;  // cells far smaller than particles
+    constexpr int bits = 16;  // cells much smaller than particles
     const double size = std::max((high_ - low_).maxCoeff(), std::numeric_limits<double>::min());
     std::uint64_t number = 0;
     for (int k = 0; k < 3; ++k) {

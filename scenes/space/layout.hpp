@@ -1,4 +1,4 @@
-// Which particle stands in which lane of which chunk.
+// Which particle occupies which lane of which chunk.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,11 @@ struct Layout {
   Bodies bodies;
   Shapes shapes;
   ParticleClasses classes;
-  std::vector<std::optional<Placed>> placed;  // by slot; nothing where nobody stands
+  std::vector<std::optional<Placed>> placed;  // by slot; empty for empty slots
 };
 
-// Particles of one class after the other, so many to a chunk as it has lanes; those of a class in an order that keeps
-// neighbours in space near each other. `bodies` must outlive it.
+// Particles of one class after another, as many per chunk as it has lanes; within a class, ordered so that
+// neighbours in space are close to each other. `bodies` must outlive it.
 Layout lay_out(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis::space

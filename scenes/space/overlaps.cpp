@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_reports = 20;  // a packing that is too dense overlaps everywhere
 constexpr double exact_face = 1e-11;      // mean diameters
-// Of the smaller particle's size: what the search for the least way out of a body that is no ball leaves open.
+// Relative to the smaller particle's size: error of the search for the separating translation of non-spherical bodies.
 constexpr double search_tolerance = 1e-7;
 
 struct Overlap {
@@ -29,7 +29,7 @@ struct Overlap {
   double depth;                 // m
 };
 
-// The rotation by the shortest way that makes the unit vector `axis` the z axis.
+// The smallest rotation that makes the unit vector `axis` the z axis.
 Turn turn_to_z(const Vec3& axis) {
   const double w = 1 + axis.z();
   if (w < 1e-12) return {0, 1, 0, 0};
@@ -88,7 +88,7 @@ class BodyOverlaps {
     return tool.shape == ToolSpec::Shape::punch || tool.shape == ToolSpec::Shape::stl;
   }
 
-  // Turned round, the plane has every particle in front of it.
+  // If flipped, the plane would have every particle in front of it.
   bool is_reversed(const ToolSpec& tool) const {
     if (tool.shape != ToolSpec::Shape::plane) return false;
     for (std::size_t i = 0; i < poses_.size(); ++i)
@@ -111,7 +111,7 @@ class BodyOverlaps {
     return touch ? -pair.distance(touch->normal) : 0;
   }
 
-  // Of a plane or a die; diameters.
+  // For a plane or a die; in diameters.
   double depth_behind(const ToolSpec& tool, const Vec3& along, std::size_t i) const {
     const V3 normal = vector_of(along), at = poses_[i].at - vector_of(tool.point / unit_);
     if (tool.shape == ToolSpec::Shape::plane) {
@@ -124,7 +124,7 @@ class BodyOverlaps {
     return touch ? -touch->gap : 0;
   }
 
-  // m, of a ball exactly, of other shapes at places all over their surface and at the one that lies farthest along the way
+  // m, exact for a sphere; for other shapes, from points all over their surface and the farthest point in the direction
   // into the tool.
   double depth_in(ToolDepth& tool, std::size_t i) {
     const BodySpec& body = bodies_[i];
@@ -158,7 +158,7 @@ class BodyOverlaps {
   const std::vector<BodySpec>& bodies_;
   ToolShapes tools_;
   std::vector<std::vector<Vec3>>
-      points_;       // m, of the classes' surfaces, empty until they are needed
+      points_;       // m, on the classes' surfaces, empty until needed
   double unit_ = 1;  // m
   std::vector<RigidShape> shapes_;
   std::vector<RigidPose> poses_;
@@ -218,7 +218,7 @@ class OverlapReport {
                          last ? "there are more overlaps that are not listed" : message});
   }
 
-  // A packing's particles share its mark, so the mark tells where a particle comes from.
+  // All particles of a packing share its mark, so the mark identifies the source of a particle.
   std::string key_of(const BodySpec& body) const {
     const SpaceScene& space = *scene_.space;
     for (std::size_t i = 0; i < space.packings.size(); ++i)

@@ -1,4 +1,4 @@
-// Particles that overlap each other, or reach into tools.
+// Particles that overlap each other or penetrate tools.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace pulvis::space {
 
-// Throws SceneError: each overlap with both particles, or particle and tool, and its depth; twenty at most. Particles are
-// looked at as the convex bodies that packings are made of (rigid_shape.hpp); against punches and STL tools by places on their
-// true surface. Returns the number of pairs whose bounding balls meet.
+// Throws SceneError: each overlap with both particles, or particle and tool, and its depth; at most twenty. Particles are
+// treated as the convex bodies used for packings (rigid_shape.hpp); against punches and STL tools, as points on their
+// true surface. Returns the number of pairs whose bounding spheres intersect.
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// One line where particles that touch by their true shapes overlap by the smooth surfaces of their meshes, which contacts see.
+// One line if particles whose true shapes touch overlap with the smooth surfaces of their meshes, which contacts use.
 std::vector<std::string> contact_overlap_warnings(const Scene& scene,
                                                   const std::vector<BodySpec>& bodies);
 

@@ -1,4 +1,4 @@
-// What a scene says that has no meaning in three dimensions, though it has one in two.
+// Settings that have a meaning in two dimensions but not in three.
 #pragma once
 
 #include "scenes/language/problem.hpp"

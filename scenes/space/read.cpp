@@ -55,7 +55,7 @@ class SpaceReader : public SceneTables {
     return particles;
   }
 
-  // A misspelt shape is reported once; the keys of its mesh cannot be judged then.
+  // A misspelt shape is reported once; the keys of its mesh cannot be checked then.
   static bool is_shape(const std::string& shape) {
     const schema::KeyInfo& key =
         *schema::find_key(*schema::find_table("particle", scene_language()), "shape");

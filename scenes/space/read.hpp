@@ -1,4 +1,4 @@
-// Scenes in three dimensions read from their tree; the steps around it are those of two (scenes/read.cpp).
+// Reads scenes in three dimensions from their tree; the other steps are in scenes/read.cpp.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace pulvis::space {
 
-// `origins`: where every key of it is written.
+// `origins`: source locations of all keys.
 Scene read_tree(const document::Table& root, const std::filesystem::path& file, Problems& problems,
                 schema::Origins& origins);
 

@@ -11,7 +11,7 @@ namespace {
 void check_sizes(const SphereShape&, const std::string&, const Refuse&) {}
 void check_sizes(const EllipsoidShape&, const std::string&, const Refuse&) {}
 void check_sizes(const SuperquadricShape&, const std::string&, const Refuse&) {}
-void check_sizes(const StlShape&, const std::string&, const Refuse&) {}  // when its file is read
+void check_sizes(const StlShape&, const std::string&, const Refuse&) {}  // checked at reading
 
 void check_sizes(const CylinderShape& cylinder, const std::string& path, const Refuse& refuse) {
   const double most = std::min(cylinder.diameter, cylinder.height) / 2;
@@ -23,7 +23,7 @@ void check_sizes(const CylinderShape& cylinder, const std::string& path, const R
                     cylinder.rounding, most));
 }
 
-// m, least width of the directions that the corners spread in; 0: they lie in one plane.
+// m, minimum extent over the directions that the corners span; 0: they are coplanar.
 double thickness_of(const std::vector<Vec3>& corners) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& corner : corners) mean += corner / static_cast<double>(corners.size());
@@ -31,7 +31,7 @@ double thickness_of(const std::vector<Vec3>& corners) {
   for (std::size_t i = 0; i < corners.size(); ++i)
     spread.col(static_cast<Eigen::Index>(i)) = corners[i] - mean;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(spread * spread.transpose());
-  // Not by the root of its eigenvalue, which does not tell a billionth from rounding.
+  // Not the root of its eigenvalue, which cannot distinguish 1e-9 from round-off.
   const double least = (squares.eigenvectors().col(0).transpose() * spread).norm();
   return least > 1e-9 * spread.norm() ? least : 0;
 }

@@ -1,4 +1,4 @@
-// Sizes of a particle's shape that do not go together. `path`: that of the particle.
+// Incompatible dimensions of a particle's shape. `path`: that of the particle.
 #pragma once
 
 #include "scenes/spec/material_checks.hpp"
@@ -8,8 +8,8 @@ namespace pulvis::space {
 
 void check_shape(const ParticleShape& shape, const std::string& path, const Refuse& refuse);
 
-// The disc's square has no node of four faces between its corners with one division; a rim that is rounded by more than half
-// an element is as flat as the element's faces beside it.
+// With one division, the disc's square has no four-face node between its corners; a rim rounded by more than half
+// an element is as flat as the element faces next to it.
 void check_extruded(const CylinderShape& cylinder, const MeshSpec& mesh, const std::string& path,
                     const Refuse& refuse);
 

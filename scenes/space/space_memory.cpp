@@ -15,12 +15,12 @@
 namespace pulvis::space {
 namespace {
 
-// Of a compacted powder: rows for all that is nearer than the skin, from both sides.
+// For a compacted powder: rows for everything closer than the skin, from both sides.
 constexpr double rows_of_a_face = 2;
-// Of a frame: gathered; and of its largest fields what is packed for the file and the journal.
+// Of a frame: gathered; and for its largest fields, the data packed for the file and the journal.
 constexpr std::uint64_t copies_in_flight = 2;
 
-// Volumes of particles while they are summed, as they are kept, the room, and a frame's copies.
+// Volumes of particles during summation, stored volumes, the room, and a frame's copies.
 constexpr std::uint64_t density_bytes_a_cell = 100;
 
 template <class... C>

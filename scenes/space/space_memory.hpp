@@ -1,4 +1,4 @@
-// What a scene in three dimensions will take of memory, known before any of it is taken.
+// The memory that a scene in three dimensions will need, known before any of it is allocated.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace pulvis::space {
 
-struct SpaceMemory {  // bytes, as MemoryNeed (scenes/memory_need.hpp)
+struct SpaceMemory {  // bytes, as in MemoryNeed (scenes/memory_need.hpp)
   std::uint64_t columns = 0, contacts = 0, results = 0;
 };
 SpaceMemory memory_of(const Scene& scene);

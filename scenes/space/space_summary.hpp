@@ -1,4 +1,4 @@
-// What `pulvis check` says of packings and meshes in three dimensions.
+// What `pulvis check` reports about packings and meshes in three dimensions.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 namespace pulvis::space {
 namespace {
 
-// The fastest prescribed move towards the powder; of speed 0 where there is none.
+// The fastest prescribed move towards the powder; its speed is 0 if there is none.
 FastTool fastest_in_space(const Scene& scene) {
   FastTool fast;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)

@@ -1,4 +1,4 @@
-// What a scene in three dimensions may have wrong though each of its values is allowed.
+// Likely mistakes in a scene in three dimensions whose values are all allowed.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace pulvis::space {
 
-// One line each. The packings are filled.
+// One line for each warning. The packings must be filled.
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis::space

@@ -16,7 +16,7 @@ namespace {
 
 using Triangles = std::vector<std::array<Vec3, 3>>;
 
-// In m; nothing, and a problem told, where the file or its unit is wrong.
+// In m; empty, with a problem reported, if the file or its unit is wrong.
 std::optional<Triangles> triangles_in(const Scene& scene, const std::string& file,
                                       const std::string& unit, const std::string& path,
                                       const Refuse& refuse) {
@@ -38,7 +38,7 @@ std::optional<Triangles> triangles_in(const Scene& scene, const std::string& fil
   }
 }
 
-// About their centre of volume, of the volume of the ball of `diameter` where there is one.
+// Centred at their centre of volume, with the volume of a sphere of `diameter` if given.
 void set_in_place(Triangles& triangles, const std::optional<double>& diameter) {
   const Vec3 centre = centre_of_volume(triangles);
   const double scale =

@@ -1,4 +1,4 @@
-// Triangles of the STL files that particles and tools name.
+// Triangles from the STL files that particles and tools refer to.
 #pragma once
 
 #include "scenes/language/table_reader.hpp"
@@ -7,7 +7,7 @@
 
 namespace pulvis::space {
 
-// Of particles about their centre of volume, and as large as their diameter says.
+// For particles, relative to their centre of volume and scaled to their diameter.
 void read_stl_files(Scene& scene, const Refuse& refuse);
 
 }  // namespace pulvis::space

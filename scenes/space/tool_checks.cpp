@@ -41,7 +41,7 @@ class ToolsInSpace {
     return space_.tools[static_cast<std::size_t>(tool)].name;
   }
 
-  // From the axis outward, as far as the punch is wide.
+  // From the axis outward, to the full width of the punch.
   void profile(const ToolSpec& tool, const std::string& path) {
     if (tool.profile.empty()) return;
     if (tool.profile.front().x() != 0)
@@ -73,7 +73,7 @@ class ToolsInSpace {
     }
   }
 
-  // Of moves whose drive gives.
+  // For moves with a compliant drive.
   void elastic_moves(std::size_t stage, const std::string& stage_path) {
     for (std::size_t i = 0; i < space_.moves[stage].size(); ++i) {
       const MoveSpec& move = space_.moves[stage][i];

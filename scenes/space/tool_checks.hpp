@@ -1,4 +1,4 @@
-// Checks of tools, their moves and servos, and of what ends a stage early.
+// Checks of tools, their moves and servos, and of conditions that end a stage early.
 #pragma once
 
 #include "scenes/language/table_reader.hpp"

@@ -14,7 +14,7 @@ namespace pulvis::space {
 namespace {
 
 constexpr double too_dense =
-    1.5;  // -, beyond it a scene is refused; soft elastic solids stand less
+    1.5;  // -, denser scenes are refused; soft elastic solids withstand less
 
 using Places = std::vector<Vec3>;  // of the tools
 
@@ -37,7 +37,7 @@ Places moved(Places places, const std::vector<MoveSpec>& moves, double share) {
   return places;
 }
 
-// -, share of the stage at which the room is the powder's volume.
+// -, fraction of the stage at which the room equals the powder's volume.
 double share_until_full(double volume, const DieRoom& room, const Places& places,
                         const std::vector<MoveSpec>& moves) {
   double low = 0, high = 1;
@@ -133,7 +133,7 @@ void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
 }
 
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  constexpr double slightly = 1.02;  // -, what metals stand under a few GPa
+  constexpr double slightly = 1.02;  // -, what metals bear under a few GPa
   const auto full = full_density(scene, bodies);
   if (!full || full->density < slightly) return {};
   return {told(scene, *full) + ": beyond it the solid can only be compressed elastically"};

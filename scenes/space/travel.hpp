@@ -1,4 +1,4 @@
-// Whether prescribed moves leave the powder room for the volume of its particles.
+// Whether prescribed moves leave room for the volume of the particles.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,20 @@
 namespace pulvis::space {
 
 double powder_volume(const Scene& scene, const std::vector<BodySpec>& bodies);
-// -, between six planes or in a round die before the first step; none where nothing encloses the powder.
+// -, between six planes or in a round die before the first step; none if nothing encloses the powder.
 std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-struct FullDensity {  // where moves alone take the tools beyond it
+struct FullDensity {  // if moves alone take the tools beyond it
   int stage = 0, tool = 0;
   double travel = 0;      // m, of that tool in the stage
-  double until_full = 0;  // m of it at which the room is the particles' volume
-  double density = 0;     // -, at its end; infinite where no room is left
+  double until_full = 0;  // m, of that tool until the room equals the particle volume
+  double density = 0;     // -, at the end of the stage; infinite if no room is left
 };
 std::optional<FullDensity> full_density(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// Throws SceneError where a move goes far beyond full density.
+// Throws SceneError if a move goes far beyond full density.
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies);
-// One line where it goes a little beyond.
+// One line if it goes slightly beyond.
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis::space

@@ -1,4 +1,4 @@
-// [die]: the room of the powder, given once. It is put into the packings and tools before they are read.
+// [die]: the die cavity, given once. It is copied into the packings and tools before they are read.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What the keys of a material's flow laws do not say each for itself.
+// Checks of a material's flow laws that involve more than one key.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace pulvis {
 
-// Reads the tables of hardening, lets every law begin at its material's yield stress, and refuses what does not fit
-// together. A material whose law is linear after all has no `flow` then.
+// Reads the hardening tables, makes every law start at its material's yield stress, and refuses inconsistent
+// input. A material whose law turns out to be linear then has no `flow`.
 void complete_flow_laws(Scene& scene, const schema::Origins& origins, Problems& problems);
 
 }  // namespace pulvis

@@ -4,7 +4,7 @@
 
 namespace pulvis {
 
-// A yield strain of 1 is far beyond any solid; it is nearly always a wrong prefix (GPa for MPa).
+// A yield strain of 1 is far beyond any solid; it nearly always means a wrong prefix (GPa for MPa).
 void check_materials(const Scene& scene, const Refuse& refuse) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const MaterialSpec& material = scene.materials[i];

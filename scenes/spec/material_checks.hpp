@@ -1,4 +1,4 @@
-// Checks of materials that every family shares.
+// Checks of materials, shared by all families.
 #pragma once
 
 #include <functional>

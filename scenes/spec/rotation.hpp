@@ -1,4 +1,4 @@
-// Turns by an angle with the same bits everywhere. (Eigen's own take the library's sine.)
+// Rotations by an angle, bitwise identical on every machine. (Eigen's use the library's sine.)
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-using Rotation3 = Eigen::Quaterniond;  // made of its four numbers, never of an angle
+using Rotation3 = Eigen::Quaterniond;  // built from its four components, never from an angle
 
 inline Eigen::Matrix2d rotation(double angle) {
   const double c = portable::cos(angle), s = portable::sin(angle);

@@ -1,4 +1,4 @@
-// A scene as the program sees it once its file has been read and refused or accepted: plain values,
+// A scene as the program sees it after its file has been read and checked: plain values,
 // SI units, names resolved to positions in the lists below. Nothing here runs; scenes/build.* turns it
 // into tables, columns and systems.
 #pragma once
@@ -30,22 +30,22 @@ struct MaterialSpec {
   double poissons_ratio = 0;            // -, in (-1, 0.5)
   std::optional<double> yield_stress;   // Pa, > 0; absent: elastic
   double hardening_modulus = 0;         // Pa, >= 0; dsigma_y/deps_p; 0: perfectly plastic
-  std::shared_ptr<const FlowLaw> flow;  // where it is another law than that
+  std::shared_ptr<const FlowLaw> flow;  // set if it is any other law
   SourceMark mark;
   double mass_damping = 0;       // 1/s, alpha of Rayleigh damping
   double stiffness_damping = 0;  // s, beta
   bool damped() const { return mass_damping > 0 || stiffness_damping > 0; }
 };
 
-// Meshes and outlines. An outline names the mesh that goes with it; scenes/outlines/outline.cpp knows its geometry,
+// Meshes and outlines. Each outline names its mesh type; scenes/outlines/outline.cpp knows its geometry,
 // scenes/mesh_<outline>.cpp meshes it, scenes/keys/declare_powder.cpp declares its keys.
 struct DiscMesh {
   int boundary_edges = 40;  // a multiple of 4, with a coarse core of 12
   int rings = 1;  // of quads between the core and the outline; 0: the core's rim is the outline
-  double refinement = 1;  // >= 1: edges at top and bottom are this much finer than at the sides
+  double refinement = 1;  // >= 1: edges at top and bottom are finer than at the sides by this factor
   enum class Core {
     even,  // (boundary_edges/4)^2 quads
-    coarse,  // (boundary_edges/12)^2, and a ring of transition quads: one edge for three of the outline
+    coarse,  // (boundary_edges/12)^2, and a ring of transition quads: one core edge for three outline edges
   } core = Core::even;
 };
 struct RectangleMesh {
@@ -60,7 +60,7 @@ struct RingMesh {
   int boundary_edges = 40;  // a multiple of 4
   int rings = 4;            // layers of quads through the wall, >= 1
 };
-struct StarMesh {           // of any outline that one point inside sees as a whole
+struct StarMesh {           // of any star-shaped outline
   int boundary_edges = 48;  // a multiple of 4
   int rings = 1;            // >= 1
 };
@@ -72,14 +72,14 @@ struct DiscOutline {
 };
 struct RectangleOutline {
   using Mesh = RectangleMesh;
-  double width = 0;   // m, along the particle's own x axis
+  double width = 0;   // m, along the particle's local x axis
   double height = 0;  // m
 };
 struct RoundedRectangleOutline {
   using Mesh = RoundedRectangleMesh;
-  double width = 0;   // m, along the particle's own x axis
+  double width = 0;   // m, along the particle's local x axis
   double height = 0;  // m
-  double radius = 0;  // m, of the four corners; at most half of the shorter side
+  double radius = 0;  // m, of the four corners; at most half the shorter side
 };
 struct RingOutline {  // a tube; nothing touches its inner surface
   using Mesh = RingMesh;
@@ -88,7 +88,7 @@ struct RingOutline {  // a tube; nothing touches its inner surface
 };
 struct EllipseOutline {
   using Mesh = StarMesh;
-  double width = 0;   // m, along the particle's own x axis
+  double width = 0;   // m, along the particle's local x axis
   double height = 0;  // m
 };
 struct SuperellipseOutline {  // |2x/width|^exponent + |2y/height|^exponent = 1
@@ -97,44 +97,44 @@ struct SuperellipseOutline {  // |2x/width|^exponent + |2y/height|^exponent = 1
   double height = 0;    // m
   double exponent = 2;  // -
 };
-// Its corners, or regular: so many sides in a circle of this diameter, one side below.
+// Given by its corners, or regular: `sides` sides in a circle of this diameter, one side at the bottom.
 struct PolygonOutline {
   using Mesh = StarMesh;
-  int sides = 0;                   // 0: by corners
+  int sides = 0;                   // 0: given by corners
   double diameter = 0;             // m
-  std::vector<Vec2> corners = {};  // m, either way round; the centre of the area becomes the origin
+  std::vector<Vec2> corners = {};  // m, in either order of rotation; the centroid becomes the origin
   double rounding = 0;             // m, radius of all corners; 0: sharp
   bool mirrored = false;           // x -> -x
 };
-// A closed C2 curve (periodic cubic spline) through measured points or near them.
+// A closed C2 curve (periodic cubic spline) through or near measured points.
 struct PointsOutline {
   using Mesh = StarMesh;
   std::string file = {};          // CSV, relative to the scene
-  std::string unit = {};          // of its numbers, where its header names none
-  std::string layer = {};         // of a drawing, whose outline is meant; empty: all of it
-  std::vector<Vec2> points = {};  // m, as the file has them
+  std::string unit = {};          // of its numbers, if its header gives none
+  std::string layer = {};         // of a drawing: the layer with the outline; empty: all of it
+  std::vector<Vec2> points = {};  // m, as in the file
   double smoothing = 0;           // m, root mean square distance of the curve from the points
   std::optional<double> width =
-      {};  // m, what it is scaled to, at most one of these: its extent in x,
-  std::optional<double> diameter = {};  // m, the diameter of the circle of the same area,
+      {};  // m, size to scale to, at most one of these: the extent in x,
+  std::optional<double> diameter = {};  // m, the diameter of the circle of equal area,
   std::optional<double> area = {};      // m^2
   bool mirrored = false;                // x -> -x
 };
-// Irregular: a radius over the polar angle with a spectrum of given amplitudes and drawn phases, then stretched.
+// Irregular: radius over polar angle with given spectral amplitudes and random phases, then stretched.
 struct FourierOutline {
   using Mesh = StarMesh;
-  double diameter = 0;        // m, of the circle of the same area
-  double aspect_ratio = 1;    // -, stretch along the particle's own x axis over that along y
+  double diameter = 0;        // m, of the circle of equal area
+  double aspect_ratio = 1;    // -, stretch along the particle's local x axis relative to y
   double irregularity = 0;    // -, amplitude of mode 3 over the mean radius
   double roughness = 0;       // -, of mode 8
-  double decay = 2;           // -, exponent with which both fall with the mode's number
-  int modes = 16;             // the highest of the roughness
-  std::uint64_t variant = 1;  // the phases are drawn from it
+  double decay = 2;           // -, exponent with which both decay with the mode number
+  int modes = 16;             // highest mode of the roughness
+  std::uint64_t variant = 1;  // seed of the phases
 };
 class OutlineCurve;  // scenes/outlines/outline_curve.hpp
 
-// One grain of a particle: its faces to other grains are straight, the others lie on the particle's outline. No scene
-// names it (scenes/grains).
+// One grain of a particle: its faces to other grains are straight, the others lie on the particle's outline. Scenes
+// cannot name it (scenes/grains).
 struct GrainOutline {
   using Mesh = StarMesh;
   struct Face {
@@ -150,39 +150,39 @@ using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutl
                              EllipseOutline, SuperellipseOutline, PolygonOutline, PointsOutline,
                              FourierOutline, GrainOutline>;
 
-struct GrainsSpec {  // what a particle is made of: a Voronoi tessellation
+struct GrainsSpec {  // the grains of a particle: a Voronoi tessellation
   std::optional<int> number;
-  std::optional<double> size;  // m, mean: diameter of the circle of the mean area
+  std::optional<double> size;  // m, mean: diameter of the circle of mean grain area
   int variants = 4;            // tessellations that the particles of a class share
   int relaxation = 5;          // steps of Lloyd's method
   double aspect_ratio = 1;     // -
-  double direction = 0;        // rad, of the longer side
-  int edges = 12;              // of the mesh around a mean grain
+  double direction = 0;        // rad, of the long axis
+  int edges = 12;              // of the mesh around an average grain
 };
 struct GrainPlace {
-  int grain;  // position in Scene::grains
+  int grain;  // index in Scene::grains
   Vec2 at;    // m, its centre in the frame of the particle
 };
 
-struct ParticleSpec {  // a class of equal particles
+struct ParticleSpec {  // a class of identical particles
   std::string name;
-  int material = 0;  // position in Scene::materials
+  int material = 0;  // index in Scene::materials
   Outline outline;
   MeshSpec mesh;
   bool random_mesh_phase =
-      false;              // every particle's mesh turned by its own random angle (disc, ring)
-  double mesh_phase = 0;  // rad, the same turn for all when not random (disc, ring)
+      false;              // rotate every particle's mesh by its own random angle (disc, ring)
+  double mesh_phase = 0;  // rad, the same rotation for all if not random (disc, ring)
   SourceMark mark;
-  std::optional<double> mesh_size = {};  // m, of the edges; the counts in `mesh` come from it
-  int class_of = -1;  // of one size of a packing: the class that is scaled, in Scene::particles
-  double scale = 1;   // of that class's outline
+  std::optional<double> mesh_size = {};  // m, edge length; the counts in `mesh` follow from it
+  int class_of = -1;  // for one size of a packing: the class that is scaled, in Scene::particles
+  double scale = 1;   // factor on that class's outline
   std::optional<GrainsSpec> grains = {};
-  // [variants][grains], when the scene has been read.
+  // [variants][grains], set once the scene has been read.
   std::vector<std::vector<GrainPlace>> tessellations = {};
 };
 
-struct BodySpec {                // one particle, placed by hand
-  int particle = 0;              // position in Scene::particles
+struct BodySpec {                // one particle, placed individually
+  int particle = 0;              // index in Scene::particles
   Vec2 position = Vec2::Zero();  // m, centre of the outline
   double angle = 0;              // rad, counter-clockwise
   Vec2 velocity = Vec2::Zero();  // m/s
@@ -191,38 +191,38 @@ struct BodySpec {                // one particle, placed by hand
   int parent = -1;  // of a grain: the particle's number in the order of placement
 };
 
-// By number: uniform, normal, log-normal; by area: sieve. The size of a particle is the smallest width of its
-// outline, which is what passes a sieve.
+// By number: uniform, normal, log-normal; by area: sieve. The size of a particle is the minimum width of its
+// outline, which determines the sieve that it passes.
 struct SizeLaw {
   enum class Kind { mono, uniform, normal, lognormal, sieve } kind = Kind::mono;
-  double mean = 0;                         // m, of the whole law, before it is cut off
-  double deviation = 0;                    // m, standard, of the size itself
-  std::optional<double> minimum, maximum;  // m, nothing lies beyond
+  double mean = 0;                         // m, of the whole law, before truncation
+  double deviation = 0;                    // m, standard deviation of the size itself
+  std::optional<double> minimum, maximum;  // m, the law is truncated here
   std::string file;                        // sieve curve, relative to the scene's folder
-  int sizes = 8;                           // that stand for the law
+  int sizes = 8;                           // number of discrete sizes that represent the law
 };
 
-// Of a random packing: particles of one class and their sizes.
+// Part of a random packing: particles of one class and their sizes.
 struct MixtureClass {
-  int particle = 0;                       // position in Scene::particles
+  int particle = 0;                       // index in Scene::particles
   std::optional<int> number;              // one of these three
   std::optional<double> number_fraction;  // -, of all particles
-  std::optional<double> area_fraction;    // -, of all their area
+  std::optional<double> area_fraction;    // -, of their total area
   SizeLaw size;
   SourceMark mark;
 };
 
-struct PackingReached {  // what came out of a random packing
-  double density = 0;    // -, area of the particles over that of the die up to its top
+struct PackingReached {  // the result of a random packing
+  double density = 0;    // -, area of the particles over that of the die up to the top of the packing
   double mean_gap = 0;   // -, to the three nearest neighbours, in diameters
   double min_gap = 0;    // m, between any two particles, or a particle and the die
   int touches = 0;       // pairs of particles with a gap below a thousandth of a diameter
 };
 
-// Square, hexagonal: rows of particles from the bottom. Hexagonal: they lie sqrt(3)/2 of the spacing apart, and
+// Square, hexagonal: rows of particles from the bottom. Hexagonal: rows are sqrt(3)/2 of the spacing apart, and
 // every second one, shifted by half of it, has one particle less: between flat walls it is symmetric, its full
-// rows touch both walls, and beside the others half a particle is missing at each. Random: a mixture in a die,
-// of which two of count, density and height are given. CSV: where a file says.
+// rows touch both walls, and the other rows leave a gap of half a particle at each. Random: a mixture in a die,
+// for which two of count, density and height are given. CSV: positions from a file.
 struct PackingSpec {
   enum class Kind { square, hexagonal, random, csv } kind = Kind::square;
   enum class Dense { given, touching, densest };
@@ -230,39 +230,39 @@ struct PackingSpec {
   int rows = 1;
   int columns = 1;
   double spacing = 0;       // m, centre to centre
-  double perturbation = 0;  // -, of the spacing: how far a centre may be off its place
+  double perturbation = 0;  // -, of the spacing: maximum offset of a centre from its lattice site
   Vec2 corner =
       Vec2::Zero();  // m, lower left corner of the first particle's lattice cell, or the die
   double width = 0;  // m, of the die
   std::optional<double> height;   // m
-  std::optional<int> count;       // where the classes give fractions
+  std::optional<int> count;       // if the classes give fractions
   std::optional<double> density;  // -
-  Dense dense = Dense::given;     // otherwise instead of a density
+  Dense dense = Dense::given;     // otherwise replaces a density
   std::string file;               // relative to the scene's folder
   std::vector<MixtureClass> classes;
   SourceMark mark;
-  // Of random and CSV packings, when the scene has been read:
+  // For random and CSV packings, set once the scene has been read:
   std::vector<BodySpec> placed = {};
   double top = 0;  // m, where a punch rests on the packing
   PackingReached reached = {};
 };
 
-// Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
-// the right of its points, a profile below its relief; a constraint touches nothing and holds the nodes of one body that lie in a box, or
+// Rigid. A plane fills the half-plane behind `point` and faces along `normal`; a polyline lies to
+// the right of its points, a profile below its relief; a constraint touches nothing and holds the nodes of one body that lie in a box or
 // within a radius of `point`.
 struct ToolSpec {
   enum class Shape { plane, polyline, constraint, profile };
   enum class Holds { x, y, both, radial };
   std::string name;
-  Vec2 point = Vec2::Zero();    // m; of a radial constraint, and of one with a radius: its centre
+  Vec2 point = Vec2::Zero();    // m; for a radial constraint, and one with a radius: its centre
   bool on_packing = false;      // point.y is the top of the highest packing
   Vec2 normal = Vec2::UnitY();  // unit vector, from a plane or a drawn polyline into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
-  std::vector<Vec2> points = {};  // m, polyline; of a profile made from `relief`
-  std::string file = {};          // of a drawn polyline, a measured profile: relative to the scene
-  std::string unit = {}, layer = {};  // of a drawing: its unit, where it names none; what is meant
-  ProfileSpec relief = {};            // of a profile, whose crests are at the height of `point`
+  std::vector<Vec2> points = {};  // m, of a polyline, or of a profile generated from `relief`
+  std::string file = {};          // of a drawn polyline or measured profile: relative to the scene
+  std::string unit = {}, layer = {};  // of a drawing: its unit, if it gives none; the layer to use
+  ProfileSpec relief = {};            // of a profile whose crests are at the height of `point`
   double rounding = 0;                // m, radius of a polyline's convex corners
   int body = 0;                       // of a constraint, in the order of placement
   Vec2 low = Vec2::Zero();            // m, corners of a constraint's box
@@ -272,27 +272,27 @@ struct ToolSpec {
 };
 
 struct MoveSpec {
-  int tool = 0;                      // position in Scene::tools
-  Vec2 displacement = Vec2::Zero();  // m, travelled over the stage
-  double ramp = 0.1;  // -, share of the stage in which the speed rises smoothly, and falls again
-  std::optional<double> stiffness, mass;  // N/m, kg: a drive that gives, moved at its far end
-  double damping = 0;                     // -, of the critical one of both
+  int tool = 0;                      // index in Scene::tools
+  Vec2 displacement = Vec2::Zero();  // m, over the stage
+  double ramp = 0.1;  // -, fraction of the stage in which the speed rises smoothly, and falls again
+  std::optional<double> stiffness, mass;  // N/m, kg: of a compliant drive, moved at its far end
+  double damping = 0;                     // -, fraction of the critical damping of both
   SourceMark mark;
 };
 
-struct ServoSpec {                // a tool that holds a force, through one stage
-  int tool = 0;                   // position in Scene::tools
-  std::optional<Vec2> direction;  // unit vector, in which it pushes; absent: a plane's normal
+struct ServoSpec {                // a tool under force control during one stage
+  int tool = 0;                   // index in Scene::tools
+  std::optional<Vec2> direction;  // unit vector along which it pushes; absent: a plane's normal
   double force = 0;               // N
-  double rise = 0.2;              // -, share of the stage until the force is asked for in full
+  double rise = 0.2;              // -, fraction of the stage until the full force is prescribed
   std::optional<double> rate;     // N/s, instead of `rise`
-  double response = 0.1;          // -, mass of the servo over that of the powder
+  double response = 0.1;          // -, mass of the servo relative to that of the powder
   double max_speed = 10;          // m/s
   double tolerance = 0.05;        // -, of the force, at the end of the stage
   SourceMark mark;
 };
 
-// What ends a stage before its time is over: one of the three.
+// Ends a stage before its time is over: exactly one of the three is given.
 struct UntilSpec {
   std::optional<int> tool;
   std::optional<double> force, displacement, relative_density;  // N, m, -
@@ -302,33 +302,33 @@ struct UntilSpec {
 struct StageSpec {
   std::string name;
   enum class Kind { settle, compact, hold, unload, eject, shear } kind = Kind::hold;
-  double duration = 0;  // s, at most where there is an `until`
+  double duration = 0;  // s, the maximum if there is an `until`
   std::vector<MoveSpec> moves;
   std::vector<ServoSpec> servos;
   std::optional<UntilSpec> until;
   std::optional<CellDriveSpec> cell;
-  bool keep_state = false;  // at its end, for other runs to begin with
+  bool keep_state = false;  // at its end, as an initial state for other runs
   SourceMark mark;
 };
 
 struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names (materials or tools)
   std::string first, second;
-  double coefficient = 0;                    // -, dynamic where there is a static one
+  double coefficient = 0;                    // -, the dynamic one if there is a static one
   std::optional<double> static_coefficient;  // -, before sliding
-  std::optional<double> decay_length;    // m, sliding distance in which the difference fades by 1/e
+  std::optional<double> decay_length;    // m, sliding distance over which the difference decays to 1/e
   std::optional<double> shear_strength;  // Pa
-  std::optional<double> rate, reference_speed;  // -, m/s: gains rate ln(1 + v/reference_speed)
+  std::optional<double> rate, reference_speed;  // -, m/s: increases by rate ln(1 + v/reference_speed)
   SourceMark mark;
 };
 
-struct BondSpec {  // of one pair of names (materials or tools)
+struct BondSpec {  // for one pair of names (materials or tools)
   enum class Origin { initial, pressed, adhesion } origin = Origin::initial;
   std::string first, second;
   std::optional<double> strength, shear_strength;                // Pa
   std::optional<double> fracture_energy, shear_fracture_energy;  // J/m^2
   double mixed_mode_exponent = 2;                                // -
-  double stiffness = 20;                                         // -, over the contact spring's
-  double reach = 0.01;                                           // -, of the boundary edge
+  double stiffness = 20;                                         // -, relative to the contact spring's
+  double reach = 0.01;                                           // -, relative to the boundary edge
   std::optional<double> weibull_modulus;                         // -
   double threshold = 0;                                          // Pa
   double growth = 0;                                             // -
@@ -340,18 +340,18 @@ struct BondSpec {  // of one pair of names (materials or tools)
 
 struct ContactSpec {
   double friction = 0;  // -, Coulomb coefficient of every pair that no [[friction]] names
-  // k of kappa = k K L/A (bulk modulus, boundary edge length, element area). 0.5: softer, the penetration
-  // delays the lateral force; stiffer, the force depends on where the mesh nodes lie (docs/accuracy.md).
+  // k of kappa = k K L/A (bulk modulus, boundary edge length, element area). 0.5: if softer, the penetration
+  // delays the lateral force; if stiffer, the force depends on the positions of the mesh nodes (docs/accuracy.md).
   double stiffness = 0.5;
-  double damping = 0;  // -, share of the critical damping of the contact spring (T 5.1, 5.2)
-  // -, share of the shortest edge that surfaces may move towards each other before contact rows are made
-  // anew. That costs two steps once in hundreds; rows that are apart cost memory.
+  double damping = 0;  // -, fraction of the critical damping of the contact spring (T 5.1, 5.2)
+  // -, fraction of the shortest edge by which surfaces may approach before the contact list is
+  // rebuilt. A rebuild costs about two steps every few hundred; rows not in contact cost memory.
   double skin = 0.2;
 };
 
 struct TimeSpec {
   enum class Estimate { element, highest_mode };
-  double safety = 0.9;  // -, share of the stable time step that is used, in (0, 1)
+  double safety = 0.9;  // -, fraction of the stable time step that is used, in (0, 1)
   Estimate estimate = Estimate::element;
 };
 
@@ -366,14 +366,14 @@ struct SpaceScene;  // scenes/spec/space_scene.hpp
 
 struct Scene {
   std::filesystem::path file;
-  std::vector<std::filesystem::path> extended;  // by `file`, and by each other in this order
+  std::vector<std::filesystem::path> extended;  // by `file`, and by one another in this order
   std::string title;
   double thickness = 1e-3;  // m, of the plane-strain slice: forces are in N
   std::uint64_t seed = 1;
   std::optional<std::string> initial_state;  // file
   std::vector<MaterialSpec> materials;
   std::vector<ParticleSpec> particles;
-  std::vector<ParticleSpec> grains;     // of particles that are made of them
+  std::vector<ParticleSpec> grains;     // for particles that consist of grains
   std::vector<BodySpec> bodies;         // [[body]]
   std::vector<PackingSpec> packings;    // [[packing]]
   std::optional<CellSpec> cell;         // [cell]
@@ -387,16 +387,16 @@ struct Scene {
   OutputSpec output;
   LimitSpec limits;
   std::vector<ExpectSpec> expects;  // [[expect]]
-  // family = "afm": then there are no particles, tools and stages. Not changed once it is read.
+  // family = "afm": there are then no particles, tools or stages. Not modified after reading.
   std::shared_ptr<AfmScene> afm;
-  // dimension = 3: then particles, bodies, packings and tools are there. Not changed once it is read.
+  // dimension = 3: particles, bodies, packings and tools are in here. Not modified after reading.
   std::shared_ptr<space::SpaceScene> space;
 
-  // Those of the particles, and with them the powder's: force chains need them, and a periodic cell is looked at by them.
+  // Stresses of the particles, hence of the powder: force chains need them, and a periodic cell is evaluated with them.
   bool observes_stress() const {
     return output.particle_stress || output.contacts || cell.has_value();
   }
-  // Of a particle, or of a grain: those are counted behind.
+  // For a particle or a grain: grain classes are numbered after the particle classes.
   const ParticleSpec& class_of(const BodySpec& body) const {
     const auto number = static_cast<std::size_t>(body.particle);
     return number < particles.size() ? particles[number] : grains.at(number - particles.size());

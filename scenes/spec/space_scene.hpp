@@ -1,5 +1,5 @@
-// What a scene in three dimensions (`dimension = 3`) says of its powder, tools and their moves: plain values, SI units. What
-// it shares with two dimensions (materials, friction, contact, stages, limits, output) is in scenes/spec/scene.hpp.
+// The powder, tools and moves of a scene in three dimensions (`dimension = 3`): plain values, SI units. Everything
+// shared with two dimensions (materials, friction, contact, stages, limits, output) is in scenes/spec/scene.hpp.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace pulvis::space {
 using Vec3 = Eigen::Vector3d;
 using Rotation = Rotation3;
 
-// ---- shapes, each in its own frame; size: extent along x, y, z, m ---------------------------------
+// ---- shapes, each in its local frame; size: extent along x, y, z, m -------------------------------
 struct SphereShape {
   double diameter = 0;  // m
   bool operator==(const SphereShape&) const = default;
@@ -40,33 +40,33 @@ struct CylinderShape {  // along z: tablets, pellets
   bool operator==(const CylinderShape&) const = default;
 };
 struct
-    PolyhedronShape {  // convex hull of its corners, edges and corners rounded: hull of the inset polyhedron plus a ball
+    PolyhedronShape {  // convex hull of its corners, edges and corners rounded: hull of the inset polyhedron plus a sphere
   std::vector<Vec3> corners = {};  // m
   double rounding = 0;             // m, radius of edges and corners
   bool operator==(const PolyhedronShape&) const = default;
 };
-struct StlShape {         // closed surface that its centre of volume sees as a whole (star-shaped)
+struct StlShape {         // closed surface that is star-shaped about its centre of volume
   std::string file = {};  // relative to the scene
   std::string unit = {};  // of its numbers
-  std::optional<double> diameter = {};  // m, of the ball of the same volume, to which it is scaled
-  double smoothing = 0;                 // -, share of the mean radius over which it is smoothed
-  std::vector<std::array<Vec3, 3>> triangles = {};  // m, when it has been read
+  std::optional<double> diameter = {};  // m, of the sphere of equal volume, to which it is scaled
+  double smoothing = 0;                 // -, smoothing length relative to the mean radius
+  std::vector<std::array<Vec3, 3>> triangles = {};  // m, set once it has been read
   bool operator==(const StlShape&) const = default;
 };
 using ParticleShape = std::variant<SphereShape, EllipsoidShape, SuperquadricShape, CylinderShape,
                                    PolyhedronShape, StlShape>;
-inline std::size_t stl_bytes(const ParticleShape& shape) {  // of its triangles; 0 where it has none
+inline std::size_t stl_bytes(const ParticleShape& shape) {  // of its triangles; 0 if it has none
   const auto* stl = std::get_if<StlShape>(&shape);
   return stl == nullptr ? 0 : stl->triangles.size() * sizeof(stl->triangles[0]);
 }
 
 struct MeshSpec {
-  int divisions = 4;                        // >= 1, of the edges of the cube, or of the square
+  int divisions = 4;                        // >= 1, of the cube's edges, or of the square's
   int rings = 4;                            // >= 1
-  std::optional<int> axial_divisions = {};  // >= 2, of those along z; needs divisions >= 2
+  std::optional<int> axial_divisions = {};  // >= 2, along z; needs divisions >= 2
   enum class Grid {
     cube,  // O-grid on a cubed sphere: a core of divisions^2 * axial() and `rings` layers around it
-    extruded,  // of cylinders: the O-grid of a disc in axial() layers; needs divisions >= 2
+    extruded,  // for cylinders: the O-grid of a disc in axial() layers; needs divisions >= 2
   } grid = Grid::cube;
   bool operator==(const MeshSpec&) const = default;
 
@@ -81,8 +81,8 @@ struct MeshSpec {
     if (grid == Grid::extruded) return 2 * (n * n + 4 * n * rings) + 4 * n * m;
     return 2 * n * n + 4 * n * m;
   }
-  std::int64_t surface_nodes() const { return faces() + 2; }  // Euler, of four-sided faces
-  std::int64_t surface_points() const {  // of Bezier patches, about: at nodes, on sides and inside
+  std::int64_t surface_nodes() const { return faces() + 2; }  // Euler's formula for four-sided faces
+  std::int64_t surface_points() const {  // of Bezier patches, approximately: at nodes, on sides and inside
     return surface_nodes() + 8 * faces();
   }
   std::int64_t nodes() const {
@@ -92,28 +92,28 @@ struct MeshSpec {
   }
 };
 
-struct ParticleSpec {  // a class of equal particles
+struct ParticleSpec {  // a class of identical particles
   std::string name;
-  int material = 0;  // position in Scene::materials
+  int material = 0;  // index in Scene::materials
   ParticleShape shape;
   MeshSpec mesh;
-  bool random_mesh_phase = false;  // spheres: every particle's mesh turned at random
+  bool random_mesh_phase = false;  // spheres: every particle's mesh is randomly rotated
   SourceMark mark;
   int class_of =
-      -1;            // of one size of a packing: the class that is scaled, in SpaceScene::particles
-  double scale = 1;  // of that class's shape
+      -1;            // for one size of a packing: the class that is scaled, in SpaceScene::particles
+  double scale = 1;  // factor on that class's shape
 };
 
 struct BodySpec {  // one particle
   int particle = 0;
   Vec3 position = Vec3::Zero();              // m, centre of volume
-  Rotation rotation = Rotation::Identity();  // from its own frame to the scene's
+  Rotation rotation = Rotation::Identity();  // from its local frame to the scene's
   Vec3 velocity = Vec3::Zero();              // m/s
   Vec3 angular_velocity = Vec3::Zero();      // rad/s, in the scene's frame
   SourceMark mark;
 };
 
-// Where a powder is packed: a box, or a cylinder along z. Lower corner, or centre of the floor.
+// The container of a packing: a box, or a cylinder along z. Lower corner, or centre of the floor.
 struct ContainerSpec {
   enum class Kind { box, cylinder } kind = Kind::box;
   Vec3 corner = Vec3::Zero();   // m
@@ -121,31 +121,31 @@ struct ContainerSpec {
   double diameter = 0;          // m, of a cylinder
 };
 
-// Lattices fill nx * ny * nz cells of `spacing`, from `corner` on. Random: a mixture in a container, of which two of
-// count, density and height are given. CSV: where a file says.
+// Lattices fill nx * ny * nz cells of `spacing`, starting at `corner`. Random: a mixture in a container, for which two
+// of count, density and height are given. CSV: positions from a file.
 struct PackingSpec {
   enum class Kind { cubic, body_centred, face_centred, hexagonal, random, csv } kind = Kind::cubic;
   enum class Dense { given, touching, densest };
   int particle = 0;
   std::array<int, 3> cells{1, 1, 1};  // along x, y, z
-  double spacing = 0;             // m, edge of the cubic cell; hexagonal: distance of neighbours
-  ContainerSpec container;        // of lattices: `corner` alone
+  double spacing = 0;             // m, edge of the cubic cell; hexagonal: nearest-neighbour distance
+  ContainerSpec container;        // for lattices: only `corner`
   std::optional<double> height;   // m
-  std::optional<int> count;       // where the classes give fractions
+  std::optional<int> count;       // if the classes give fractions
   std::optional<double> density;  // -
   Dense dense = Dense::given;
   std::string file;                   // relative to the scene's folder
-  std::vector<MixtureClass> classes;  // area_fraction is a share of the volume here
+  std::vector<MixtureClass> classes;  // area_fraction means a volume fraction here
   SourceMark mark;
-  // Of random and CSV packings, when the scene has been read:
+  // For random and CSV packings, set once the scene has been read:
   std::vector<BodySpec> placed = {};
   double top = 0;  // m, where a punch rests on the packing
   PackingReached reached = {};
 };
 
-// Rigid tools. A plane fills the half-space behind `point`, its surface looks along `normal`. A die is the inside of a
-// round hole along `axis`; a punch is a body of revolution about `axis` through `point`, whose face has a profile: height
-// over the radius; an STL tool is a closed surface, outward normals, moved as a whole.
+// Rigid tools. A plane fills the half-space behind `point` and faces along `normal`. A die is the inside of a round hole
+// along `axis`; a punch is a body of revolution about `axis` through `point`, whose face has a profile: height over
+// the radius; an STL tool is a closed surface with outward normals that moves as a whole.
 struct ToolSpec {
   enum class Shape { plane, die, punch, stl };
   std::string name;
@@ -157,26 +157,26 @@ struct ToolSpec {
   std::vector<Vec2> profile =
       {};  // m, of a punch: radius, height along the normal; from the axis outward
   std::string file = {}, unit = {};
-  // m, from `point`, of an STL tool when it has been read.
+  // m, relative to `point`, of an STL tool, set once it has been read.
   std::vector<std::array<Vec3, 3>> triangles = {};
   SourceMark mark;
 };
 
 struct MoveSpec {
   int tool = 0;
-  Vec3 displacement = Vec3::Zero();  // m, travelled over the stage
+  Vec3 displacement = Vec3::Zero();  // m, over the stage
   double ramp = 0.1;
-  std::optional<double> stiffness, mass;  // N/m, kg: a drive that gives, moved at its far end
-  double damping = 0;                     // -, of the critical one of both
+  std::optional<double> stiffness, mass;  // N/m, kg: of a compliant drive, moved at its far end
+  double damping = 0;                     // -, fraction of the critical damping of both
   SourceMark mark;
 };
 
 struct ServoSpec {
   int tool = 0;
   std::optional<Vec3>
-      direction;      // unit vector, in which it pushes; absent: a plane's or punch's normal
+      direction;      // unit vector along which it pushes; absent: a plane's or punch's normal
   double force = 0;   // N
-  double rise = 0.2;  // -, share of the stage until the force is asked for in full
+  double rise = 0.2;  // -, fraction of the stage until the full force is prescribed
   std::optional<double> rate;  // N/s, instead of `rise`
   double response = 0.1;
   double max_speed = 10;
@@ -189,7 +189,7 @@ struct SpaceScene {
   std::vector<BodySpec> bodies;
   std::vector<PackingSpec> packings;
   std::vector<ToolSpec> tools;
-  // By stage of Scene::stages, whose own moves and servos are empty.
+  // [stages] as in Scene::stages, whose own moves and servos are empty.
   std::vector<std::vector<MoveSpec>> moves;
   std::vector<std::vector<ServoSpec>> servos;
   bool full_integration = false;  // element.formulation = "eight-point"

@@ -9,7 +9,7 @@ bool any_material_yields(const Scene& scene) {
                              [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
 }
 
-// Every material of a scene is one of its particles: the reader refuses others.
+// Every material of a scene is used by one of its particles: the reader refuses unused ones.
 std::optional<double> common_yield_stress(const Scene& scene) {
   std::optional<double> common;
   for (const MaterialSpec& material : scene.materials) {

@@ -7,10 +7,10 @@
 
 namespace pulvis {
 
-// Whether any of them has one.
+// Whether any material has one.
 bool any_material_yields(const Scene& scene);
 
-// Pa, the one that all share; none where materials differ in it, or one has none.
+// Pa, the one shared by all; none where materials differ, or one has none.
 std::optional<double> common_yield_stress(const Scene& scene);
 
 }  // namespace pulvis

@@ -21,7 +21,7 @@ auto text_to(std::string StudyQuantity::*member) {
   return [member](auto& spec, const Decoded& value) { spec.*member = value.text; };
 }
 
-// Of what takes one number of every run; `when` has these words.
+// Keys of tables that take one number from every run; `when` has these choices.
 template <class Spec>
 std::vector<Key<Spec>> quantity_keys(const std::vector<Choice>& when) {
   return {
@@ -196,7 +196,7 @@ std::vector<Key<StudyExpect>> across_keys() {
   };
 }
 
-// `of` is what the bounds are of; only_for as in KeyInfo.
+// `of` is the quantity that the bounds apply to; only_for as in KeyInfo.
 template <class Spec>
 std::vector<Key<Spec>> bound_keys(const std::string& of, const std::string& smallest,
                                   const std::string& largest, Kind kind, const Words& only_for) {
@@ -235,7 +235,7 @@ std::vector<Key<Spec>> bound_keys(const std::string& of, const std::string& smal
   };
 }
 
-// A table whose keys are those of the scene.
+// A table whose keys are keys of the scene.
 TableView free_keys(const char* path, const char* doc) { return {{path, false, "", doc}, {}}; }
 
 }  // namespace

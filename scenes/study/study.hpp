@@ -37,7 +37,7 @@ struct StudyCurve {  // [[curve]]
   SourceMark mark;
 };
 
-struct StudyQuantity {  // one number of a run
+struct StudyQuantity {  // one number per run
   using Bound = ExpectSpec::Bound;
   enum class When { end, max, min, mean, roughness };
   std::string series, against;
@@ -63,11 +63,11 @@ struct StudyFit : StudyQuantity, StudyBounds {  // [[fit]], of a strength or a v
   enum class Law { weibull, ryshkewitch_duckworth, power };
   std::string title;
   Law law = Law::weibull;
-  std::optional<double> area;                // m^2, that the force is divided by
-  std::string disc;                          // class of the particle that is crushed
+  std::optional<double> area;                // m^2, by which the force is divided
+  std::string disc;                          // class of the crushed particle
   std::string density = "relative_density";  // series
   std::vector<std::string> by;               // keys whose values divide the runs into groups
-  std::string key;                           // of the scene, whose power law it is
+  std::string key;                           // of the scene; its power law is fitted
   SourceMark mark;
 };
 
@@ -83,13 +83,13 @@ struct StudySpec {
   std::vector<StudyFit> fits;
 };
 
-// One run of a study. Those that differ in nothing but their seed are one variation.
+// One run of a study. Runs that differ only in their seed form one variation.
 struct StudyRun {
   std::string name;       // of its folder: "friction=0.1", "friction=0.1,seed=2"
   std::string variation;  // "friction=0.1"
   std::filesystem::path file;
   std::vector<std::string> overrides;
-  std::vector<StudySetting> varied;  // what tells it from the others, without the seed
+  std::vector<StudySetting> varied;  // what distinguishes it from the others, without the seed
   std::optional<std::int64_t> seed;
   Scene scene;
   std::uint64_t hash = 0;  // of the scene as it will be run

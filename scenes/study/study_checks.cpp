@@ -72,12 +72,12 @@ class StudyChecks {
     if (study_.spec.curves.empty()) usual_curves();
   }
 
-  // A curve is drawn of the runs that have its series: one is enough.
+  // A curve is drawn from the runs that have its series: one is enough.
   void drawn(const std::string& key, const std::string& name) {
     std::vector<std::string> known;
     for (const StudyRun& run : study_.runs) {
       known = names_of(study_series(run.scene));
-      std::erase_if(known, is_figure_of_a_run);  // one number, no curve
+      std::erase_if(known, is_figure_of_a_run);  // a single number, not a curve
       if (std::ranges::find(known, name) != known.end()) return;
     }
     refuse(key, fmt::format("no run has the series '{}'{}, allowed: {}", name,
@@ -185,7 +185,7 @@ class StudyChecks {
     return true;
   }
 
-  // Without a place on it the abscissa does not matter.
+  // Without a position on it the abscissa does not matter.
   static std::string abscissa(const StudyQuantity& quantity, const Scene& scene) {
     const bool placed = quantity.at || quantity.from || quantity.until;
     return quantity.against.empty() ? study_abscissa(scene, placed) : quantity.against;
@@ -278,7 +278,7 @@ class StudyChecks {
       }
   }
 
-  // What a fit needs of every run besides the series.
+  // Requirements of a fit on every run besides the series.
   bool fits_run(const StudyFit& fit, const StudyRun& run) {
     if (fit.law == StudyFit::Law::ryshkewitch_duckworth) {
       const std::vector<SeriesInfo> all = study_series(run.scene);

@@ -1,5 +1,5 @@
 // Checks of a study across its tables: series that its runs have, variations that exist, expectations
-// that say one thing.
+// that are unambiguous.
 #pragma once
 
 #include "scenes/language/problem.hpp"
@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-// Also turns bounds with a unit into numbers, and fills in curves where the study has none.
+// Also converts bounds with a unit to numbers, and adds default curves if the study has none.
 void complete_and_check_study(Study& study, const schema::Origins& origins, Problems& problems);
 
 const StudyRun* first_run_of(const Study& study, const std::string& variation);  // null: none

@@ -19,7 +19,7 @@ namespace {
 
 using Law = StudyFit::Law;
 
-// What `run` sets the keys of `by` to; the last setting wins.
+// The values that `run` gives to the keys of `by`; the last setting wins.
 std::string group_name(const StudyRun& run, const std::vector<std::string>& by) {
   std::vector<std::string> parts;
   for (const std::string& key : by) {
@@ -34,7 +34,7 @@ std::string group_name(const StudyRun& run, const std::vector<std::string>& by) 
   return by.empty() ? "all runs" : fmt::format("{}", fmt::join(parts, ","));
 }
 
-// What tells the run from the others but for `key`.
+// What distinguishes the run from the others, apart from `key`.
 std::string group_without(const Study& study, const StudyRun& run, const std::string& key) {
   std::vector<std::string> parts;
   const auto other = [&](const StudyRun& one) { return one.file != run.file; };
@@ -58,7 +58,7 @@ std::string unit_of_series(const Scene& scene, const std::string& name) {
   return "-";
 }
 
-// m^2, that makes a strength of the force; 1 where the number is the strength.
+// m^2, by which the force is divided to give a strength; 1 if the number is the strength.
 double area_of(const StudyFit& fit, const Scene& scene) {
   if (fit.area) return *fit.area;
   if (fit.disc.empty()) return 1;

@@ -1,4 +1,4 @@
-// Laws of strength, and power laws of values, fitted across the runs of a study.
+// Strength laws, and power laws of values, fitted across the runs of a study.
 #pragma once
 
 #include <optional>
@@ -10,17 +10,17 @@
 
 namespace pulvis {
 
-struct FitRuns {  // that are fitted together
+struct FitRuns {  // fitted together
   std::string name;
   std::vector<const StudyRun*> runs;
 };
 
-// One a variation for Weibull's law; for Ryshkewitch and Duckworth's by the values of `by`, or all runs; for a power law
-// those runs that set its key, by their scene and by what else they set.
+// For Weibull's law one per variation; for Ryshkewitch and Duckworth's by the values of `by`, or all runs; for a power
+// law the runs that set its key, by their scene and their other settings.
 std::vector<FitRuns> groups_of(const Study& study, const StudyFit& fit);
-std::size_t fewest_runs(StudyFit::Law law);  // of a group
+std::size_t fewest_runs(StudyFit::Law law);  // per group
 
-// m, of a class of discs; nothing where there is none of that name, or its outline is another.
+// m, of a class of discs; nothing if there is none of that name, or its outline is not a disc.
 std::optional<double> disc_diameter(const Scene& scene, const std::string& particle);
 
 struct FittedPoint {
@@ -40,9 +40,9 @@ struct FittedParameter {
 
 struct FittedGroup {
   std::string name;
-  std::string not_fitted;           // why; empty: it is fitted
-  std::optional<double> diameter;   // m, of the disc, where all runs have the same
-  std::vector<FittedPoint> points;  // by rising strength, porosity or key
+  std::string not_fitted;           // why not; empty: it is fitted
+  std::optional<double> diameter;   // m, of the disc, if all runs have the same
+  std::vector<FittedPoint> points;  // by increasing strength, porosity or key
   std::vector<FittedParameter> parameters;
 };
 
@@ -50,18 +50,18 @@ struct FittedLaw {
   const StudyFit* fit = nullptr;
   std::string law;  // "weibull"
   std::string title;
-  std::string unit;  // of the strengths, or of what the power law is of
+  std::string unit;  // of the strengths, or of the power law's values
   std::string key_unit;
   std::vector<FittedGroup> groups;
-  // The weakest link, where there are discs of different sizes: the modulus that all groups have in common, the
-  // exponent -2/modulus of scale against diameter that follows, and the one that was found.
+  // Weakest-link theory, if there are discs of different sizes: the modulus shared by all groups, the
+  // exponent -2/modulus of scale against diameter that follows, and the exponent that was found.
   std::vector<FittedParameter> size_effect;
 };
 
 std::vector<FittedLaw> fit_study(const Study& study, const SeriesOfRun& series,
                                  const FailureOfRun& failed);
 
-// One verdict a group, of the laws whose exponent has bounds.
+// One verdict per group, for laws whose exponent has bounds.
 std::vector<Verdict> judge_fits(const std::vector<FittedLaw>& laws);
 
 }  // namespace pulvis

@@ -25,7 +25,7 @@ std::vector<std::string> words_of_path(const std::string& path) {
   return words;
 }
 
-// Names of elements stand between the words of a table's path.
+// Names of elements may occur between the words of a table's path.
 bool leads_to(const std::vector<std::string>& words, const std::string& table) {
   std::size_t at = 0;
   for (const std::string& word : words_of_path(table)) {
@@ -140,7 +140,7 @@ const schema::KeyInfo* key_at(const std::string& path, const schema::Language& l
 
 }  // namespace
 
-// A key that both dimensions have has one unit.
+// A key that exists in two and three dimensions has the same unit in both.
 std::string unit_of_key(const std::string& path) {
   const schema::KeyInfo* found = key_at(path, schema::scene_language());
   if (found == nullptr) found = key_at(path, space::scene_language());

@@ -92,7 +92,7 @@ The images of the last frames have at most 3 million pixels in total, one byte e
 than 1302 runs have none.
 )";
 
-// Settings of a table whose keys are paths into a scene; nested tables are paths, too.
+// Settings of a table whose keys are paths into a scene; nested tables extend the path.
 void flatten(const Table& table, const std::string& above, std::vector<StudySetting>& settings) {
   for (const Entry& entry : table) {
     const std::string path = schema::joined_path(above, entry.key);
@@ -127,7 +127,7 @@ std::string name_text(const Value& value) {
 
 std::string last_word(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
-// What an axis is called in the names of variations.
+// The name of an axis in the names of variations.
 std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) {
   const auto same = [&](const StudyAxis& other) {
     return last_word(other.path) == last_word(axis.path);
@@ -136,13 +136,13 @@ std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) 
                                                : name_text(Value{axis.path, {}});
 }
 
-// What lies beside the folders of the runs.
+// Files and folders next to the run folders.
 constexpr std::array files_of_a_study{
     "study.toml",   "study.csv",   "fits.csv",    "strengths.csv", "sensitivities.csv",
     "summary.json", "curves.json", "report.html", "pictures",      "inputs",
     "slurm.sh",     "slurm.json",  "slurm"};
 
-// File systems that know no capital letters take two such names for one.
+// Case-insensitive file systems treat two such names as the same.
 bool can_be_folder(std::string name) {
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
   return !name.starts_with('.') &&
@@ -248,7 +248,7 @@ class StudyReader {
           free_table(array[i].get<Table>(), "set", fmt::format("variation[{}].set", i));
   }
 
-  // Grid, list and seeds multiplied out; the last axis changes fastest, seeds faster still.
+  // Expands grid, list and seeds; the last axis changes fastest, seeds faster still.
   void make_runs() {
     std::vector<VariationSpec> list = study_.spec.list;
     if (list.empty()) list.push_back({"", "", {}, scene_origin_.mark});
@@ -315,7 +315,7 @@ class StudyReader {
     }
   }
 
-  // Reads the run's scene; what is wrong with it is told at the line of the study that made it so.
+  // Reads the run's scene; errors are reported at the line of the study that caused them.
   void load(StudyRun& run, const Origin& scene_origin) {
     std::vector<Origin> origins;
     for (const auto* settings : {&study_.spec.common, &run.varied})
@@ -347,7 +347,7 @@ class StudyReader {
 
   void tell(const SceneProblem& problem, const StudyRun& run, const std::vector<Origin>& origins,
             const Origin& scene_origin) {
-    if (!told_.insert(problem.text()).second) return;  // every run would say it again
+    if (!told_.insert(problem.text()).second) return;  // otherwise every run would repeat it
     const auto cause = std::ranges::find(run.overrides, problem.override_text);
     if (problem.override_text.empty() || cause == run.overrides.end())
       problems_.add(scene_origin, "scene", problem.text());

@@ -1,4 +1,4 @@
-// Reads a study file and every scene that it asks for. Everything that is wrong is thrown as one
+// Reads a study file and every scene that it refers to. All errors are thrown as one
 // SceneError before anything runs.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// `overrides` change every run, after the study's own settings.
+// `overrides` apply to every run, after the study's own settings.
 Study load_study(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 std::string study_reference();  // docs/study.md

@@ -17,7 +17,7 @@ constexpr double min_force_share = 0.01;
 struct Face {  // of a tool of the die
   std::string along;
   double sign;        // of a force towards the tool
-  int first, second;  // tools whose distance is the face's length
+  int first, second;  // tools whose distance is the length of the face
   std::string across;
 };
 

@@ -61,7 +61,7 @@ double reduced(When when, const std::vector<double>& values) {
   return no_number;
 }
 
-// Distance of values[at] from the line through values[low..high).
+// Deviation of values[at] from the line fitted to values[low..high).
 double off_the_line(std::span<const double> values, std::size_t low, std::size_t high,
                     std::size_t at) {
   const double count = static_cast<double>(high - low);
@@ -237,7 +237,7 @@ double roughness(std::span<const double> values) {
 double figure_of(const StudyQuantity& quantity, std::span<const double> against,
                  std::span<const double> series) {
   const bool whole = !quantity.at && quantity.when != When::roughness;
-  if (series.size() == 1 && against.size() != 1 && whole) return series[0];  // a value of the run
+  if (series.size() == 1 && against.size() != 1 && whole) return series[0];  // one value per run
   if (series.empty() || against.size() != series.size()) return no_number;
   if (quantity.at) return passing(against, series, quantity.at->number);
   return reduced(quantity.when.value_or(When::end), window(quantity, against, series));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double outside = 0.05;  // probability beyond each limit
 
-// ln s of one sample, from its largest, so that no power overflows.
+// ln s of one sample, relative to its largest, so that no power overflows.
 struct Logarithms {
   std::vector<double> below;  // <= 0
   double largest = 0;
@@ -29,7 +29,7 @@ struct Slope {
   double value = 0, derivative = 0;
 };
 
-// Of the logarithm of the likelihood, with the best scales put in.
+// Derivative of the log-likelihood, with the best scales substituted.
 Slope likelihood_slope(const std::vector<Logarithms>& samples, double modulus) {
   Slope slope;
   for (const Logarithms& logs : samples) {
@@ -47,7 +47,7 @@ Slope likelihood_slope(const std::vector<Logarithms>& samples, double modulus) {
   return slope;
 }
 
-// Newton's method, kept within bounds on both sides of the root.
+// Newton's method, bracketed on both sides of the root.
 double likeliest_modulus(const std::vector<Logarithms>& samples) {
   constexpr int most = 200;
   constexpr double near = 1e-13;
@@ -72,7 +72,7 @@ double log_scale(const Logarithms& logs, double modulus) {
   return logs.largest + std::log(sum / static_cast<double>(logs.below.size())) / modulus;
 }
 
-// Strengths of modulus and scale 1, as many as in `like`. The engine is the standard's, the same everywhere.
+// Random strengths of modulus and scale 1, as many as in `like`. The engine is portable: same numbers.
 std::vector<Logarithms> drawn(const std::vector<Logarithms>& like, std::mt19937_64& engine) {
   std::vector<Logarithms> samples;
   for (const Logarithms& sample : like) {
@@ -109,7 +109,7 @@ Pivots drawn_pivots(const std::vector<Logarithms>& like, int draws) {
   return pivots;
 }
 
-// The slope of a straight line through y of each size is the sum of y with these weights.
+// The slope of the regression line through one y per size is the sum of y with these weights.
 std::vector<double> slope_weights(const std::vector<double>& sizes) {
   std::vector<double> weights;
   double mean = 0, square = 0;

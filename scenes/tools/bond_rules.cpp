@@ -100,7 +100,7 @@ double stiffest_bond(const BondRules& rules, int material, bool pressed) {
 
 namespace {
 
-// Least stiffness of the contact springs of each law, Pa/m.
+// Smallest stiffness of the contact springs of each law, Pa/m.
 class SoftestSprings {
  public:
   SoftestSprings(const Bodies& bodies, const Scene& scene, const BondRules& rules)
@@ -133,7 +133,7 @@ class SoftestSprings {
       least = std::min(least, edge.stiffness);
     return scene_.contact.stiffness * bulk(material) * least;
   }
-  // As the broad phase has it: the sampled edge in series with the other outline's mean.
+  // As in the broad phase: the sampled edge in series with the other outline's mean.
   double pair(int a, int m, int b, int n) const {
     const double first = softest(a, m);
     const double second =
@@ -160,7 +160,7 @@ BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules) 
   const SoftestSprings springs(bodies, scene, rules);
   std::vector<SceneProblem> problems;
   for (std::size_t i = 0; i < rules.laws.size(); ++i) {
-    if (springs.of(i) == SoftestSprings::infinite) continue;  // nobody who could touch
+    if (springs.of(i) == SoftestSprings::infinite) continue;  // no pair that could touch
     BondRules::Law& law = rules.laws[i];
     const double k = law.stiffness * springs.of(i);
     law.largest_share = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// The laws of bonds that a scene asks for, pair by pair.
+// The bond laws that a scene requests, pair by pair.
 #pragma once
 
 #include "components/bond.hpp"
@@ -6,21 +6,21 @@
 
 namespace pulvis {
 
-// Whether anything can be bonded: adhesion is no bond.
+// Whether anything can be bonded: adhesion is not a bond.
 bool has_bonds(const Scene& scene);
 
-// Without what follows from the meshes: see bounded_by.
+// Without the data that depend on the meshes: see bounded_by.
 BondRules bond_rules(const Scene& scene);
 
-// The same with bounds on what Weibull's law draws. Throws SceneError where a fracture energy is less than what the
-// bond's spring stores on the softest edges.
+// The same with bounds on the random values of Weibull's law. Throws SceneError where a fracture energy is less than the
+// energy stored in the bond's spring on the softest edges.
 BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules);
 
-// -, stiffness over the contact spring's of the stiffest bond that a material can have, made at the start or by pressure;
-// 0: none.
+// -, stiffness of the stiffest bond that a material can have, over the contact spring's; bonds made at the start or by
+// pressure; 0: none.
 double stiffest_bond(const BondRules& rules, int material, bool pressed);
 
-// m, gap across which a bond can hold: what was bonded at the start, and the opening at which it is broken in its longest
+// m, gap across which a bond can act: that of bonds at the start, plus the opening at which a bond breaks in its longest
 // mode.
 double longest_gap(const Bodies& bodies, const BondRules& rules);
 

@@ -50,7 +50,7 @@ MixedControl::Stage stage_of(const StageSpec& spec, const CellDriveSpec& drive) 
   return stage;
 }
 
-// The inertia against a strain, kg m^2, and the dashpot, N m s: those of a punch of the cell's size at the end of a lever of
+// The inertia for a strain, kg m^2, and the dashpot, N m s: those of a punch of the cell's size on a lever arm of
 // its size (scenes/tools/drives.cpp), since a displacement is strain times size.
 void tune(MixedControl::Stage& stage, double response, const Powder& powder, double area,
           double thickness) {

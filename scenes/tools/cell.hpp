@@ -1,4 +1,4 @@
-// The periodic cell of a scene, and the die that is driven like one.
+// The periodic cell of a scene, and a die that is driven in the same way.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ std::array<Vec2, 2> cell_vectors(const CellSpec& cell);
 // Where the scene has one. `bodies`: the particles.
 void add_cell(World& world, const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// Stages move the four planes of a die by strains or stresses.
+// Whether stages move the four planes of a die by strains or stresses.
 bool drives_walls(const Scene& scene);
 void add_driven_walls(World& world, const Scene& scene, const std::vector<BodySpec>& bodies);
 

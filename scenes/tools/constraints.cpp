@@ -15,13 +15,13 @@ namespace pulvis {
 namespace {
 
 constexpr double round_off =
-    1e-9;  // of the body's size: how far outside of its box or circle a node may lie
+    1e-9;  // of the body's size: how far outside its box or circle a node may lie
 
 struct Held {
   std::int32_t chunk, node, lane, tool;
   Vec2 place;
   Vec2 direction = Vec2::Zero();
-  Vec2 travel = Vec2::Zero();  // of the node, along `direction`, by the tool's x and y
+  Vec2 travel = Vec2::Zero();  // of the node, along `direction`, per x and y of the tool
 };
 
 [[noreturn]] void refuse(const Scene& scene, int tool, const std::string& key,
@@ -81,7 +81,7 @@ bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
 std::vector<Held> held_by(const Scene& scene, const Bodies& bodies, const NodePlaces& places_of,
                           int number) {
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
-  int last = 0;  // a particle's grains are all held
+  int last = 0;  // all grains of a particle are held
   for (const Bodies::Slot& slot : bodies.slots) last = std::max(last, slot.parent);
   if (tool.body > last)
     refuse(scene, number, "body",
@@ -104,7 +104,7 @@ std::vector<Held> held_by(const Scene& scene, const Bodies& bodies, const NodePl
   return held;
 }
 
-// Two constraints may hold a node only at right angles: otherwise neither could give way to the other.
+// Two constraints may hold a node only at right angles: otherwise they conflict.
 void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
   for (std::size_t i = 0; i < sorted.size(); ++i)
     for (std::size_t j = i + 1; j < sorted.size(); ++j) {

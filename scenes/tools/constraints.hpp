@@ -13,11 +13,11 @@ inline bool is_constraint(const ToolSpec& tool) {
   return tool.shape == ToolSpec::Shape::constraint;
 }
 
-// m, of the undeformed mesh of the particle in a slot.
+// m, undeformed node positions of the particle in a slot.
 using NodePlaces = std::function<std::vector<Vec2>(int slot)>;
 
 // Adds the constrained nodes to a world that has its bodies; a rank holds those of its own particles. Throws SceneError where
-// a constraint holds nothing, or what it cannot hold.
+// a constraint holds nothing, or something that it cannot hold.
 void add_constraints(World& world, const Scene& scene, const NodePlaces& places_of);
 
 }  // namespace pulvis

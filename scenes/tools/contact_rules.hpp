@@ -1,4 +1,4 @@
-// How surfaces of the scene's materials and tools meet.
+// Contact rules between the scene's materials and tools.
 #pragma once
 
 #include <string>

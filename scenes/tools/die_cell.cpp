@@ -7,7 +7,7 @@
 namespace pulvis {
 namespace {
 
-// A target surface, or a polyline like one: it goes on in x, the powder above it.
+// A target surface, or a polyline like one: it extends in x, with the powder above.
 bool is_ground(const ToolSpec& tool) {
   if (tool.shape == ToolSpec::Shape::profile) return true;
   if (tool.shape != ToolSpec::Shape::polyline || tool.points.empty()) return false;
@@ -16,7 +16,7 @@ bool is_ground(const ToolSpec& tool) {
          }) == tool.points.end();
 }
 
-// Of a polyline, which goes on straight beyond its ends.
+// For a polyline, which continues straight beyond its ends.
 bool lies_behind(const ToolSpec& polyline, const ToolSpec& plane) {
   const std::vector<Vec2>& p = polyline.points;
   const auto height = [&](const Vec2& at) { return (at - plane.point).dot(plane.normal); };
@@ -24,7 +24,7 @@ bool lies_behind(const ToolSpec& polyline, const ToolSpec& plane) {
          height(p.front()) <= height(p[1]) && height(p.back()) <= height(p[p.size() - 2]);
 }
 
-// Platens that stand behind a wall of the die until it has gone.
+// Platens that stay behind a wall of the die until it is removed.
 bool waits_outside(const ToolSpec& tool, const Scene& scene) {
   return tool.shape == ToolSpec::Shape::polyline && tool.points.size() > 1 &&
          std::ranges::any_of(scene.tools, [&](const ToolSpec& wall) {
@@ -41,7 +41,7 @@ std::optional<DieCell> die_cell(const Scene& scene) {
     const ToolSpec& tool = scene.tools[t];
     if (tool.shape == ToolSpec::Shape::constraint || waits_outside(tool, scene)) continue;
     if (tool.shape != ToolSpec::Shape::plane && !is_ground(tool))
-      return std::nullopt;  // takes space of its own
+      return std::nullopt;  // takes up space
     const Vec2 n = face_normal(tool);
     int* side = n.x() > 1 - 1e-12    ? &cell.left
                 : n.x() < -1 + 1e-12 ? &cell.right

@@ -1,5 +1,5 @@
-// The box between four tools whose normals look along +x, -x, +y, -y: what relative density refers to.
-// Polylines that begin behind one of them take nothing of it.
+// The box between four tools with normals along +x, -x, +y, -y: the volume for the relative density.
+// Polylines that begin behind one of them do not reduce it.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What a die's bottom leaves below its crests, where it is a target surface: it belongs to the volume between
+// The volume below the crests of a die's bottom, where it is a target surface: part of the volume between
 // the tools.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-// With arcs as chords: docs/results.md gives the error.
+// Arcs are replaced by chords: docs/results.md gives the error.
 Relief relief_of(const ToolSurface& surface);
 Relief relief_of(const World& world, int tool);  // empty for a plane
 

@@ -11,7 +11,7 @@ constexpr double straight = 1 - 1e-12;  // cosine between a plane's normal and a
 
 Vec2 face_normal(const ToolSpec& tool) {
   if (tool.shape == ToolSpec::Shape::plane) return tool.normal;
-  if (tool.points.empty()) return Vec2::UnitY();  // a profile that is not made yet
+  if (tool.points.empty()) return Vec2::UnitY();  // a profile that has not been generated yet
   const Vec2 along = tool.points.back() - tool.points.front();
   return std::abs(along.x()) >= std::abs(along.y()) ? Vec2(0, along.x() > 0 ? 1 : -1)
                                                     : Vec2(along.y() > 0 ? -1 : 1, 0);

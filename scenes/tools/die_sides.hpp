@@ -9,12 +9,12 @@
 
 namespace pulvis {
 
-// Out of a plane, or of the side of a polyline or profile that most of it faces; no constraint's.
+// Outward normal of a plane, or of the side that most of a polyline faces; not for constraints.
 Vec2 face_normal(const ToolSpec& tool);
 
-// Tools: left, right, bottom, top. A plane stands on the side that its normal looks away from, which must be
-// an axis; a polyline on the one that its chord looks away from most. Constraints
-// touch nothing and stand nowhere. None unless there is just one tool on each side.
+// Tools: left, right, bottom, top. A plane belongs to the side opposite to its normal, which must be
+// along an axis; a polyline to the one opposite to its chord's normal. Constraints
+// touch nothing and are on no side. Empty unless there is exactly one tool on each side.
 using DieSides = std::array<int, 4>;
 std::optional<DieSides> die_sides(const Scene& scene);
 

@@ -45,7 +45,7 @@ void read_drawn_faces(Scene& scene, const schema::Origins& origins, Problems& pr
     ToolSpec& tool = scene.tools[t];
     const std::string at = fmt::format("tool[{}]", t);
     const bool is_drawn = tool.shape == ToolSpec::Shape::polyline && !tool.file.empty();
-    if (!is_drawn || !tool.points.empty()) continue;  // with both keys it is refused elsewhere
+    if (!is_drawn || !tool.points.empty()) continue;  // a tool with both keys is rejected elsewhere
     const std::filesystem::path path = scene.file.parent_path() / tool.file;
     try {
       tool.points = placed_face(line_in(path, tool), tool.normal,

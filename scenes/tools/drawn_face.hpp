@@ -7,11 +7,11 @@
 
 namespace pulvis {
 
-// The line with the powder to its left: its chord looks left along `normal`. Its points are as in the drawing, or, with
-// `point`, moved so that the one furthest along `normal` is level with it, and the middle between the ends beside it.
+// The line with the powder to its left: its chord's left normal is along `normal`. Its points are as in the drawing,
+// or, given `point`, moved so that the one furthest along `normal` is level with it, the middle of the ends beside it.
 std::vector<Vec2> placed_face(std::vector<Vec2> line, const Vec2& normal, const Vec2* point);
 
-// Fills the points of the scene's polylines that have a file. One that rests on the packing gets its height when that is
+// Fills the points of the scene's polylines that have a file. One that rests on the packing gets its height once that is
 // known.
 void read_drawn_faces(Scene& scene, const schema::Origins& origins, Problems& problems);
 

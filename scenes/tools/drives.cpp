@@ -45,7 +45,7 @@ ToolProgram tool_program(const World& world, const Scene& scene) {
 }
 
 // ---- servos ---------------------------------------------------------------------------------------
-// Across `direction`; particles count as discs of their area.
+// Perpendicular to `direction`; particles count as discs of equal area.
 double width_of(const Scene& scene, const std::vector<BodySpec>& bodies, const Vec2& direction) {
   double low = 1e300, high = -1e300;
   for (const BodySpec& body : bodies) {

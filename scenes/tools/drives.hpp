@@ -1,4 +1,4 @@
-// From a scene's stages to what moves its tools: programmes, servos, and what ends a stage early.
+// Converts a scene's stages to tool motion: programmes, servos, and what ends a stage early.
 #pragma once
 
 #include "engine/world.hpp"
@@ -6,7 +6,7 @@
 
 namespace pulvis {
 
-// Needs the columns of the tools, and ToolPosition filled.
+// Requires the columns of the tools, with ToolPosition filled.
 void add_drives(World& world, const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// The powder of a scene as a whole: what servos are tuned by.
+// Bulk properties of a scene's powder, used to tune servos.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace pulvis {
 
 struct Powder {
   double mass = 0;       // kg
-  double impedance = 0;  // Pa s/m, largest of its materials: density times dilatational speed
+  double impedance = 0;  // Pa s/m, largest of its materials: density times dilatational wave speed
   double area = 0;       // m^2
 };
 

@@ -20,9 +20,9 @@ using Kind = ProfileSpec::Kind;
 using std::numbers::pi;
 
 constexpr int chords_of_a_sine = 32;
-constexpr double pitches_beyond = 2;  // what the powder can press aside stays on the relief
+constexpr double pitches_beyond = 2;  // margin so that powder pushed aside stays on the relief
 constexpr int max_stations = 20'000;
-constexpr double upright = 1 - 1e-9;  // of a wall's normal along x
+constexpr double upright = 1 - 1e-9;  // x component of a wall's normal
 
 double depth_of(const ProfileSpec& relief) {
   return relief.depth ? *relief.depth : depth_for(relief, *relief.ra);
@@ -43,7 +43,7 @@ bool is_wall(const ToolSpec& tool) {
   return tool.shape == ToolSpec::Shape::plane && std::abs(tool.normal.x()) >= upright;
 }
 
-// How far a tool is from where it begins, along x, over all stages.
+// Range of a tool's travel along x from its start, over all stages.
 Extent travel_of(const Scene& scene, int tool) {
   double at = 0;
   Extent travel{0, 0};
@@ -57,10 +57,10 @@ Extent travel_of(const Scene& scene, int tool) {
   return travel;
 }
 
-// Of the powder along x.
+// Extent of the powder along x.
 struct PowderSpan {
-  Extent at_rest{1e300, -1e300};  // and as far as it can be pressed aside: to walls that are there
-  Extent flown{0, 0};             // m, by its initial velocities
+  Extent at_rest{1e300, -1e300};  // and as far as it can be pushed aside: to existing walls
+  Extent flown{0, 0};             // m, due to its initial velocities
   bool wall_left = false, wall_right = false;  // nothing carries it beyond
 };
 
@@ -69,7 +69,7 @@ PowderSpan powder_span(const Scene& scene, const std::vector<BodySpec>& bodies) 
   Extent& extent = powder.at_rest;
   double time = 0;
   for (const StageSpec& stage : scene.stages) time += stage.duration;
-  std::vector<double> reaches(scene.particles.size(), -1);  // of the classes that bodies have
+  std::vector<double> reaches(scene.particles.size(), -1);  // for the classes that have bodies
   for (const BodySpec& body : bodies) {
     const auto particle = static_cast<std::size_t>(body.particle);
     double& reach = reaches[particle];
@@ -91,7 +91,7 @@ PowderSpan powder_span(const Scene& scene, const std::vector<BodySpec>& bodies) 
   return powder;
 }
 
-// Where the powder comes to be: carried by the other tools, in the tool's own frame, which goes the other way.
+// Where the powder can be: carried by the other tools, in the frame of this tool, so minus its own travel.
 Extent covered(const Scene& scene, int tool, const PowderSpan& powder) {
   Extent carried = powder.flown;
   if (powder.wall_left) carried.low = 0;
@@ -113,7 +113,7 @@ std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {
   const double from = tool.point.x();
   const double first = std::floor((extent.low - from) / relief.pitch) - pitches_beyond;
   const double last = std::ceil((extent.high - from) / relief.pitch) + pitches_beyond;
-  std::vector<Vec2> points{tool.point + Vec2((first - 1) * relief.pitch, 0)};  // crests go on, flat
+  std::vector<Vec2> points{tool.point + Vec2((first - 1) * relief.pitch, 0)};  // flat extension
   for (double k = first; k < last; ++k)
     for (const Vec2& corner : pitch)
       points.push_back(tool.point + corner + Vec2(k * relief.pitch, 0));
@@ -122,7 +122,7 @@ std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {
   return points;
 }
 
-// Crests at the height of the tool's point; where nothing comes the surface goes on at that height.
+// Crests at the height of the tool's point; beyond the powder the surface goes on at that height.
 std::vector<Vec2> between_flats(const std::vector<Vec2>& relief, double height) {
   double top = relief.front().y();
   for (const Vec2& p : relief) top = std::max(top, p.y());
@@ -141,7 +141,7 @@ int period_of(double length, double correlation_length) {
   return static_cast<int>(lengths);
 }
 
-// Refused where it would take too many stations: none.
+// Empty, and rejected, where it would take too many stations.
 std::vector<Vec2> rough(const ToolSpec& tool, std::uint64_t seed, Extent extent) {
   const ProfileSpec& relief = tool.relief;
   const double step = relief.correlation_length / stations_a_length;
@@ -242,7 +242,7 @@ class ProfileMaker {
 
   void run() {
     const std::vector<Vec2> points = made();
-    if (points.empty()) return;  // refused
+    if (points.empty()) return;  // already rejected
     tool_.points = points;
     tool_.shape = ToolSpec::Shape::polyline;
     if (const std::string fault = fault_of_polyline(points, tool_.rounding); !fault.empty())

@@ -8,7 +8,7 @@ namespace pulvis {
 namespace {
 
 constexpr std::size_t fewest_points = 3, max_points = 20'000;
-constexpr double shortest = 1e-12;  // m, of a profile: squares of lengths below it vanish
+constexpr double shortest = 1e-12;  // m, of a profile: squares of shorter lengths underflow
 
 void check(const csv::Table& table, const std::vector<double>& x) {
   if (x.size() < fewest_points || x.size() > max_points)
@@ -26,7 +26,7 @@ void check(const csv::Table& table, const std::vector<double>& x) {
                             shortest));
 }
 
-// Instruments stand tilted: heights are those above the least squares line.
+// Instruments are tilted: heights are measured from the least-squares line.
 void level(std::vector<Vec2>& points) {
   Vec2 mean = Vec2::Zero();
   for (const Vec2& p : points) mean += p / static_cast<double>(points.size());

@@ -8,8 +8,8 @@
 
 namespace pulvis {
 
-// Columns "x" and "height", each with its unit; others may be there. Heights are levelled: what is left above
-// the least squares line through them. Throws SceneError where x does not rise from row to row.
+// Columns "x" and "height", each with its unit; others are allowed. Heights are levelled: the residuals about
+// the least-squares line through them. Throws SceneError where x does not increase from row to row.
 std::vector<Vec2> read_profile(const std::filesystem::path& file);
 
 }  // namespace pulvis

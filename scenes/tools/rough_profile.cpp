@@ -8,7 +8,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double kernel_reach = 3;  // correlation lengths; there it is exp(-18)
+constexpr double kernel_reach = 3;  // correlation lengths; the kernel is exp(-18) there
 
 std::vector<double> white_noise(std::uint64_t seed, std::size_t count) {
   constexpr double minimum = 1e-15;  // uniform() can be 0, whose quantile is infinite
@@ -18,7 +18,7 @@ std::vector<double> white_noise(std::uint64_t seed, std::size_t count) {
   return noise;
 }
 
-// Under the kernel, as if the row went on from its beginning.
+// Filtered with the kernel, as if the row were periodic.
 std::vector<double> smoothed(const std::vector<double>& noise) {
   const auto count = static_cast<int>(noise.size());
   const auto reach = static_cast<int>(kernel_reach * stations_a_length);
@@ -36,7 +36,7 @@ std::vector<double> smoothed(const std::vector<double>& noise) {
   return heights;
 }
 
-// Integral of |h| over a straight piece of length 1.
+// Integral of |h| over a straight segment of length 1.
 double magnitude(double from, double to) {
   if (from * to >= 0) return 0.5 * std::abs(from + to);
   return 0.5 * (from * from + to * to) / (std::abs(from) + std::abs(to));

@@ -72,7 +72,7 @@ class ServoChecks {
                         tool(servo).name));
   }
 
-  // A move behind a spring.
+  // A move through a spring.
   void elastic(std::size_t number, const std::string& path) {
     const MoveSpec& move = stage_.moves[number];
     const ToolSpec& moved = scene_.tools[static_cast<std::size_t>(move.tool)];

@@ -1,4 +1,4 @@
-// Checks of what a stage says of forces and early ends, across its keys.
+// Checks of a stage's forces and early ends, across its keys.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,14 +14,14 @@
 
 namespace pulvis {
 
-// The way a servo pushes; zero where neither it nor its tool says.
+// The direction in which a servo pushes; zero where neither it nor its tool defines one.
 Vec2 direction_of(const ServoSpec& servo, const Scene& scene);
 
 void check_servos(const Scene& scene, const StageSpec& stage, const std::string& path,
                   const schema::Origins& origins, Problems& problems);
 
-// Whether a displacement that ends a stage is reached by the moves of the stage, of two or three dimensions. Servos and drives
-// that give may reach any.
+// Whether the moves of a stage reach the displacement that ends it, in two or three dimensions. Servos and compliant drives
+// may reach any displacement.
 template <class Move, class Servo>
 void check_travel(const UntilSpec& until, const std::vector<Move>& moves,
                   const std::vector<Servo>& servos, const std::string& path, const Refuse& refuse) {

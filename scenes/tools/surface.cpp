@@ -17,14 +17,14 @@ namespace {
 
 using Piece = ToolSurface::Piece;
 
-constexpr double straight_on = 1e-12;      // sine of a turn that is round-off
+constexpr double straight_on = 1e-12;      // sine of a turn that counts as round-off
 constexpr double chain_round_off = 1e-12;  // of the chain's size
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 Vec2 left_of(const Vec2& t) { return {-t.y(), t.x()}; }
 
 struct Corner {
-  double tangent = 0;  // m, from the corner to where the arc begins
+  double tangent = 0;  // m, from the corner to the start of the arc
   double side = 0;
 };
 
@@ -49,8 +49,8 @@ double chain_size(const std::vector<Vec2>& points) {
   return size;
 }
 
-// Where two straight parts p + s t and q + u w meet, if they do; parallel ones only where they lie in one
-// line and share points.
+// Whether and where two straight segments p + s t and q + u w intersect; parallel ones only if they are
+// collinear and share points.
 bool meet(const Vec2& p, const Vec2& t, double low, double high, const Vec2& q, const Vec2& w,
           double from, double to) {
   const double sine = cross(t, w);
@@ -69,7 +69,7 @@ bool meet(const Vec2& p, const Vec2& t, double low, double high, const Vec2& q, 
 std::string crossing_fault(const std::vector<Vec2>& points, const std::vector<Vec2>& t) {
   const std::size_t count = t.size();
   const auto goes_on = [](const Vec2& direction) { return direction.x() > 0; };
-  if (std::ranges::all_of(t, goes_on)) return "";  // a profile: nothing comes back
+  if (std::ranges::all_of(t, goes_on)) return "";  // a profile: it never turns back
   const auto low = [&](std::size_t i) { return i == 0 ? -endless : 0.0; };
   const auto high = [&](std::size_t i) {
     return i + 1 == count ? endless : (points[i + 1] - points[i]).norm();

@@ -85,7 +85,7 @@ class ToolChecks {
                     drawn ? "has no effect together with points, allowed: one of the two"
                           : "required key is missing, allowed: points in m, or the file of a "
                             "drawing instead");
-    if (tool.points.empty()) return;  // its drawing is refused already
+    if (tool.points.empty()) return;  // its drawing is already rejected
     const char* const key = drawn ? "file" : "points";
     const std::string sharp = fault_of_polyline(tool.points, 0);
     const std::string rounded = fault_of_polyline(tool.points, tool.rounding);
@@ -95,7 +95,7 @@ class ToolChecks {
       refuse(path, "rounding", rounded);
   }
 
-  // A constraint says in one of two ways which nodes it holds.
+  // A constraint defines its nodes in one of two ways.
   void region(const ToolSpec& tool, const std::string& path) {
     for (const char* corner : {"low", "high"}) {
       const bool there = given(path + "." + corner);
@@ -112,7 +112,7 @@ class ToolChecks {
     refuse(path, "high", "the box is empty, allowed: not below and not left of low");
   }
 
-  // Where a constraint leaves a node free it has nothing to move.
+  // A constraint cannot move a node in a direction that it leaves free.
   void move(const MoveSpec& move, const std::string& path) {
     const ToolSpec& tool = scene_.tools[static_cast<std::size_t>(move.tool)];
     if (tool.shape != ToolSpec::Shape::constraint) return;

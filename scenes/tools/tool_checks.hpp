@@ -1,4 +1,4 @@
-// Checks of tools that need more than one key: what each shape asks for, and how each may move.
+// Checks of tools that involve more than one key: what each shape requires, and how each may move.
 #pragma once
 
 #include "scenes/language/problem.hpp"

@@ -1,4 +1,4 @@
-// What drives the tools of two and three dimensions alike: servos, moves whose drive gives, and what ends a stage early.
+// Tool drives in two and three dimensions: servos, moves with a compliant drive, and conditions that end a stage early.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace pulvis {
 
-// A move whose drive gives: the tool follows its far end as a mass on a spring. `move`: has a stiffness. `direction`: unit
-// vector of its displacement.
+// A move with a compliant drive: the tool follows its far end as a mass on a spring. `move`: has a stiffness. `direction`:
+// unit vector of its displacement.
 template <class Move>
 ToolServos::Servo elastic_drive(const Move& move, int stage, const Point3& direction) {
   return {.tool = move.tool,
@@ -24,14 +24,14 @@ ToolServos::Servo elastic_drive(const Move& move, int stage, const Point3& direc
           .stiffness = *move.stiffness};
 }
 
-// What a servo pushes against. `wave`: force that a wave through the powder takes from a tool, over the tool's speed.
+// The powder that a servo pushes against. `wave`: force that a wave into the powder takes from a tool, over its speed.
 struct ServoLoad {
   double mass, wave;  // kg, N s/m
 };
 
-// Spec: ServoSpec of two or three dimensions. `duration`: of the stage, s. `response`: the tool's mass and the one it drags, over
-// the powder's. A solid block of the powder's mass, stiffness and cross-section would be damped critically by the latter and the
-// dashpot in series.
+// Spec: ServoSpec of two or three dimensions. `duration`: of the stage, s. `response`: the mass of the tool and of the powder it
+// drags, over the powder's. A solid block of the powder's mass, stiffness and cross-section would be critically damped by the
+// latter and the dashpot in series.
 template <class Spec>
 ToolServos::Servo force_servo(const Spec& spec, int stage, double duration, const Point3& direction,
                               const ServoLoad& powder) {

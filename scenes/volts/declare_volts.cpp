@@ -11,7 +11,7 @@ using namespace schema;
 
 namespace {
 
-constexpr double largest_error = 0.3;  // -, of what must not change its sign
+constexpr double largest_error = 0.3;  // -, for values that must not change sign
 
 template <class Spec, class Member>
 Key<Spec> error_key(const char* name, Member Spec::*member, const char* doc,

@@ -1,4 +1,4 @@
-// The tables of reduce.toml that lead from an AFM's volts to friction, and what they must obey together.
+// The tables of reduce.toml that convert an AFM's volts to friction, and checks across them.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t fewest_in_line = 8;
 constexpr double clear_of_noise = 5;
 
-// One way of a curve, in the order of growing displacement.
+// One direction of a curve, in order of increasing displacement.
 struct Trace {
   std::vector<double> d, y;
   std::vector<double> lateral;
@@ -49,7 +49,7 @@ std::vector<double> rest_of(const lab::Line& line, std::span<const double> t,
   return rest;
 }
 
-// Takes the line of no force off.
+// Subtracts the line of zero force.
 void level(const ForceCurve& curve, const CurveWindow& window, Trace& trace, Way& way) {
   const double end = window.free * curve.displacement[curve.turn];
   const auto count =
@@ -96,7 +96,7 @@ Way way_of(const ForceCurve& curve, const CurveWindow& window, Trace& trace) {
   const auto d = std::span(trace.d).subspan(part.begin, count);
   const auto y = std::span(trace.y).subspan(part.begin, count);
   way.contact = lab::fit_line(d, y);
-  // The line of no force is taken off with its own slope.
+  // The line of zero force is subtracted together with its slope.
   way.slope_error =
       portable::hypot(lab::slope_error(way.contact, lab::inflation_of(rest_of(way.contact, d, y))),
                       lab::slope_error(way.free, way.free_inflation));
@@ -118,7 +118,7 @@ void find_pull_off(const ForceCurve& curve, const CurveWindow& window, const Tra
           fmt::format("the probe leaves the surface at {:.4g} m, which is within the range of "
                       "force_curves.free, allowed: a longer retract, or a share smaller than {:g}",
                       back.d[least], window.free));
-  // Noise may put the smallest sample before the last one under tension.
+  // Noise may put the smallest sample before the last one in tension.
   for (const double half = back.y[least] / 2; least > 1 && back.y[least - 1] < half;) --least;
   std::size_t end = least;
   while (end < back.y.size() && back.y[end] < 0) ++end;
@@ -136,13 +136,13 @@ void find_pull_off(const ForceCurve& curve, const CurveWindow& window, const Tra
     const double inflation = lab::inflation_of(rest_of(line, d, y));
     figures.pull_off = {-line.at(at), portable::hypot(lab::value_error(line, at, inflation), sure)};
   }
-  // Trapezoids, and the strip to where it lets go.
+  // Trapezoids, plus the strip up to the pull-off.
   figures.work = (figures.pull_off.value - back.y[least]) / 2 * (back.d[least] - at);
   for (std::size_t i = least; i + 1 < end; ++i)
     figures.work -= (back.y[i] + back.y[i + 1]) / 2 * (back.d[i + 1] - back.d[i]);
 }
 
-// Lateral against normal volts in the contact part of one way.
+// Lateral against normal volts in the contact part of one direction.
 lab::Mean crosstalk_of(const CurveWindow& window, const Trace& trace) {
   const Part part = contact_part(window, trace);
   const auto y = std::span(trace.y).subspan(part.begin, part.end - part.begin);
@@ -151,15 +151,15 @@ lab::Mean crosstalk_of(const CurveWindow& window, const Trace& trace) {
   return {line.slope, lab::slope_error(line, lab::inflation_of(rest_of(line, y, lateral)))};
 }
 
-// Of both ways; what they differ by is evenly distributed about their mean.
+// Mean of both directions; their difference is treated as uniformly distributed about it.
 lab::Mean of_both(const lab::Mean& a, const lab::Mean& b) {
   const double own = portable::hypot(a.error, b.error) / 2;
   return {(a.value + b.value) / 2,
           portable::hypot(own, std::abs(a.value - b.value) / 2 / std::sqrt(3.0))};
 }
 
-// What a scatter of few values leaves open: the variance of Student's distribution with n - 1 degrees of freedom,
-// (n - 1)/(n - 3) (JCGM 101:2008, 6.4.9.4). It is infinite below four values: those get that of four.
+// Correction for a scatter of few values: the variance of Student's distribution with n - 1 degrees of freedom,
+// (n - 1)/(n - 3) (JCGM 101:2008, 6.4.9.4). It is infinite below four values: those use that of four.
 double few_values(double n) { return (n - 1) / std::max(n - 3, (n - 1) / 3); }
 
 lab::Mean mean_of_curves(const std::vector<lab::Mean>& values) {

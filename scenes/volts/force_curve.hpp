@@ -1,15 +1,15 @@
-// A force curve in volts: the slope of its contact part, the pull-off, and what the lateral signal shows of it.
+// A force curve in volts: the slope of its contact part, the pull-off, and the crosstalk in the lateral signal.
 //
-// Axes     d displacement of the piezo towards the surface, 0 at the start; V volts of the normal signal, growing
+// Axes     d displacement of the piezo towards the surface, 0 at the start; V volts of the normal signal, increasing
 //          when the probe is pressed on
-// Free     a line through the samples with d below a share of that of the turning point, of each way its own:
-//          interference and drift are taken off with it; y is what is left of V
-// Contact  a line through the samples with y between two shares of the greatest, of each way. Their mean slope
-//          is the deflection sensitivity S, V/m; F = k_n y/S. Error: that of the lines (neighbours may hang
-//          together), and half the difference of both ways over sqrt(3) (piezo hysteresis, friction)
-// Pull-off the line through the last samples under the tension, taken half a step beyond the last of them: the
-//          smallest sample alone would be too small by noise. No pull-off where none is below five times the noise
-// Work     the area under the line of no force on the way back, in V m
+// Free     a line through the samples with d below a share of that of the turning point, separately for approach and
+//          retraction: it removes interference and drift; y is the remainder of V
+// Contact  a line through the samples with y between two shares of the maximum, for each direction. Their mean slope
+//          is the deflection sensitivity S, V/m; F = k_n y/S. Error: that of the lines (neighbours may be
+//          correlated), and half the difference of both directions over sqrt(3) (piezo hysteresis, friction)
+// Pull-off the line through the last samples in tension, evaluated half a step beyond the last of them: the
+//          smallest sample alone would be biased by noise. No pull-off if none is below five times the noise
+// Work     the area below the line of zero force on retraction, in V m
 #pragma once
 
 #include <optional>
@@ -25,19 +25,19 @@ struct ForceCurve {
   std::vector<double> displacement;  // m, from the start
   std::vector<double> normal;        // V
   std::vector<double> lateral;       // V; empty: not recorded
-  std::size_t turn = 0;              // the sample that is farthest from the start
+  std::size_t turn = 0;              // index of the sample farthest from the start
 };
 
 struct CurveWindow {
   double free = 0, from = 0, until = 0;
-  bool needs_return = true;  // both ways; otherwise the way there alone will do
+  bool needs_return = true;  // both directions; otherwise the approach alone is enough
 };
 
 struct Way {
   lab::Line free, contact;    // contact: of y
-  double slope_error = 0;     // V/m, that of the line of no force included
-  double free_inflation = 1;  // of the free line's errors: neighbours hang together
-  double curvature = 0;  // -, slope of the contact's upper half over that of the lower one, less 1
+  double slope_error = 0;     // V/m, including that of the line of zero force
+  double free_inflation = 1;  // of the free line's errors: neighbours are correlated
+  double curvature = 0;  // -, slope of the contact's upper half over that of the lower one, minus 1
 };
 
 struct CurveFigures {
@@ -60,8 +60,8 @@ struct Sensitivity {
   std::optional<lab::Mean> crosstalk;  // where all curves have a lateral signal
 };
 
-// Means over curves: the error is the larger of the curves' own and of their scatter (wider where they are few), and
-// what both ways differ by.
+// Means over curves: the error is the larger of the curves' errors and of their scatter (wider where they are few),
+// combined with the difference of both directions.
 Sensitivity mean_over(const std::vector<CurveFigures>& curves);
 
 }  // namespace pulvis::volts

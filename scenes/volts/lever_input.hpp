@@ -1,4 +1,4 @@
-// The calibrated lever as the settings give it: numbers, or the summary.json of a run.
+// The calibrated lever as given in the settings: numbers, or the summary.json of a run.
 #pragma once
 
 #include <filesystem>

@@ -42,7 +42,7 @@ std::vector<double> figures_in(const Outcome& outcome) {
   return all;
 }
 
-// Nothing where a draw has no answer: a stiffness below zero, loops that fit no friction.
+// Empty where a draw has no solution: a negative stiffness, loops that no friction fits.
 std::optional<std::vector<double>> attempt(const Model& model, const std::vector<double>& x) {
   try {
     std::vector<double> figures = figures_in(model.evaluate(x));
@@ -52,7 +52,7 @@ std::optional<std::vector<double>> attempt(const Model& model, const std::vector
   return std::nullopt;
 }
 
-// Draws the inputs of one group, or of all (-1).
+// Samples the inputs of one group, or of all (-1).
 class Drawing {
  public:
   Drawing(const Model& model, std::uint64_t seed, int group) : model_(model) {
@@ -77,7 +77,7 @@ class Drawing {
   std::vector<Deviates> deviates_;
 };
 
-// By quantity: the figures of all draws that have an answer.
+// By quantity: the results of all draws with a solution.
 std::vector<std::vector<double>> drawn(const Model& model, std::uint64_t seed, int group,
                                        int draws) {
   std::vector<std::vector<double>> columns;
@@ -128,7 +128,7 @@ void describe(Quantity& quantity, std::vector<double> values, double confidence)
   }
 }
 
-// Variances by group, for every quantity, with derivatives by differences of a hundredth of each uncertainty.
+// Variances by group, for every quantity, with finite-difference steps of a hundredth of each uncertainty.
 void add_linear(const Model& model, std::vector<Quantity>& quantities) {
   constexpr double step = 0.01;
   for (std::size_t i = 0; i < model.inputs().size(); ++i) {
@@ -166,7 +166,7 @@ void add_shares(const Model& model, const DrawSpec& spec, std::vector<Quantity>&
 
 }  // namespace
 
-// Neighbouring seeds and inputs are mixed: SplitMix64 from neighbouring states would be one sequence, shifted.
+// Adjacent seeds and inputs are mixed: SplitMix64 from adjacent states would give one shifted sequence.
 Deviates::Deviates(std::uint64_t seed, std::size_t input)
     : random_(portable::Random(portable::Random(seed).bits() + input).bits()) {}
 

@@ -11,10 +11,10 @@
 namespace pulvis::volts {
 namespace {
 
-constexpr double level_slope = 1e-6;  // rad: wedge_calibration takes it for flat
+constexpr double level_slope = 1e-6;  // rad: wedge_calibration treats it as flat
 
-// The uncertainty of every value of a set of loops: as stated, times what they scatter more about their line over the
-// loads; without a stated one the scatter alone.
+// The uncertainty of every value of a set of loops: as stated, scaled up if they scatter more about their line over
+// the loads; without a stated one the scatter alone.
 std::vector<double> errors_of(const LoopRecord& record, const std::vector<std::size_t>& set,
                               double VoltsLoop::*value, std::optional<double> VoltsLoop::*stated) {
   std::vector<double> load, y, error;
@@ -130,7 +130,7 @@ std::vector<double> Model::values() const {
   return x;
 }
 
-// The normal volts that crosstalk is taken of: measured beside the trace, or those of the load.
+// The normal volts used for the crosstalk: measured along with the trace, or those of the load.
 double Model::normal_volts(const LoopRecord& record, const VoltsLoop& loop, double normal) const {
   if (loop.normal_mean) return *loop.normal_mean;
   return record.load_in_volts ? loop.load : loop.load / normal;
@@ -156,8 +156,8 @@ wedge::Calibration Model::on_slopes(const std::vector<wedge::Loop>& loops) const
   return wedge::calibrate(loops, {measured_.known.adhesion, measured_.known.slope_error, 0});
 }
 
-// The mean over the slopes with the weights that the values themselves have: weights that go with a draw would take
-// what slopes disagree by for uncertainty once more.
+// The mean over the slopes with the weights of the nominal values: weights that vary with a draw would count the
+// disagreement of the slopes as uncertainty twice.
 double Model::weighted(const wedge::Calibration& calibration) const {
   double mean = 0;
   std::size_t i = 0;
@@ -175,7 +175,7 @@ double Model::lateral_by_wedge(const std::vector<double>& x, double normal,
       slope_at_, [](const auto& slope) { return std::abs(slope.first) < level_slope; });
   const double tilt = flat == slope_at_.end() ? 0 : x[flat->second] - flat->first;
   if (tilt != 0) {
-    // What the flat facet shows by not being flat is no signal of the load: Delta = (1 + mu^2) L tilt.
+    // The offset due to a flat facet not being flat is not crosstalk: Delta = (1 + mu^2) L tilt.
     const double mu = calibration.friction.value;
     const double by_load = (1 + mu * mu) * tilt / sensitivity;
     for (wedge::Loop& loop : loops)
@@ -197,7 +197,7 @@ void Model::weigh_slopes() {
   weights_ = calibration.weights;
   const wedge::Value& mean = calibration.sensitivity;
   if (!(calibration.disagreement > 1) || !mean.error) return;
-  disagree_ = true;  // what the factor of Birge adds to the variance of the mean
+  disagree_ = true;  // the part that the Birge ratio adds to the variance of the mean
   add("slopes that disagree", "disagreement", "-",
       {1, *mean.error / mean.value * std::sqrt(1 - 1 / calibration.disagreement)});
 }

@@ -1,16 +1,16 @@
-// The way from an AFM's volts to friction: one function of all inputs, each with its standard uncertainty.
+// Converts an AFM's volts to friction: one function of all inputs, each with its standard uncertainty.
 //
 // Source   normal force F_n = k_n V/S (S: slope of force curves on a hard surface, V/m of the piezo);
-//          lateral force by loops on slopes (scenes/lever/wedge_calibration.hpp), or by a test probe (Cannara,
-//          Eglin & Carpick 2006): a side contact at the arm h_t turns the test lever by q_t y/h_t, so a radian
-//          gives S_t h_t/q_t volts, times the ratio r of the light; the lever turns by F q h/(k_l h^2), so
+//          lateral force from loops on slopes (scenes/lever/wedge_calibration.hpp), or a test probe (Cannara,
+//          Eglin & Carpick 2006): a side contact at the arm h_t twists the test lever by q_t y/h_t, so a radian
+//          gives S_t h_t/q_t volts, times the light intensity ratio r; the lever twists by F q h/(k_l h^2), so
 //            F/V = k_l h q_t/(q r S_t h_t)
 //          with q the shares of twist in the lateral displacements
-//          crosstalk c: lateral volts less c times the normal ones
-//          Slopes that disagree by more than they are uncertain: the factor of Birge (1932) on the error of their
-//          mean is an input of its own
+//          crosstalk c: lateral volts minus c times the normal ones
+//          Where slopes disagree by more than their uncertainty, the Birge ratio (1932) for the error of their
+//          mean is a separate input
 //          sample: friction F = mu (L + A): mu is the slope over the loads, A follows from where the line is
-//          zero; or, of each loop, mu = F/(L + A) with A of the pull-off
+//          zero; or, for each loop, mu = F/(L + A) with A from the pull-off
 #pragma once
 
 #include <filesystem>
@@ -29,11 +29,11 @@ namespace pulvis::volts {
 struct Input {
   std::string name;
   std::string unit;
-  int group = 0;  // of Model::groups: what is drawn together, and told together
+  int group = 0;  // index into Model::groups: inputs sampled and reported together
   double value = 0, error = 0;
 };
 
-struct WedgeKnown {  // of the settings of the wedge
+struct WedgeKnown {  // from the settings of the wedge
   double adhesion = 0, slope_error = 0, load_error = 0;
 };
 
@@ -47,7 +47,7 @@ struct Measured {
   WedgeKnown known;
 };
 
-// What comes out, by position.
+// Results, by position.
 struct Outcome {
   double normal = 0, lateral = 0;          // N/V
   double adhesion = 0;                     // N, pull-off
@@ -67,7 +67,7 @@ class Model {
   const std::vector<std::string>& groups() const { return groups_; }
   std::vector<double> values() const;  // of all inputs
 
-  // Throws std::runtime_error where the loops on slopes fit no friction.
+  // Throws std::runtime_error where no friction fits the loops on slopes.
   Outcome evaluate(const std::vector<double>& x) const;
 
  private:

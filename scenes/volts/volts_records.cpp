@@ -27,7 +27,7 @@ bool is_in(const std::string& unit, const char* wanted) {
   }
 }
 
-// From the start; the sign of the piezo's own axis does not matter.
+// Relative to the start; the sign of the piezo's axis does not matter.
 void order(const csv::Table& table, std::size_t row, ForceCurve& curve) {
   std::vector<double>& d = curve.displacement;
   if (d.size() < fewest_samples)
@@ -51,7 +51,7 @@ void order(const csv::Table& table, std::size_t row, ForceCurve& curve) {
                               d[i], d[i - 1]));
 }
 
-// Where the normal signal stands beside a trace it is the load that crosstalk is taken of, place by place.
+// A normal signal recorded along with a trace is the load used for the crosstalk, position by position.
 void add_normal(const csv::Table& table, std::vector<std::vector<double>>& normal) {
   const bool trace = csv::has_column(table, "normal_trace");
   if (trace != csv::has_column(table, "normal_retrace"))
@@ -63,7 +63,7 @@ void add_normal(const csv::Table& table, std::vector<std::vector<double>>& norma
 
 struct Columns {
   std::vector<double> slope, load, trace, retrace, position;
-  std::vector<std::vector<double>> normal;  // trace, retrace; or none
+  std::vector<std::vector<double>> normal;  // trace, retrace; or empty
 };
 
 VoltsLoop loop_of(const csv::Table& table, const Columns& columns, std::size_t begin,

@@ -1,4 +1,4 @@
-// The records of an AFM read and taken together: force curves, loops, lever; then friction with its uncertainty.
+// Combines the records of an AFM: force curves, loops, lever; then friction with its uncertainty.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace pulvis::volts {
 struct CurveSet {
   std::filesystem::path file;
   std::vector<ForceCurve> curves;
-  std::vector<CurveFigures> figures;  // of each
+  std::vector<CurveFigures> figures;  // of each curve
   Sensitivity mean;
 };
 

@@ -1,4 +1,4 @@
-// From an AFM's volts to the friction coefficient of a sample: what has to be known beside the records. Declared in
+// From an AFM's volts to the friction coefficient of a sample: what is needed besides the records. Declared in
 // declare_volts.cpp.
 #pragma once
 
@@ -11,7 +11,7 @@ enum class LateralMethod { wedge, test_probe };
 enum class CrosstalkMethod { force_curves, given, none };
 
 struct AfmSpec {
-  std::string loops;  // file, from the folder of the settings; empty: nothing of this is wanted
+  std::string loops;  // file, relative to the settings' folder; empty: this evaluation is skipped
   int lateral = 0;    // LateralMethod
   double level_error = 0;  // V
   int draws = 0;
@@ -20,10 +20,10 @@ struct AfmSpec {
 
 struct ForceCurvesSpec {
   std::string hard,
-      sample;  // files; sample empty: adhesion is taken from the curves of the hard surface
+      sample;  // files; sample empty: adhesion is taken from the curves on the hard surface
   double piezo_error = 0;      // -
   double free = 0;             // -, of the displacement to the turning point
-  double from = 0, until = 0;  // -, of the greatest signal
+  double from = 0, until = 0;  // -, of the largest signal
 };
 
 struct LeverSpec {

@@ -1,10 +1,10 @@
-// damping_force: bulk damping of the particles, proportional to mass and to stiffness:
+// damping_force: bulk damping of the particles, mass- and stiffness-proportional:
 //   f = -alpha M v - beta K v
 //
-// Source   systems/body/damping_kernel.hpp. The force is added to the internal one, as a constraint's reaction is, so
-//          that whoever reads the force on a node sees it. Velocities are those half a step back, which the
+// Source   systems/body/damping_kernel.hpp. The force is added to the internal one, like a constraint's reaction,
+//          so that every reader of the nodal force sees it. Velocities are those half a step back, which the
 //          stable time step allows for. Work by the trapezoidal rule over each step, from the forces at
-//          both of its ends: what the leapfrog takes out of its kinetic energy (systems/body/energies.cpp)
+//          both of its ends: what the leapfrog removes from its kinetic energy (systems/body/energies.cpp)
 // Runs     after internal_force, before apply_constraints and integrate
 // Active   when a material of the scene has [material.damping]
 #include "components/run_state.hpp"
@@ -24,7 +24,7 @@ struct Viscosity {
   Lane shear, bulk, bending;  // Pa s: beta times 2 mu, K, E'
 };
 
-// An element's map now, half a step back, and that of its velocities.
+// The map of an element now and half a step back, and the map of its velocities.
 struct Maps {
   Map now, middle, rate;
 };
@@ -34,7 +34,7 @@ Map halfway_back(const Map& now, const Map& rate, double half_step) {
           now.by - half_step * rate.by, now.hx - half_step * rate.hx, now.hy - half_step * rate.hy};
 }
 
-// Rate of strain at a point, and det A there half a step back and now.
+// Strain rate at a point, and det A there half a step back and now.
 struct PointRate {
   kernels::StrainRate<Lane> strain;
   kernels::Matrix2<Lane> map;
@@ -47,7 +47,7 @@ PointRate point_rate(const Maps& m, double xi, double eta) {
           determinant(now)};
 }
 
-// One point, and the bending that it does not see.
+// One point, plus the bending that it does not see.
 Flux viscous_flux(OnePoint, const Maps& m, const Viscosity& v, const Shape& shape, std::size_t e) {
   const double area = shape.centre[e][0].determinant;
   const PointRate at = point_rate(m, 0, 0);
@@ -65,7 +65,7 @@ Flux viscous_flux(OnePoint, const Maps& m, const Viscosity& v, const Shape& shap
   return flux;
 }
 
-// Four points; with a mean dilatation, or each with its own.
+// Four points; with the mean dilatation, or each with its own.
 template <class F>
 Flux viscous_flux(F, const Maps& m, const Viscosity& v, const Shape& shape, std::size_t e) {
   PointRate at[4];
@@ -109,7 +109,7 @@ void add_viscous_forces(const Shape& shape, const Nodes& x, const Velocities& v,
   }
 }
 
-// Power of a force on nodes that move with v.
+// Power of a force on nodes with velocity v.
 template <class Forces, class Velocities>
 Lane power(const Shape& shape, const Forces& force, const Velocities& v) {
   Lane sum{};

@@ -1,18 +1,18 @@
-// Bulk damping of a quad: stresses in proportion to the rate of strain (Rayleigh's stiffness-proportional
-// part; the mass-proportional one is -alpha m v on every node).
+// Bulk damping of a quad: stresses proportional to the strain rate (the stiffness-proportional part of
+// Rayleigh damping; the mass-proportional part is -alpha m v on every node).
 //
 // Source   Rayleigh (1877); as a viscous stress on the rate of deformation: Abaqus' *DAMPING, BETA.
-//          Rates at the middle of the step: Hughes & Winget (1980)
-// Symbols  A, a b h   the element's map, systems/body/element_kernel.hpp; with a dot: that of its nodes' velocities
+//          Rates at mid-step: Hughes & Winget (1980)
+// Symbols  A, a b h   map of the element, systems/body/element_kernel.hpp; dotted: the map of its nodal velocities
 //          D          sym(dv/dx) [1/s];  J = det F, theta its mean over the element [-]
 //          beta       stiffness-proportional damping [s]
-// Law      beta times the rate of the elastic stress at small distortion, whatever flows plastically:
+// Law      beta times the rate of the elastic stress at small distortion, regardless of plastic flow:
 //            s = beta 2 mu/J dev D,   p = beta K/2 (theta + 1/theta) tr D,   M = beta E' d(kappa)/dt
-//          so that a small oscillation of angular frequency omega decays with the ratio beta omega/2 in every
-//          formulation
-// Valid    the velocities are those of the step that led here. Strain rates are taken on the positions half
-//          a step back, where a rigid rotation, however large, has none; the stresses act on those of now,
-//          so that they have no moment
+//          so that a small oscillation of angular frequency omega decays with damping ratio beta omega/2 in
+//          every formulation
+// Valid    the velocities are those of the step that led here. Strain rates are evaluated at the positions
+//          half a step back, where a rigid rotation, however large, gives none; the stresses act at the
+//          current positions, so that they exert no moment
 #pragma once
 
 #include "systems/body/hourglass_kernel.hpp"
@@ -50,7 +50,7 @@ T viscous_bulk_modulus(T bulk, T theta) {
   return 0.5 * bulk * (theta + 1.0 / theta);
 }
 
-// Rates of the natural components w of h: dw = A^-1 (dh - w_1 da - w_2 db). Zero in a rigid rotation.
+// Rates of the natural components w of h: dw = A^-1 (dh - w_1 da - w_2 db). Zero for a rigid rotation.
 template <class T>
 Hourglass<T> hourglass_rate(const QuadMap<T>& m, const QuadMap<T>& rate) {
   const T over = 1.0 / (m.ax * m.by - m.bx * m.ay);

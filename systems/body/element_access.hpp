@@ -1,4 +1,4 @@
-// How the element systems reach an element of a chunk: its map, points and state. No physics.
+// How the element systems access an element of a chunk: its map, points and state. No physics.
 #pragma once
 
 #include "components/shape.hpp"
@@ -20,7 +20,7 @@ const ElementPoints<Points>& points_of(const Shape& shape, int element) {
     return entry(shape.gauss, element);
 }
 
-// Elements with one point work with the fourfold map.
+// One-point elements use the fourfold map.
 template <int Points, class Nodes>
 auto quad_map(const Nodes& x, const Quad& q) {
   const auto of_corners = [&](auto map) {
@@ -34,7 +34,7 @@ auto quad_map(const Nodes& x, const Quad& q) {
     return of_corners(kernels::quad_map<T>);
 }
 
-// At point g of an element with `Points`.
+// At point g of an element with `Points` Gauss points.
 template <int Points, class T, int Scale>
 kernels::Matrix2<T> map_gradient(const kernels::QuadMap<T, Scale>& map, int g) {
   if constexpr (Points == 1)
@@ -54,13 +54,13 @@ T mean_dilatation(const kernels::QuadMap<T>& map, const ElementPoints<4>& points
   }
   return now * (1 / before);
 }
-// A quad's area is that of its centre's parallelogram: 1/4 det of the fourfold map.
+// A quad's area is that of the parallelogram at its centre: 1/4 det of the fourfold map.
 template <class T>
 T mean_dilatation(const kernels::FourfoldMap<T>& map, const ElementPoints<1>& points) {
   return determinant(map_gradient<1>(map, 0)) * (0.25 / points[0].determinant);
 }
 
-// What a view of lanes or of packets has.
+// The number type of a view of lanes or of packets.
 template <class View>
 using NumberOf = std::remove_cvref_t<decltype(std::declval<View>()(Row<Element>(0)))>;
 

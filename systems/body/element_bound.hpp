@@ -1,4 +1,4 @@
-// What both estimates of the stable time step take into account of an element besides its moduli.
+// What both estimates of the stable time step account for in an element besides its moduli.
 #pragma once
 
 #include <limits>
@@ -22,10 +22,10 @@ Lane largest_norm(const View& stress, Row<Element> e) {
   return sqrt(maximum);
 }
 
-// A quad with a corner that closes swings faster there than its middle says: about by the square of how much
-// smaller the map is at that Gauss point, which bears a quarter of the energy (half, to be safe). One for all
-// elements that are not badly distorted; at most 9, so that a corner that is about to turn inside out does so
-// (and is named) instead of stopping the clock.
+// A quad with a collapsing corner oscillates faster there than its centre indicates: by about the square of how
+// much smaller the map is at that Gauss point, which carries a quarter of the energy (half, to be safe). One for
+// all elements that are not badly distorted; at most 9, so that a corner about to invert does invert (and is
+// reported) instead of stalling the time step.
 inline Lane corner_factor(const kernels::QuadMap<Lane>& map) {
   Lane minimum = determinant(map_gradient<4>(map, 0));
   for (int g = 1; g < 4; ++g) minimum = min(minimum, determinant(map_gradient<4>(map, g)));
@@ -33,7 +33,7 @@ inline Lane corner_factor(const kernels::QuadMap<Lane>& map) {
   return min(max(1.0, 0.5 * ratio * ratio), 9.0);
 }
 
-// What particles with that highest rho omega^2 can stand, bulk damping included.
+// Stable step of particles with that highest rho omega^2, bulk damping included.
 inline Lane stable_step(Chunk chunk, Lane density, Lane highest,
                         const Optional<BulkDamping>& damping) {
   if (!damping) return 2.0 * sqrt(density / highest);
@@ -42,7 +42,7 @@ inline Lane stable_step(Chunk chunk, Lane density, Lane highest,
                                     damping->stiffness.chunk(chunk)(particle));
 }
 
-// Least L/A of an element's edges on the outline; infinite where it has none.
+// Minimum L/A over the element's edges on the outline; infinite if it has none.
 inline double softest_edge(const Shape& shape, const Quad& quad) {
   double minimum = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 4; ++c) {
@@ -53,15 +53,15 @@ inline double softest_edge(const Shape& shape, const Quad& quad) {
   return minimum;
 }
 
-// Tangent of the stiffest spring on a chunk's outlines over that of an untouched contact spring, bonds included.
+// Tangent of the stiffest spring on a chunk's outlines relative to an undeformed contact spring, bonds included.
 inline double springs_of(Chunk chunk, const Bodies& bodies, const ContactRules& rules,
                          const Clock& clock) {
   return rules.springs_of(entry(bodies.slots, ChunkLane(chunk, 0).slot()).material,
                           clock.stiffening);
 }
 
-// Contact dashpots over contact springs of k K L/A, times sqrt(kK/rho) L/A: 2 xi with a tool. Two equal bodies
-// that move against each other feel twice a dashpot of half the spring: sqrt(2) of that.
+// Ratio of contact dashpots to contact springs of k K L/A, times sqrt(kK/rho) L/A: 2 xi with a tool. Two equal
+// bodies moving against each other feel twice the dashpot of half the spring: sqrt(2) times that.
 inline double dashpot_ratio(const ContactRules& rules) {
   constexpr double of_pairs = 1.4142135623730951;
   return of_pairs * 2 * rules.damping;

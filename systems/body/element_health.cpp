@@ -1,4 +1,4 @@
-// element_health: stops a run whose elements turned inside out or went NaN.
+// element_health: stops a run with inverted or NaN elements.
 //
 // Runs     every step, after the forces
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ void element_health::operator()() const {
   bodies->for_own_lanes([&](int slot) {
     const double value = entry(worst.value.values(), slot);
     totals->min_jacobian = std::min(totals->min_jacobian, value);
-    if (value > 0) return;  // NaN is not
+    if (value > 0) return;  // false for NaN
     throw RunFailure(fmt::format(
         "element_health: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the "
         "element turned inside out; allowed > 0 (is a tool too fast, or the mesh too coarse for "

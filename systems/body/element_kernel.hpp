@@ -6,7 +6,7 @@
 //          A      dx/d(xi,eta) at a point [m]
 //          F      deformation gradient dx/dX [-], plane strain: F_zz = 1
 //          J      det F [-];  theta = current / undeformed area of the element [-]
-// Everything is a function of values, for T = double or Lane.
+// All functions work on values, for T = double or Lane.
 #pragma once
 
 #include "engine/lane.hpp"
@@ -33,7 +33,7 @@ template <class T, int Scale = 1>
 struct QuadMap {
   T ax, ay, bx, by, hx, hy;
 };
-// Four times the map: sums of coordinates alone. Functions of any scale do not depend on it.
+// Four times the map: plain sums of coordinates. Scale-invariant functions give the same result.
 template <class T>
 using FourfoldMap = QuadMap<T, 4>;
 
@@ -61,13 +61,13 @@ Matrix2<T> deformation_gradient(const Matrix2<T>& a, const Inverse& inverse) {
           fma(a.yx, inverse[0], a.yy * inverse[2]), fma(a.yx, inverse[1], a.yy * inverse[3])};
 }
 
-// Forces of a quad's nodes collected as their moments with 1, xi and eta; see add_flux, node_force.
+// Nodal forces of a quad, accumulated as their moments with 1, xi and eta; see add_flux, node_force.
 template <class T>
 struct QuadFlux {
   T xi_x{}, xi_y{}, eta_x{}, eta_y{}, h_x{}, h_y{};
 };
 
-// Adds the Kirchhoff-like stress sigma (xx yy xy), acting at a Gauss point of a slice `thickness` deep.
+// Adds the Kirchhoff-like stress sigma (xx yy xy) at a Gauss point of a slice of depth `thickness`.
 // With F = A (dX/dxi)^-1, P dN/dX dV0 collapses to sigma cof(A) dN/dxi: no undeformed geometry is needed.
 template <class T>
 void add_flux(QuadFlux<T>& flux, const Matrix2<T>& a, T sxx, T syy, T sxy, double xi, double eta) {
@@ -81,7 +81,7 @@ void add_flux(QuadFlux<T>& flux, const Matrix2<T>& a, T sxx, T syy, T sxy, doubl
   flux.h_y = fma(eta, qxi_y, fma(xi, qeta_y, flux.h_y));
 }
 
-// The same for a stress at the centre alone: nothing for the moment with xi eta.
+// The same for a stress at the centre only: no moment with xi eta.
 template <class T>
 QuadFlux<T> central_flux(const Matrix2<T>& a, T sxx, T syy, T sxy) {
   return {fma(sxx, a.yy, -(sxy * a.xy)),
@@ -105,8 +105,8 @@ QuadForce<T> node_forces(const QuadFlux<T>& q, double factor) {
   return {{px - hx, hx - mx, -px - hx, mx + hx}, {py - hy, hy - my, -py - hy, my + hy}};
 }
 
-// a^(-1/3). Near one, where det F lives, without a division: a polynomial and a third-order step. Lanes
-// outside are done one by one, so that no lane depends on its neighbours.
+// a^(-1/3). Near one, the usual range of det F, without division: a polynomial and a third-order step.
+// Lanes outside that range are handled one by one, so that no lane depends on its neighbours.
 template <class T>
 T refine_inverse_cube_root(T a, T y) {
   const T h = fma(-(a * y), y * y, 1.0);
@@ -115,7 +115,7 @@ T refine_inverse_cube_root(T a, T y) {
 
 inline double wide_inverse_cube_root(double a) {
   if (!(a > 0.5 && a < 2)) return 1 / portable::cbrt(a);
-  const double x = a - 1.25;  // least relative error of degree 4: 1.1e-3
+  const double x = a - 1.25;  // minimax relative error of degree 4: 1.1e-3
   const double y =
       0.92867438 + x * (-0.24146973 + x * (0.12257569 + x * (-0.12062945 + x * 0.09144541)));
   return refine_inverse_cube_root(a, refine_inverse_cube_root(a, y));
@@ -131,7 +131,7 @@ template <std::size_t Registers>
 
 template <class T>
 T inverse_cube_root(T a) {
-  const T x = a - 1.025, x2 = x * x;  // least relative error of degree 5 on [0.8, 1.25]: 4.3e-7
+  const T x = a - 1.025, x2 = x * x;  // minimax relative error of degree 5 on [0.8, 1.25]: 4.3e-7
   const T y = fma(
       x2, fma(x2, fma(-0.117564949399, x, 0.136975824411), fma(-0.158961779405, x, 0.209634704292)),
       fma(-0.322539066518, x, 0.991803323496));

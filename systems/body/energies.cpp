@@ -1,7 +1,7 @@
-// kinetic_energy, elastic_energy, plastic_work, hourglass_energy: per particle, on the steps that are sampled.
+// kinetic_energy, elastic_energy, plastic_work, hourglass_energy: per particle, on sampled steps.
 //
 // Kinetic energy is 1/2 m v_(n-1/2) . v_(n+1/2): together with the stored energy at t_n it is what the
-// leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors and not phase.
+// leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors, not phase shifts.
 #include <cmath>
 
 #include "components/run_state.hpp"
@@ -79,7 +79,7 @@ void plastic_work<F>::operator()(Chunk chunk) const {
         total += entry(points_of<F::points>(shape, i), g).determinant *
                  law.plastic_work(strain(Row<Element>(i), g));
   };
-  // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
+  // Elastic particles in a chunk with plastic ones have an infinite yield stress and no strain: 0, not NaN.
   const Lane yield = min(flow.yield_stress.chunk(chunk)(particle), 1e300);
   const kernels::LinearHardening<Lane> linear{yield, flow.hardening.chunk(chunk)(particle)};
   if (flow.laws)
@@ -88,7 +88,7 @@ void plastic_work<F>::operator()(Chunk chunk) const {
     add(linear);
   total *= bodies->thickness;
   total += beyond.chunk(chunk)(particle);
-  // The joint flow of stress and hourglass stress spends both; the latter is reported by itself.
+  // Joint plastic flow dissipates both; the hourglass part is reported separately.
   if (hourglass) total -= hourglass->chunk(chunk)(particle);
   work.chunk(chunk)(particle) = total;
 }

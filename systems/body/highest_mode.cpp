@@ -1,13 +1,13 @@
-// highest_mode: the time step that each particle as a whole can stand, in place of its worst element's.
+// highest_mode: stable time step of each particle as a whole, in place of that of its worst element.
 //
-// Source   Power iteration on M^-1 K (Rayleigh quotient), the idea of Abaqus/Explicit's global estimator.
+// Source   Power iteration on M^-1 K (Rayleigh quotient), as in the global estimator of Abaqus/Explicit.
 //          K of highest_mode_kernel.hpp at the current positions, with every edge of the outline in
-//          contact: none of it is softer than what the step integrates, so that contact may come and go
-//          between two looks. The quotient comes from below, hence a margin. What is kept is the ratio to
-//          the elements' bound, which itself follows the geometry at every look; the mode changes slowly,
-//          an iteration every fourth look follows it
-// Runs     after stable_time_step, when that does
-// Active   where the scene says time.estimate = "highest-mode"
+//          contact: no part of it is softer than what the step integrates, so that contacts may come and go
+//          between two evaluations. The quotient converges from below, hence a margin. The stored value is
+//          the ratio to the element bound, which itself follows the geometry at every evaluation; the mode
+//          changes slowly, one iteration every fourth evaluation tracks it
+// Runs     after stable_time_step, when that is evaluated
+// Active   when the scene sets time.estimate = "highest-mode"
 #include <limits>
 
 #include "engine/entry.hpp"
@@ -20,19 +20,19 @@ namespace {
 
 constexpr int first_iterations = 300;
 constexpr double looks_between_iterations = 4;
-constexpr double margin = 0.98;  // what 300 iterations leave of the frequency is half a percent
-constexpr double longest_gain = 1.3;  // over the elements' bound; undeformed discs reach 1.2
+constexpr double margin = 0.98;  // 300 iterations leave an error of half a percent
+constexpr double longest_gain = 1.3;  // over the element bound; undeformed discs reach 1.2
 
 template <int Points>
 struct Body {
   const Shape& shape;
   ChunkView<Position, const Lane*> x;
   ChunkView<DeviatoricStress<Points>, const Lane*> stress;
-  const ChunkView<ContactSupport, const Lane*>* support;  // null: nothing to touch
+  const ChunkView<ContactSupport, const Lane*>* support;  // null: no contact possible
   Lane bulk, shear, contact;                              // Pa
 };
 
-// -K v into components 2 and 3; of a slice one deep.
+// -K v into components 2 and 3; for unit slice depth.
 template <int Points>
 void elastic_forces(const Body<Points>& body, const ChunkView<HighestMode, Lane*>& mode) {
   const Shape& shape = body.shape;
@@ -63,7 +63,7 @@ void elastic_forces(const Body<Points>& body, const ChunkView<HighestMode, Lane*
   }
 }
 
-// One iteration; rho omega^2 of the mode as it came, Pa/m^2.
+// One iteration; returns rho omega^2 of the current mode, Pa/m^2.
 template <int Points>
 Lane iterate(const Body<Points>& body, const ChunkView<HighestMode, Lane*>& mode) {
   elastic_forces(body, mode);
@@ -77,8 +77,8 @@ Lane iterate(const Body<Points>& body, const ChunkView<HighestMode, Lane*>& mode
       mass += area(i) * (v * v);
     }
   const Lane quotient = energy / mass;
-  // Shifted by somewhat less than half of the spectrum, which is from zero to the quotient: the others
-  // die twice as fast.
+  // Shifted by somewhat less than half of the spectrum, which extends from zero to the quotient: the
+  // other modes decay twice as fast.
   const Lane shift = 0.45 * quotient, scale = 1.0 / (quotient * sqrt(mass));
   for (int i = 0; i < nodes; ++i)
     for (int k = 0; k < 2; ++k) {
@@ -88,11 +88,11 @@ Lane iterate(const Body<Points>& body, const ChunkView<HighestMode, Lane*>& mode
   return quotient;
 }
 
-// Blocks with less damping than that are stable with stiffness 0.35 to 100 in what the springs' own bound leaves.
+// With less damping than this, blocks are stable for stiffness 0.35 to 100 within the margin of the spring bound.
 constexpr double little_damping = 0.3;
 
-// k K of the springs on the outline. A dashpot c that answers half a step late costs what a spring of 2 c/dt
-// does; no step is shorter than the elements' bound, which stands for dt.
+// k K of the springs on the outline. A dashpot c lagging by half a step counts like a spring of 2 c/dt; no step
+// is shorter than the element bound, which stands in for dt.
 Lane contact_modulus(const ContactRules& rules, double stiffening, const Shape& shape,
                      const Lane& bulk, const Lane& rho, const Lane& step) {
   if (rules.damping == 0 || (!rules.servos && rules.damping <= little_damping))

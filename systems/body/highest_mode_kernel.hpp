@@ -1,10 +1,10 @@
-// Elastic forces of a quad that moves by a small v, never softer than the element of the run.
+// Elastic forces of a quad under a small motion v, never softer than the element used in the run.
 //
-// With H = dv/dx at the middle and h the part of v that goes with xi eta,
+// With H = dv/dx at the centre and h the part of v proportional to xi eta,
 //   f = V (C : H) at the middle + V/3 (C : (h g_1^T) g_1 + C : (h g_2^T) g_2) on xi eta,   g = d(xi, eta)/dx
 //   C : H = lambda tr(H) 1 + a H + b H^T
-// which is the full 2x2 integration of a parallelogram: every formulation's bending is softer. `corner`
-// makes up for what is no parallelogram. Moduli per undeformed volume as in time_step_kernel.hpp:
+// which is the full 2x2 integration of a parallelogram: the bending of every formulation is softer. `corner`
+// accounts for other shapes. Moduli per undeformed volume as in time_step_kernel.hpp:
 //   lambda = K theta^2 - 2/3 mu,  a = mu + 2 d,  b = mu - K (theta^2 - 1)/2
 #pragma once
 
@@ -24,7 +24,7 @@ TangentModuli<T> tangent_moduli(T bulk, T mu, T theta, T distortion) {
           mu - 0.5 * bulk * (theta2 - 1.0)};
 }
 
-// (C : (p q^T)) q for vectors p and q: one stiffness of the element's bending.
+// (C : (p q^T)) q for vectors p and q: one bending stiffness of the element.
 template <class T>
 void add_bending(const TangentModuli<T>& c, T px, T py, T qx, T qy, T& fx, T& fy) {
   const T along = (c.lambda + c.b) * (px * qx + py * qy), all = c.a * (qx * qx + qy * qy);
@@ -32,8 +32,8 @@ void add_bending(const TangentModuli<T>& c, T px, T py, T qx, T qy, T& fx, T& fy
   fy += along * qy + all * py;
 }
 
-// As moments with xi, eta and xi eta, of a slice one deep: node_forces of them, 1/4 each, are the forces
-// that act on the element. v: the map of the nodes' motion, like that of their positions.
+// As moments with xi, eta and xi eta, for unit slice depth: node_forces of them, 1/4 each, are the forces
+// that act on the element. v: the map of the nodal motion, analogous to that of the positions.
 template <class T>
 QuadFlux<T> tangent_flux(const QuadMap<T>& map, const QuadMap<T>& v, const TangentModuli<T>& c,
                          T volume, T corner) {

@@ -1,9 +1,9 @@
-// internal_force: nodal forces of the stresses.
+// internal_force: nodal forces from the stresses.
 //
-// Source   systems/body/element_kernel.hpp. Mean dilatation: the deviator acts pointwise, scaled theta/J to the
-//          Kirchhoff stress of the point, the mean stress on the element's area. Else Cauchy stress acts
-//          at every point; with one point the bending of systems/body/hourglass_kernel.hpp too. All are the
-//          exact derivative of the element's stored energy
+// Source   systems/body/element_kernel.hpp. Mean dilatation: the deviator acts pointwise, scaled by theta/J to
+//          the Kirchhoff stress of the point, the mean stress on the element's area. Otherwise Cauchy stress
+//          acts at every point; with one point also the bending of systems/body/hourglass_kernel.hpp. All are
+//          the exact derivative of the element's stored energy
 // Runs     after the stresses are final, before integrate
 #include "engine/entry.hpp"
 #include "systems/body/element_access.hpp"
@@ -19,7 +19,7 @@ using Flux = kernels::QuadFlux<Packet>;
 struct Bending {
   ReadPart<HourglassStress> stress;
   Packet mu;
-  bool near_inversion;  // some corner of the elements is about to fold
+  bool near_inversion;  // some corner of the elements is about to fold over
 };
 
 template <class F>
@@ -38,7 +38,7 @@ Flux stress_flux(const Views<FourPoint>& v, const Map& map, const Shape& shape, 
     gradient[g] = map_gradient<4>(map, g);
     now[g] = determinant(gradient[g]);
   }
-  // A division for two points: it is the dearest operation of the loop.
+  // One division for two points: it is the most expensive operation of the loop.
   const Packet over[2] = {theta / (now[0] * now[1]), theta / (now[2] * now[3])};
   Flux flux;
   for (int g = 0; g < 4; ++g) {
@@ -66,11 +66,11 @@ Flux stress_flux(const Views<OnePoint>& v, const kernels::FourfoldMap<Packet>& m
   const auto a = map_gradient<1>(map, 0);
   const auto d = deviator(v.s, e, 0);
   const Packet mean = v.p(e);
-  // The fourfold map stands for the four quarters of (xi, eta).
+  // The fourfold map represents the four quarters of (xi, eta).
   auto flux = kernels::central_flux(a, d.xx + mean, d.yy + mean, d.xy);
   const Packet inv_det = 1.0 / determinant(a);
   const auto& reference = entry(shape.hourglass, e.value);
-  const double area = 4 * points_of<1>(shape, e.value)[0].determinant;  // by scale / inv_det
+  const double area = 4 * points_of<1>(shape, e.value)[0].determinant;  // times scale / inv_det
   const auto w = kernels::natural_hourglass(map, inv_det);
   auto moment = kernels::bending_moment<Packet>({v.bending->stress(e, 0), v.bending->stress(e, 1)},
                                                 reference, (1.0 / 3.0) * area);

@@ -3,8 +3,8 @@
 // Source   Simo & Hughes (1998), boxes 9.1 and 9.2: multiplicative split, radial return on the
 //          isochoric elastic left Cauchy-Green tensor. Two departures: the state is the inverse plastic
 //          metric C_p^-1 (as in Simo 1992), so that the stress follows from F alone and cannot drift;
-//          and the trace after the return comes from det b_e = 1 instead of being kept, which makes
-//          the stored energy follow the stress. The plastic work is theta sigma_y d eps per undeformed
+//          and the trace after the return follows from det b_e = 1 instead of being kept, so that the
+//          stored energy is consistent with the stress. The plastic work is theta sigma_y d eps per undeformed
 //          volume (systems/laws/rate.hpp); the exact dissipation differs from it by the square of the
 //          elastic deviator.
 // Symbols  C      C_p^-1 - 1 [-] (xx yy zz xy; zero when virgin);  b = J^(-2/3) F C_p^-1 F^T [-]
@@ -12,7 +12,7 @@
 //          s      deviatoric Cauchy stress [Pa] = mu dev b / theta;  p mean stress [Pa]
 //          sigma_y flow stress [Pa], H hardening modulus [Pa], eps accumulated plastic strain [-]
 // Energy   W = mu/2 (tr b - 3) + K/2 (1/2 (theta^2 - 1) - ln theta)  per undeformed volume
-// Valid    theta > 0, det F > 0; any strain
+// Valid    theta > 0, det F > 0; arbitrary strain
 #pragma once
 
 #include "engine/portable_math.hpp"
@@ -23,7 +23,7 @@
 namespace pulvis::kernels {
 
 template <class T>
-struct Symmetric3 {  // of a plane problem: out-of-plane shear is zero
+struct Symmetric3 {  // plane problem: out-of-plane shear is zero
   T xx, yy, zz, xy;
 };
 
@@ -37,7 +37,7 @@ T squared_norm(const Symmetric3<T>& a) {
   return fma(a.xx, a.xx, a.yy * a.yy) + fma(a.zz, a.zz, 2.0 * (a.xy * a.xy));
 }
 
-// b before the isochoric scaling: F C_p^-1 F^T; elastic material has C = 0.
+// b before the isochoric scaling: F C_p^-1 F^T; virgin material has C = 0.
 template <class T>
 Symmetric3<T> left_cauchy_green(const Matrix2<T>& f) {
   return {fma(f.xx, f.xx, f.xy * f.xy), fma(f.yx, f.yx, f.yy * f.yy), T{} + 1.0,
@@ -74,27 +74,27 @@ T mean_stress(T bulk_modulus, T theta) {
   return 0.5 * bulk_modulus * (theta - 1.0 / theta);
 }
 
-// |S_trial| and its parts, where the state began, and 2 mu_bar.
+// |S_trial| and its parts, the state at the start of the step, and 2 mu_bar.
 template <class T>
 struct Trial {
   T norm2, joint2, norm;
   T eps, two_mu_bar;
 };
 
-// What a multiplier leaves of the stress under the yield surface.
+// The stress that a given multiplier leaves under the yield surface.
 template <class T>
 struct Remaining {
-  T size, slope;  // |S|; by x
+  T size, slope;  // |S|; its derivative with respect to x
 };
 
-// What shares the yield surface with the deviator. Nothing does in elements that need no stabilisation; that of
-// one-point elements is in systems/body/j2_bending_kernel.hpp. |S| is the joint norm, x = dgamma / |S_trial|.
+// What shares the yield surface with the deviator. Nothing in elements that need no stabilisation; for one-point
+// elements see systems/body/j2_bending_kernel.hpp. |S| is the joint norm, x = dgamma / |S_trial|.
 struct Uncoupled {
   template <class T>
   T joint_norm(T norm2) const {
     return norm2;
   }
-  // Of the linear step: slope of the consistency condition, its excess, and what it leaves to be done.
+  // For the linear step: slope of the consistency condition, excess stress, and what remains to be done.
   template <class T>
   T slope(T, T, T norm, T modulus, T two_mu) const {
     return norm * fma(2.0 / 3.0, modulus, two_mu);
@@ -105,7 +105,7 @@ struct Uncoupled {
   }
   template <class T, class Hardening>
   void settle(const auto&, T&, T&, T, T, T, const Hardening&) const {}
-  // Of the iteration: the x at which |S| is zero; |S| and its slope by x at beta = 1 - 2 mu x.
+  // For the iteration: the x at which |S| is zero; |S| and its slope in x at beta = 1 - 2 mu x.
   template <class T>
   T farthest(T two_mu) const {
     return 1.0 / two_mu;
@@ -134,11 +134,11 @@ struct J2State {
 };
 
 // Mean m of b = d + m 1 with det b = 1, from q = d:d / 2 and det d: m^3 - q m + det d = 1. The elastic
-// strain is small; the series leaves out its eighth order.
+// strain is small; the series drops terms of eighth order.
 template <class T>
 T mean_of_unit_determinant(T q, T det) {
   const T a = (1.0 / 3.0) * q, e = (1.0 / 3.0) * det, t = a - e;
-  const T third_order = (1.0 / 3.0) * (a * a) * fma(-a, a, a);  // of q
+  const T third_order = (1.0 / 3.0) * (a * a) * fma(-a, a, a);  // in q
   return 1.0 + (fma(e, t, t) - third_order);
 }
 
@@ -149,7 +149,7 @@ template <class T>
 struct Multiplier {
   T dgamma;
   T beta;        // |s| / |s_trial|
-  T residual{};  // of the consistency condition over the flow stress, where it is not met
+  T residual{};  // of the consistency condition relative to the flow stress, where it is not met
 };
 
 template <class Law>
@@ -169,12 +169,12 @@ Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const LinearHarde
   return m;
 }
 
-// The condition is met within this of the flow stress and round-off of the trial stress; or where the bracket is no
-// wider than round-off of the plastic strain, on curves that are next to upright.
+// The condition counts as met within this share of the flow stress plus round-off of the trial stress; or where the
+// bracket is no wider than round-off of the plastic strain, on almost vertical curves.
 inline constexpr double consistency = 1e-12, consistency_of_trial = 1e-15, round_off = 4e-16;
 inline constexpr int max_iterations = 200;
 
-// A residual that is no number meets nothing.
+// A NaN residual never counts as met.
 template <class T>
 T unmet(T f, const Flow<T>& flow, T trial, T width, T eps) {
   const T allowed = select(width <= round_off * eps, flow.stress,
@@ -182,8 +182,8 @@ T unmet(T f, const Flow<T>& flow, T trial, T width, T eps) {
   return select(abs(f) <= allowed, T{}, T{} + 1.0);
 }
 
-// Any other law: Newton's method for x, halving the bracket where a step leaves it. |S| falls with x and the flow
-// stress does not, so there is one root. It starts from perfect plasticity, or from the rate that alone bears the excess.
+// Any other law: Newton's method in x, bisecting the bracket when a step leaves it. |S| falls with x, the flow stress
+// does not, so there is one root. It starts from perfect plasticity, or from the rate that alone carries the excess.
 template <class T, class Hardening, class Coupled, class Mask>
 Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const Hardening& law,
                          Coupled& coupled) {
@@ -213,9 +213,9 @@ Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const Hardening& 
 }
 
 // ---- the return map ------------------------------------------------------------------------------------
-// Brings the trial state of a Gauss point back to the yield surface; lanes that do not yield come back unchanged.
-// Numbered as box 9.1, whose steps 1, 2 and 5 trial_stress has done: the configuration and its F, the elastic
-// predictor s_trial, the mean stress. `r2` = J^(-2/3). `coupled` is returned with the deviator.
+// Returns the trial state of a Gauss point to the yield surface; lanes that do not yield are left unchanged.
+// Numbered as box 9.1, whose steps 1, 2 and 5 trial_stress has already done: the configuration and its F, the
+// elastic predictor s_trial, the mean stress. `r2` = J^(-2/3). `coupled` is returned with the deviator.
 template <class T>
 struct Returned : J2State<T> {
   T residual;  // Multiplier::residual
@@ -224,7 +224,7 @@ struct Returned : J2State<T> {
 template <class T, class Hardening, class Coupled>
 Returned<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
                           T theta_over_mu, const Hardening& law, Coupled&& coupled) {
-  // 2. b_trial is not formed again: its deviator d is theta s / mu, its mean follows from det b = 1.
+  // 2. b_trial is not rebuilt: its deviator d is theta s / mu, its mean follows from det b = 1.
   const T norm2 = squared_norm(trial.s), joint2 = coupled.joint_norm(norm2);
   const T dxx = theta_over_mu * trial.s.xx, dyy = theta_over_mu * trial.s.yy;
   const T dxy = theta_over_mu * trial.s.xy;
@@ -267,7 +267,7 @@ Returned<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T 
   return radial_return(trial, f, r2, mu_over_theta, theta_over_mu, law, Uncoupled{});
 }
 
-// Stored energy per undeformed volume, without the volumetric part (which the element has once).
+// Stored energy per undeformed volume, without the volumetric part (stored once per element).
 template <class T>
 T isochoric_energy(const Matrix2<T>& f, const Symmetric3<T>& c, T mu) {
   const T r = inverse_cube_root(determinant(f));

@@ -1,7 +1,7 @@
-// return_health: stops a run where a return found no stress on the yield surface.
+// return_health: stops a run if a return mapping found no stress on the yield surface.
 //
 // Runs     every step, after the forces
-// Active   when a material hardens along a curve or by its rate: the return is iterated then
+// Active   when a material hardens nonlinearly or is rate-dependent: the return is then iterative
 #include <fmt/format.h>
 
 #include "engine/entry.hpp"
@@ -11,10 +11,10 @@
 namespace pulvis {
 
 void return_health::operator()() const {
-  const auto values = residual.values();  // by chunk: eight residuals, eight elements
+  const auto values = residual.values();  // per chunk: eight residuals, eight elements
   bodies->for_own_lanes([&](int slot) {
     const int at = slot / lane_count * 2 * lane_count + slot % lane_count;
-    if (entry(values, at) == 0) return;  // NaN is not
+    if (entry(values, at) == 0) return;  // false for NaN
     throw RunFailure(fmt::format(
         "j2_return_map: particle {}, element {}: the stress deviates from the flow stress by "
         "{:.3g} of it at step {}, t = {:.6g} s; allowed 0: the return mapping did not converge (is "

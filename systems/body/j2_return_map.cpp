@@ -1,11 +1,11 @@
-// j2_return_map: brings trial stresses that retained the von Mises yield surface back onto it; in elements
-// with one point together with the stress of the hourglass modes.
+// j2_return_map: returns trial stresses outside the von Mises yield surface to it; in one-point elements
+// together with the stress of the hourglass modes.
 //
 // Source   systems/body/j2_kernel.hpp (Simo & Hughes 1998, box 9.1); systems/body/j2_bending_kernel.hpp; laws:
 //          systems/laws
 // Runs     after trial_stress, before internal_force
 // Active   when a material of the scene declares a yield stress
-// Watches  how well each return met the yield surface, for return_health
+// Watches  the residual of each return on the yield surface, for return_health
 #include "systems/body/element_access.hpp"
 #include "systems/body/j2_bending_kernel.hpp"
 #include "systems/body/systems.hpp"
@@ -13,11 +13,11 @@
 namespace pulvis {
 namespace {
 
-// What the elements of a packet of particles add up to.
+// Sums over the elements of a packet of particles.
 struct PacketSums {
   Packet hourglass_work{};          // J/m
   Packet beyond_hardening{};        // J/m
-  Packet residual{}, element = -1;  // the worst return's
+  Packet residual{}, element = -1;  // of the worst return
 };
 
 template <class F, class Law>
@@ -31,7 +31,7 @@ struct Views {
   Law law;
 };
 
-// Not a number is worse than any.
+// NaN ranks worst.
 void keep_worst(Packet residual, Row<Element> e, PacketSums& sums) {
   const Packet::Mask worse =
       ~(abs(residual) <= abs(sums.residual)) & (sums.residual == sums.residual);
@@ -89,15 +89,15 @@ void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, 
   }
 }
 
-// ---- one point: the stress of the hourglass modes goes with the deviator ---------------------------
+// ---- one point: the hourglass stress is returned with the deviator ---------------------------------
 struct Bending {
   WritePart<HourglassStress> stress;
   WritePart<PlasticHourglass> plastic;
   Packet softness, stiffness, inv_modulus;
 };
 
-// Keeps the share `retained` of the bending stress; the rest has become plastic. Returns the work spent in
-// the hourglass modes, J/m.
+// Keeps the share `retained` of the bending stress; the rest has become plastic. Returns the work dissipated
+// in the hourglass modes, J/m.
 Packet keep_bending(const Bending& bending, Row<Element> e,
                     const kernels::Hourglass<Packet>& stress, Packet retained, double area) {
   const Packet plastic_share = fma(-retained, bending.inv_modulus, bending.inv_modulus);

@@ -1,10 +1,10 @@
 // particle_stress: mean Cauchy stress, area and centre of every particle.
 //
-// Law      area * stress = -sum over the nodes of internal force times position / thickness (virial): every
-//          point counts with the area on which internal_force lets its stress act. Bending of elements with
-//          one point adds nothing, since its energy does not change in a uniform strain
-// Runs     on sampled steps, when the stresses are known
-// Active   when the scene asks for particle stresses or contacts
+// Law      area * stress = -sum over the nodes of internal force times position / thickness (virial): each
+//          point is weighted with the area on which internal_force lets its stress act. Bending of
+//          one-point elements adds nothing, since its energy does not change under uniform strain
+// Runs     on sampled steps, once the stresses are known
+// Active   when the scene requests particle stresses or contacts
 #include "engine/entry.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/systems.hpp"
@@ -16,7 +16,7 @@ struct Sums {
   Lane xx{}, yy{}, xy{}, mean{}, area{}, x{}, y{};
 };
 
-// What a point of the element stands for now: for the deviator, and for the mean stress.
+// The current weights of a point of the element: for the deviator, and for the mean stress.
 template <class F, class Map>
 Lane area_of_point(const Map& map, const ElementPoints<F::points>& points, std::size_t g) {
   if constexpr (F::volumes == 4)

@@ -1,5 +1,5 @@
-// Systems of the bodies. What a system reads and writes is what it declares here, once; systems/step.cpp puts them in
-// order, and each is described at the top of its own file.
+// Systems of the bodies. What a system reads and writes is declared here and nowhere else; systems/step.cpp sets the
+// order of the systems, and each is described at the top of its own file.
 // F: the formulation of the elements (components/formulation.hpp).
 #pragma once
 
@@ -39,7 +39,7 @@ struct trial_stress {
   void operator()(Chunk chunk) const;
 };
 
-// What a material flows at: constants of linear hardening, or laws.
+// What sets a material's flow stress: constants of linear hardening, or laws.
 struct Flow {
   Read<YieldStress> yield_stress;
   Read<HardeningModulus> hardening;
@@ -59,7 +59,7 @@ struct j2_return_map {
     Write<PlasticMetric<F::points>> metric;
     Write<PlasticStrain<F::points>> strain;
   } points;
-  struct Hourglass {  // of elements with one point
+  struct Hourglass {  // one-point elements only
     Write<HourglassStress> stress;
     Write<PlasticHourglass> plastic;
     Write<HourglassWork> work;
@@ -67,7 +67,7 @@ struct j2_return_map {
   Optional<Hourglass> hourglass;
   struct Work {
     Write<WorkBeyondHardening> beyond;
-    Optional<Write<ReturnResidual>> residual;  // of curved laws and rates
+    Optional<Write<ReturnResidual>> residual;  // nonlinear hardening and rate laws only
   } work;
   void operator()(BusyChunk chunk) const;
 };
@@ -96,7 +96,7 @@ struct damping_force {
   void operator()(Chunk chunk) const;
 };
 
-// ---- motion, and the steps that it can take -----------------------------------------------------
+// ---- motion and stable time steps --------------------------------------------------------------
 struct integrate {
   Read<Bodies> bodies;
   Read<Clock> clock;
@@ -156,7 +156,7 @@ struct element_health {
   void operator()() const;
 };
 
-// ---- on sampled steps -----------------------------------------------------------------------------
+// ---- sampled steps only ---------------------------------------------------------------------------
 struct kinetic_energy {
   Read<Bodies> bodies;
   Read<Clock> clock;

@@ -1,13 +1,13 @@
-// stable_time_step: the greatest time step that every element (and the contact springs on the outline)
-// of a particle can stand.
+// stable_time_step: the largest time step that is stable for every element (and the contact springs on
+// the outline) of a particle.
 //
-// Source   The highest frequency of an assembly is at most that of its worst element, however the masses of
-//          the nodes are dealt out among the elements around (Irons; Flanagan & Belytschko 1984); the
-//          shape deals them out so that the worst is least (scenes/meshes/mass_shares). Elements:
-//          systems/body/time_step_kernel.hpp. One on the outline also bears contact springs of k K L/A (a
+// Source   The highest frequency of an assembly is at most that of its worst element, however the nodal
+//          masses are distributed among the adjacent elements (Irons; Flanagan & Belytschko 1984); the
+//          shape distributes them to minimise the worst (scenes/meshes/mass_shares). Elements:
+//          systems/body/time_step_kernel.hpp. An outline element also carries contact springs of k K L/A (a
 //          tool's, or the half of it that two equal bodies share, moving against each other), and dashpots
-//          that answer half a step late: stable while dt^2 omega^2 + 2 dt gamma <= 4 (systems/tools/servo_kernel.hpp).
-// Runs     stable_time_step every few steps, while the stresses of a chunk are at hand
+//          lagging by half a step: stable while dt^2 omega^2 + 2 dt gamma <= 4 (systems/tools/servo_kernel.hpp).
+// Runs     stable_time_step every few steps, while the stresses of a chunk are in cache
 #include <span>
 
 #include "components/run_state.hpp"
@@ -20,11 +20,11 @@
 namespace pulvis {
 namespace {
 
-// Damped blocks on plates and on each other (stiffness 0.35 to 100, damping 0.3 to 1) swing up from 1.36 times
-// what late_frequency allows.
+// Damped blocks on plates and on each other (stiffness 0.35 to 100, damping 0.3 to 1) become unstable from 1.36
+// times what late_frequency allows.
 constexpr double too_strict = 1.25;
 
-// rho omega^2 of the undamped element whose stable step is that of an element on the outline with dashpots:
+// rho omega^2 of the undamped element with the same stable step as an outline element with dashpots:
 // gamma/2 + sqrt(gamma^2/4 + omega^2) for omega.
 Lane late_frequency(const ContactRules& rules, double stiffening, const Shape& shape,
                     Row<Element> element, const Lane& bulk, const Lane& solid) {
@@ -48,7 +48,7 @@ template <int Points>
   const Lane k = material.elastic.bulk.chunk(chunk)(particle),
              rho = material.density.chunk(chunk)(particle);
   const Lane shear = material.elastic.shear.chunk(chunk)(particle), inv_shear = 1.0 / shear;
-  // Enough for little damping, within what `safety` leaves; with more, `late` says what it takes.
+  // Sufficient for low damping, within the margin of `safety`; with more damping, `late` gives the requirement.
   const double contact =
       rules ? (*rules)->stiffness *
                   (springs_of(chunk, *bodies, **rules, *clock) + 2 * (*rules)->damping)
@@ -73,8 +73,8 @@ template <int Points>
   Lane& step = stable.chunk(chunk)(particle);
   step = stable_step(chunk, rho, highest, damping);
   if (!damped) return;
-  // A servo's tool lives on the whole of what `safety` leaves; without one, what is known to be too strict in
-  // the bound need not be paid for.
+  // A servo tool uses the entire margin of `safety`; without one, the known conservatism of the bound is
+  // removed.
   const Lane longest = stable_step(chunk, rho, late, damping);
   step = (*rules)->servos ? min(longest, step) : min(too_strict / clock->safety * longest, step);
 }

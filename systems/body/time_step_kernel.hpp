@@ -1,5 +1,5 @@
-// Highest squared frequency of a quad in its modes of uniform strain, exact for elastic moduli that are
-// isotropic or nearly so; the hourglass modes of the four-point element lie below.
+// Highest squared frequency of a quad in its uniform-strain modes, exact for elastic moduli that are
+// isotropic or nearly so; the hourglass modes of the four-point element are lower.
 //
 // With lumped masses m_I = rho a_I t at the corners and uniform gradients b_I = G^T dN_I/dxi
 // (G = dxi/dx), the modes are those of the 4x4 problem C : H over (sum_I b_I b_I^T / m_I)^-1. In the axes
@@ -9,7 +9,7 @@
 // Moduli per undeformed volume of U = K/2 ((theta^2 - 1)/2 - ln theta) and the neo-Hookean deviator:
 //   M = K (1 + theta^2)/2 + 4/3 mu + d,   L = |K theta^2 - 2/3 mu| + d
 //   m = mu + d,                            l = |mu - K (theta^2 - 1)/2| + d
-// d bounds what elastic distortion adds: for b' (isochoric elastic left Cauchy-Green, det 1) the acoustic
+// d bounds the effect of elastic distortion: for b' (isochoric elastic left Cauchy-Green, det 1) the acoustic
 // tensor grows by at most 1.15 |dev b'| mu.
 #pragma once
 
@@ -57,15 +57,15 @@ T frequency_bound(const ModeSpread<T>& n, T bulk, T mu, T theta, T distortion) {
   return max(stretch, shear);
 }
 
-// What the leapfrog can stand of a mode whose damping -alpha v - beta omega^2 v is that of the velocity half a
-// step back: 2/omega (sqrt(1 + xi^2) - xi), xi = alpha/(2 omega) + beta omega/2. Falls with omega.
+// Stable leapfrog step for a mode whose damping -alpha v - beta omega^2 v uses the velocity half a step
+// back: 2/omega (sqrt(1 + xi^2) - xi), xi = alpha/(2 omega) + beta omega/2. Decreases with omega.
 template <class T>
 T damped_step(T omega2, T alpha, T beta) {
   const T decay = 0.5 * (alpha + beta * omega2);  // xi omega
   return 2.0 / (decay + sqrt(omega2 + decay * decay));
 }
 
-// Largest eigenvalue of the spring matrix L/6 [[2,1],[1,2]] of an edge over its nodes' areas a and b: m^-1.
+// Largest eigenvalue of the spring matrix L/6 [[2,1],[1,2]] of an edge over its nodal areas a and b: m^-1.
 inline double edge_spring_frequency(double length, double a, double b) {
   const double p = 1 / a, q = 1 / b;
   return length / 6 * (p + q + std::sqrt((p - q) * (p - q) + p * q));

@@ -1,10 +1,10 @@
-// trial_stress: Cauchy stress at every point of an element as if no plastic flow happened in this step.
-// elastic_stress: the same for scenes without plasticity, where it is the stress.
+// trial_stress: Cauchy stress at every point of an element as if there were no plastic flow in this step.
+// elastic_stress: the same for scenes without plasticity, where it is the final stress.
 //
-// Source   systems/body/element_kernel.hpp, systems/body/j2_kernel.hpp; hourglass stress of elements with one point:
+// Source   systems/body/element_kernel.hpp, systems/body/j2_kernel.hpp; hourglass stress of one-point elements:
 //          systems/body/hourglass_kernel.hpp
-// Runs     after integrate of the step before; before j2_return_map and internal_force
-// Watches  least det F of every particle, for the health system
+// Runs     after integrate of the previous step; before j2_return_map and internal_force
+// Watches  minimum det F of every particle, for the health system
 #include <optional>
 
 #include "engine/entry.hpp"
@@ -33,15 +33,15 @@ Views<F> views_of(const Read<Position>& position, const ElementStress<Write, F>&
           part_of(elastic.bulk.chunk(chunk)(particle), part)};
 }
 
-// Elements with one point: the trial stress of their hourglass modes, over the plastic part `plastic_bending`.
+// One-point elements: the trial stress of their hourglass modes, with the plastic part `plastic_bending`.
 struct HourglassViews {
   WritePart<HourglassStress> stress;
   const ReadPart<PlasticHourglass>* plastic_bending;  // null: elastic
   Packet modulus;
-  Packet min_corner;  // of the elements so far
+  Packet min_corner;  // over the elements so far
 };
 
-// Returns the least det F of where the Gauss points of a four-point element would be, over theta: it tells
+// Returns the minimum det F at the Gauss points that a four-point element would have, over theta: it detects
 // a folded element.
 Packet hourglass_stress(HourglassViews& v, const kernels::FourfoldMap<Packet>& map, Packet inv_det,
                         const Shape::Hourglass& reference, Row<Element> e) {
@@ -58,7 +58,7 @@ Packet hourglass_stress(HourglassViews& v, const kernels::FourfoldMap<Packet>& m
   return corner;
 }
 
-// `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the least det F of the element's points.
+// `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the minimum det F over the element's points.
 template <class F, class LeftCauchyGreen>
 Packet element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& shape,
                       Row<Element> e, const LeftCauchyGreen& left) {
@@ -90,7 +90,7 @@ Packet element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape&
   return minimum;
 }
 
-// A NaN wins every comparison and is not replaced by a later number, so that it is seen.
+// A NaN wins every comparison and is not replaced by a later number, so that it is detected.
 void keep_worst(Packet minimum, Row<Element> e, Packet& worst, Packet& worst_element) {
   const Packet::Mask lower = ~(minimum >= worst) & (worst == worst);
   worst_element = select(lower, e.value, worst_element);

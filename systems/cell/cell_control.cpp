@@ -1,19 +1,19 @@
-// cell_control: the stress across the borders of the periodic cell, the work that the cell does, and how fast it deforms in
-// the next step.
+// cell_control: the stress across the boundaries of the periodic cell, the work done by the cell, and its deformation rate
+// in the next step.
 //
-// Law      an image of particle b stands at b + h n (h: the cell's vectors, n: whole numbers). A contact force f on the
+// Law      an image of particle b is at b + h n (h: the cell's vectors, n: integers). A contact force f on the
 //          sampled side against that image does work at a rate f . (h' n) through the cell alone: stress =
 //          sum f (x) h n / (area thickness), tension > 0 (Christoffersen, Mehrabadi & Nemat-Nasser 1981, with the
-//          borders as section)
+//          boundaries as section)
 // Control  systems/cell/mixed_control.hpp
 // Vectors  by the midpoint rule, (h_(n+1) - h_n)/dt = L (h_n + h_(n+1))/2: their area follows the trace of L
-// Runs     after the contacts of the step; cell_kick and cell_motion carry it out
-// Watches  that asked stresses are held when their stage ends
+// Runs     after the contacts of the step; cell_kick and cell_motion apply it
+// Watches  that target stresses are reached when their stage ends
 //
-// wall_control: the same for the four planes of a die, with the stresses that they bear. They move alike on both sides, about
-// the middle between them.
+// wall_control: the same for the four planes of a die, with the stresses that they carry. Opposite planes move
+// symmetrically about their centre.
 //
-// Runs     after tool_reaction; tool_motion carries it out in the next step
+// Runs     after tool_reaction; tool_motion applies it in the next step
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,8 +32,8 @@ using Parts = std::array<double, MixedControl::parts>;
 
 // Over all rows of all ranks.
 struct BorderSums {
-  std::array<ExactSum, 5> exact;  // N, of the force's parts; J, of the kicks
-  TouchSum touching;              // of one vector's length each: N/m, N s/m, times m^2
+  std::array<ExactSum, 5> exact;  // N, components of the force; J, of the kicks
+  TouchSum touching;              // for unit length of one vector each: N/m, N s/m, times m^2
 
   Tensor2 force() const {
     return {{exact[0].value(), exact[1].value(), exact[2].value(), exact[3].value()}};
@@ -47,7 +47,7 @@ BorderSums across_borders(const cell_control& s) {
     const Row<Contact> row(r);
     const Image n{s.borders.image(row, 0), s.borders.image(row, 1)};
     if (s.borders.rows.touches(row) == 0 || n == Image{}) continue;
-    if (!s.bodies->owns(s.borders.rows.pair(row, 0))) continue;  // its owner adds it
+    if (!s.bodies->owns(s.borders.rows.pair(row, 0))) continue;  // added by its owner
     const Point way = s.control.cell->vectors * n;
     const double square = way[0] * way[0] + way[1] * way[1];
     for (int i = 0; i < 2; ++i) {
@@ -96,7 +96,7 @@ void cell_control::operator()() const {
   now.change = (next_rate + -1.0 * now.rate) * now.vectors.inverse();
 }
 
-// The step itself.
+// Motion of the cell.
 void cell_motion::operator()() const {
   PeriodicCell& now = *cell;
   now.rate = (1 / clock->dt) * (now.next + -1.0 * now.vectors);
@@ -108,7 +108,7 @@ void cell_motion::operator()() const {
 // ---- walls ----------------------------------------------------------------------------------------
 namespace {
 
-// Of the contacts of two planes that move apart by half of the strain each, times the squares of their ways.
+// Contacts of two planes, each moving by half of the strain, weighted with the squares of their displacements.
 TouchSums pressed_by(int low, int high, double size, const wall_control& s) {
   TouchSum sums;
   const double square = 0.25 * size * size;

@@ -1,12 +1,12 @@
-// cell_kick: when the cell changes its speed, every particle takes its share of the new homogeneous velocity field: it moves
-// as its centre is moved, and turns with the spin. The powder deforms as a whole, no wave runs in from the borders, and
-// no particle is strained by anything but its contacts.
+// cell_kick: when the cell changes its velocity, each particle receives its share of the new homogeneous velocity field: it
+// translates with its centre and rotates with the spin. The powder deforms as a whole, no wave enters from the boundaries,
+// and particles are strained only by their contacts.
 //
 //   dv = C (x_c - x_0) + (C - C^T)/2 (x - x_c),   C = (change of h') h^-1
 //   work = sum m (v_n . dv + dv . dv/2),   v_n = v_(n-1/2) + a_n (dt_before + dt)/4
 //
-// So an image moves as its particle would if it were stored there: where the cell is cut open does not matter. v_n is what
-// the kinetic energy of the leapfrog is taken at (systems/body/energies.cpp).
+// So an image moves as its particle would if it were stored there: where the cell is cut open does not matter. v_n is the
+// velocity used for the kinetic energy of the leapfrog (systems/body/energies.cpp).
 //
 // Runs     after cell_control, before integrate
 #include "engine/entry.hpp"

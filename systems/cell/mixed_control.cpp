@@ -17,7 +17,7 @@ using Stage = MixedControl::Stage;
 using Law = MixedControl::Law;
 constexpr std::array<const char*, MixedControl::parts> names{"xx", "yy", "xy"};
 
-// Pa: what the stage is to come to.
+// Pa: the stress to reach at the end of the stage.
 double aim(const MixedControl& control, const Stage& stage, int part) {
   const double yy = control.stress[MixedControl::yy], given = entry(stage.stress, part);
   switch (entry(stage.law, part)) {
@@ -49,7 +49,7 @@ void check_held(const Stage& stage, const std::string& name, const MixedControl&
   }
 }
 
-// Of the strain, that the stage has come in the step that begins at `since` after it.
+// Share of the stage's strain applied in the step that begins `since` after its start.
 double share_in_step(const Stage& stage, double since, double cut, double dt) {
   const auto share = [&](double t) {
     return kernels::cut_travel(t / stage.duration, stage.ramp, cut / stage.duration);
@@ -63,7 +63,7 @@ double asked_for(const MixedControl& control, const Stage& stage, int part, doub
   return at_begin + share * (aim(control, stage, part) - at_begin);
 }
 
-// Rate of the part over the next step, 1/s.
+// Rate of the component over the next step, 1/s.
 double driven_by_stress(const Stage& stage, int part, double volume,
                         const kernels::TouchSums& touching, const Clock& clock,
                         MixedControl& control) {

@@ -1,9 +1,9 @@
-// How fast a powder deforms as a whole in the next step, by strains or by stresses.
+// Deformation rate of the whole powder in the next step, under strain or stress control.
 //
-// A strain is spread over its stage with smooth ramps (systems/tools/tool_kernel.hpp). A stress is kept by a servo: the part
-// of the rate of deformation moves as a mass that the missing stress pushes and a dashpot damps
-// (systems/tools/servo_kernel.hpp), with the force (asked - stress) area thickness, the mass in kg m^2, the speed in 1/s. What
-// is asked for may follow from another part of the stress as it is now: a ratio to yy, or a mean with it.
+// A strain is spread over its stage with smooth ramps (systems/tools/tool_kernel.hpp). A stress is held by a servo: that
+// component of the rate moves as a mass driven by the missing stress and damped by a dashpot
+// (systems/tools/servo_kernel.hpp), with the force (target - stress) area thickness, the mass in kg m^2, the speed in 1/s.
+// The target may depend on another current stress component: as a ratio to yy, or as a mean with it.
 #pragma once
 
 #include <array>
@@ -19,12 +19,12 @@ struct Rates {
   double spin = 0;                                        // rad/s
 };
 
-// `volume`: m^3, of the powder with its pores. `touching`: what resists each part, in N m and N m s. Throws RunFailure
-// where a stage has just ended and a stress was not held.
+// `volume`: m^3, of the powder including its pores. `touching`: resistance to each component, in N m and N m s. Throws
+// RunFailure where a stage has just ended and a stress was not reached.
 Rates rates_of(MixedControl& control, const ToolProgram& program, const Clock& clock, double volume,
                const std::array<kernels::TouchSums, MixedControl::parts>& touching);
 
-// What has come of them after a step.
+// Adds the strain of a step.
 void add_strain(MixedControl& control, const Rates& rates, double dt);
 
 }  // namespace pulvis

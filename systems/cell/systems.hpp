@@ -1,4 +1,4 @@
-// Systems of the periodic cell, and of a die that is driven like one. What a system reads and writes is what it declares here.
+// Systems of the periodic cell, and of a die driven like one. What a system reads and writes is declared here.
 #pragma once
 
 #include "components/bundles.hpp"

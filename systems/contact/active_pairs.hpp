@@ -1,12 +1,12 @@
-// Active pairs: the candidates that may touch in this step, taken two by two by a narrow phase.
+// Active pairs: the candidates that may touch in this step, processed two at a time by a narrow phase.
 //
-// Order    which candidates make two, and which block they are booked in, does not depend on threads. Those that are
-//          not active are apart and add nothing
-// Memory   a large powder's candidates come from memory, so that they are asked for some candidates before; a task has
-//          several blocks, so that the first of the next are asked for while the last of one are looked at
+// Order    how candidates are paired, and which block they are summed in, does not depend on threads. Inactive ones
+//          are apart and add nothing
+// Memory   the candidates of a large powder come from main memory, so they are prefetched some candidates ahead; a task
+//          has several blocks, so that the first of the next are prefetched while the last of one are processed
 //
-// A phase says what is done: active(row), fetch(row), fetch_other(row) (which may use what the first has asked for),
-// and (two, sums of their block); (two, two, sums) as well, where side by side is faster. Phase::Sums keeps the books.
+// A phase defines the work: active(row), fetch(row), fetch_other(row) (which may use what the first has prefetched),
+// and (two, sums of their block); (two, two, sums) as well, where side by side is faster. Phase::Sums accumulates.
 #pragma once
 
 #include <algorithm>
@@ -20,27 +20,27 @@
 
 namespace pulvis {
 
-// As many stay in the caches from step to step; asking ahead for what is there already would only cost.
+// This many stay in the caches from step to step; prefetching what is there already only costs time.
 inline constexpr int rows_in_cache = 16384;
 
-// What two candidates compute waits for itself, step by step, and no processor looks ahead as far as the next two:
-// where a register holds all points of both, two and two go side by side. With more registers they fill the time alone.
+// The computations of two candidates form a dependency chain, and no processor looks ahead as far as the next two:
+// where one register holds all points of both, two pairs run side by side. With more registers they fill the time.
 inline constexpr bool side_by_side = simd::registers == 1;
 
 namespace detail {
 
-inline constexpr int min_tasks = 64, max_blocks = 16;  // of a task
+inline constexpr int min_tasks = 64, max_blocks = 16;  // per task
 template <class At>
 inline constexpr std::size_t max_rows_of_a_task = max_blocks* (RowBlocks<At>::most + 1);
 
-// The active candidates of a task: of every block an even number.
+// The active candidates of a task: an even number from every block.
 template <class At>
 struct ActiveOfTask {
   std::array<std::int32_t, max_rows_of_a_task<At>> row;
-  std::array<std::size_t, max_blocks> end;  // of each block, in row
+  std::array<std::size_t, max_blocks> end;  // for each block, in row
   std::size_t count = 0;
 
-  // No branch: which candidates are active follows no pattern.
+  // Branch-free: which candidates are active follows no pattern.
   template <class Phase>
   void add_block(int block, int first, int last, const Phase& phase) {
     std::size_t n = count;
@@ -56,7 +56,7 @@ struct ActiveOfTask {
   }
 };
 
-// Takes them in order, and asks for those to come.
+// Processes them in order and prefetches those ahead.
 template <class At, class Phase>
 struct ActiveWalk {
   static constexpr std::size_t rows_before = 24, rows_before_other = 12;

@@ -1,7 +1,7 @@
-// Assembly: from the forces of contact points to those of control points, and from there to boundary nodes.
+// Assembly: from the forces at contact points to those at control points, and from there to boundary nodes.
 //
-// Law      the sampled edge takes N_a(u_g) f_g, the other body -N_a(u*) f_g at the closest point, and where friction
-//          acts across a gap -N_a'(u*) times its couple; nodes take the transpose of y = S x
+// Law      the sampled edge receives N_a(u_g) f_g, the other body -N_a(u*) f_g at the closest point, plus -N_a'(u*)
+//          times the couple where friction acts across a gap; nodes receive the transpose of y = S x
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace pulvis {
 
-// x and y of the four control points of an edge, as they lie in memory.
+// x and y of the four control points of an edge, in memory order.
 using ControlForce = Lane;
 
-// N_a(u) for a = 0..3, each of them for x and for y, as polynomials of u.
+// N_a(u) for a = 0..3, each for x and for y, as polynomials in u.
 struct EdgeBasis {
   ControlForce a, b, c, d;
   ControlForce value(double u) const { return fma(u, fma(u, fma(u, d, c), b), a); }
@@ -43,13 +43,13 @@ inline const BasisByPoint& basis_by_point() {
   return by_point;
 }
 
-// The edges, by their first control point, that bear a force on some particle of the chunk. The others are passed
-// over: their forces are zero, since to_nodes clears what it has read and nobody else writes them.
+// Edges, by their first control point, that carry a force on some particle of the chunk. The others are skipped:
+// their forces are zero, since to_nodes clears what it has read and nobody else writes them.
 using BorneEdges = std::vector<std::uint8_t>;
 
-// What the edges of one particle bear.
+// What the edges of one particle carry.
 struct EdgeForces {
-  double* first;  // of its first edge
+  double* first;  // the particle's first edge
   BorneEdges& borne;
 
   double* on(int edge) const {
@@ -58,12 +58,12 @@ struct EdgeForces {
   }
 };
 
-// The force of a point for all control points, from a candidate's list: x y of every point.
+// The force of a point on each control point, from a candidate's list: x y of every point.
 inline ControlForce force_at(const double* point_force, int g) {
   return repeat_pair(point_force + 2 * g);
 }
 
-// Forces of four points on the control points of the edge that they sample.
+// Forces of four points on the control points of the edge they sample.
 inline void add_sampled(const BasisByPoint& by_point, const double* point_force,
                         double* edge_force) {
   ControlForce sum = ControlForce::load(edge_force);
@@ -88,7 +88,7 @@ inline void add_other(const EdgeBasis& n, const PackedCurvePoint* closest, const
     double* out = other.on(e);
     (ControlForce::load(out) - sum).store(out);
   };
-  // The points of an edge stand against one or two of the other's as a rule: no waiting for memory then.
+  // The points of an edge usually face one or two edges of the other body: no waiting for memory then.
   const int first = edge[0], last = edge[3];
   if ((edge[1] == first || edge[1] == last) && (edge[2] == first || edge[2] == last)) {
     ControlForce on_first = force[0], on_last = first == last ? ControlForce{} : force[3];
@@ -105,15 +105,15 @@ inline void add_other(const EdgeBasis& n, const PackedCurvePoint* closest, const
   }
 }
 
-// Forces of edges to boundary nodes, eight particles at once: an edge's four control points each, then the
-// transpose of y = S x. `edge_force`: of the first particle's first edge, `numbers` a particle.
+// Forces from edges to boundary nodes, eight particles at once: four control points per edge, then the
+// transpose of y = S x. `edge_force`: first edge of the first particle, `numbers` per particle.
 template <class Nodes>
 void to_nodes(const Shape& shape, double* edge_force, std::ptrdiff_t numbers,
               const BorneEdges& borne, const Nodes& node_force) {
   for (int node = 0; node < shape.boundary_nodes; ++node)
     node_force(Row<BoundaryNode>(node), 0) = node_force(Row<BoundaryNode>(node), 1) = Lane{};
-  std::array<Lane, 8> sum{};  // x y of control points c ... c + 3, of the edges up to c
-  int bear = 0;               // of these, how many may bear a force
+  std::array<Lane, 8> sum{};  // x y of control points c ... c + 3, from the edges up to c
+  int bear = 0;               // how many of these may carry a force
   for (int c = 0; c < shape.control_points(); ++c) {
     if (entry(borne, c) != 0) {
       std::array<const double*, lane_count> rows;

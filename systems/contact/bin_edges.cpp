@@ -1,9 +1,9 @@
-// bin_edges, bin_tool_edges: broad phase: make the contact rows anew when the surfaces have moved through the
+// bin_edges, bin_tool_edges: broad phase: rebuild the contact rows when the surfaces have moved through the
 // skin.
 //
-// History (closest points, friction springs) is carried by the key (particle, edge, other): rows are
+// History (closest points, friction springs) is carried over by the key (particle, edge, other): rows are
 // sorted by it, so that old and new rows of a particle are merged in one pass.
-// Runs     after skin_check, which says when; a sync point (rows change)
+// Runs     after skin_check, which triggers it; a sync point (rows change)
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct ToolCandidate {
 RowKey key_of(const EdgeCandidate& c) { return {c.slot, c.edge, c.other, c.image}; }
 RowKey key_of(const ToolCandidate& c) { return {c.slot, c.edge, c.tool}; }
 
-// The keys of the rows as they were made before.
+// The keys of the rows from the previous build.
 template <class At>
 struct KeysBefore {
   const Write<ContactPair<At>>& pair;
@@ -47,8 +47,8 @@ struct PairKeysBefore {
   }
 };
 
-// For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, as they were
-// made; empty when none were.
+// For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, from the previous
+// build; empty if there was none.
 template <class At, class Keys, class Candidate>
 std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin, const Keys& before,
                                 const BySlot<Candidate>& now) {
@@ -71,7 +71,7 @@ struct PairLaw {
   double kappa;  // Pa/m
   const ContactRules::Friction& friction;
   double damping;
-  std::uint8_t weld;  // number of the law of bonds by which pressure welds
+  std::uint8_t weld;  // index of the bond law by which pressure welds
   const ContactRules::Adhesion& adhesion;
 };
 
@@ -105,8 +105,8 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
     rows.law(row, Law::weight + static_cast<int>(g)) = edge.weight[g] * bodies.thickness;
 }
 
-// kappa = k K L/A of the sampled edge in series with the other outline's mean, like two springs: a disc
-// on its mirror image feels what it feels on a rigid plane. Not with the edge that happens to be nearest: a kappa that changed while two bodies slide would make or eat energy.
+// kappa = k K L/A of the sampled edge in series with the other outline's mean, like two springs: a disc on its mirror
+// image behaves as on a rigid plane. Not with the edge that happens to be nearest: a kappa that changes while two bodies slide would create or destroy energy.
 double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, const Bodies& bodies,
                       const RowKey& key) {
   const Shape& shape = bodies.shape_of_slot(key.slot);
@@ -115,7 +115,7 @@ double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, c
   return rules.stiffness * a * b / (a + b);
 }
 
-// c = 2 xi sqrt(kappa rho h): the boundary element's mass per area on the contact spring.
+// c = 2 xi sqrt(kappa rho h): with the mass per area of the boundary element on the contact spring.
 double damping_of(const ContactRules& rules, double kappa, double rho, const Shape::Edge& edge) {
   return 2 * rules.damping * std::sqrt(kappa * rho / edge.stiffness);
 }
@@ -146,7 +146,7 @@ std::uint8_t tool_weld_law(const Optional<Read<BondRules>>& bonds, const Bodies&
                key.other * (*bonds)->materials + entry(bodies.slots, key.slot).material);
 }
 
-// A fold of one outline does not attract itself: what is near is the body's own neighbourhood as a rule.
+// A fold of one outline does not attract itself: what is near is usually the body's own neighbourhood.
 const ContactRules::Adhesion& adhesion_of(const ContactRules& rules, const Bodies& bodies,
                                           const RowKey& key) {
   static const ContactRules::Adhesion none;
@@ -155,7 +155,7 @@ const ContactRules::Adhesion& adhesion_of(const ContactRules& rules, const Bodie
                                 entry(bodies.slots, key.other).material);
 }
 
-// Flat flanks of one outline that are deeper in each other than the skin have boxes apart: their rows stay while
+// Flat flanks of one outline that overlap by more than the skin have separate boxes: their rows are kept while
 // they touch.
 BySlot<EdgeCandidate> with_touching_folds(const std::vector<std::int32_t>& before_begin,
                                           const PairKeysBefore& before,
@@ -234,10 +234,10 @@ void bin_edges::operator()() const {
          damping_of(rules, kappa, rho, edge), weld_law(material.bonds, *bodies, key),
          adhesion_of(rules, *bodies, key)},
         rows);
-    // An outline against itself is looked for anew: its closest points may have gone home along it (edge_contact).
+    // Self-contact is searched again from scratch: its closest points may have slid home along it (edge_contact).
     const bool again = found.all[r].faces && touches(row) == 0;
     const bool known = source[r] >= 0 && !again;
-    // What was found to be the back face of a thin part stays that.
+    // What was identified as the back face of a thin part stays so.
     if (!(known && rows.activation(row) == back_face)) rows.activation(row) = 0;
     curves.place(row, 0) = entry(slots, key.slot).first_control + edge.first_control;
     curves.place(row, 1) = entry(slots, key.other).first_control;
@@ -257,8 +257,8 @@ void bin_edges::operator()() const {
 
 namespace {
 
-// The pieces of a polyline that an edge can touch, or stand behind by up to its own length, before the skin
-// is used up. (Deeper than that no force would be right.)
+// The pieces of a polyline that an edge can touch, or lie behind by up to its own length, before the skin
+// is used up. (At greater depth no force would be correct.)
 PieceRange near_pieces(const ToolSurface& surface, Point at, const double* points, double reach) {
   Box box = box_of(points, 4);
   for (int k = 0; k < 2; ++k) {

@@ -1,8 +1,8 @@
-// bond_forces: what bonded points between particles bear, until they break.
+// bond_forces: forces of bonded points between particles, until they break.
 //
-// Law      systems/contact/bond_points.hpp; the frame is the other curve's at the anchor. Because that frame turns
-//          with the curve, its slope bears a couple, so that forces are the derivative of what is stored
-// Runs     after edge_contact and pressed_bonds, before contact_force, and before other ranks are told
+// Law      systems/contact/bond_points.hpp; the frame is that of the other curve at the anchor. Because it rotates
+//          with the curve, the slope carries a couple, so that forces are the derivative of the stored energy
+// Runs     after edge_contact and pressed_bonds, before contact_force, and before contacts are sent to other ranks
 // Active   when the scene has bonds between particles
 #include "engine/prefetch.hpp"
 #include "systems/contact/active_pairs.hpp"
@@ -17,7 +17,7 @@ using Two = TwoCandidates<Contact>;
 
 struct PairBonds {
   using Sums = BondSumsOfLanes;
-  static constexpr double share = 0.5;  // the other particle samples back
+  static constexpr double share = 0.5;  // the other particle is sampled too
   const bond_forces& s;
   const BondPass<Contact> bonds{
       {s.columns, s.bonds, *s.rules, *s.clock, s.bodies->thickness, share}};
@@ -81,7 +81,7 @@ struct PairBonds {
     const PointMotion m = motion_of(p, {});
     return {m, fma(p.ry, m.nx, -(p.rx * m.ny))};
   }
-  // On the other curve's slope: the torque of forces whose points are an opening apart, over |x'|.
+  // On the other curve's slope: the torque of forces whose points are separated by an opening, over |x'|.
   void set_couple(const Two& two, unsigned bonded, const PointForces& f,
                   const BondMotion& m) const {
     const Lane push = fma(f.x, m.point.nx, f.y * m.point.ny);
@@ -90,7 +90,7 @@ struct PairBonds {
     for (int half = 0; half < count_of(two); ++half)
       store_points(half_of(bonded, half), x, y, half, &s.at.couple(entry(two, half)));
   }
-  // Where their forces act on the other body, and where the closest point is looked for once they break.
+  // Where their forces act on the other body, and where the closest-point search starts once they break.
   void keep_anchors(const Two& two, unsigned bonded) const {
     for (int half = 0; half < count_of(two); ++half) {
       const Row<Contact> row = entry(two, half);

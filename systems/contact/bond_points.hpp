@@ -1,12 +1,12 @@
-// Bonded points: what the bonded points of two candidates bear. Alike for pairs of particles and for tools.
+// Bonded points: the forces that the bonded points of two candidates carry. Shared by particle pairs and tools.
 //
-// Law      systems/laws/bond.hpp; in parallel with it the share c of what the contact law answers at the anchor:
-//          c = d for bonds made at the start, whose own spring bears compression too, (1 - d) k_n d_n (Alfano & Sacco
-//          2006); c = 1 for welds, which only hold what contact does not
-// Books    stored (1 - d) w0 + c times the contact's; spent what damage spends, and what a pressed bond's spring stored
-//          less what the contact stores that takes over
-// Sign     on the sampled edge along n (outward of the other surface) and t = (-n_y, n_x); the opening is what the
-//          sampled point is from its anchor
+// Law      systems/laws/bond.hpp; in parallel with a share c of the contact law evaluated at the anchor:
+//          c = d for bonds made at the start, whose spring also carries compression, (1 - d) k_n d_n (Alfano & Sacco
+//          2006); c = 1 for welds, which only carry what contact does not
+// Books    stored (1 - d) w0 + c times the contact energy; dissipated: the damage energy, and what a compressed bond's
+//          spring stores less what the contact that replaces it stores
+// Sign     on the sampled edge along n (outward of the other surface) and t = (-n_y, n_x); the opening is the position
+//          of the sampled point relative to its anchor
 #pragma once
 
 #include "components/bond.hpp"
@@ -16,23 +16,23 @@
 
 namespace pulvis {
 
-// How bonded points stand against their anchors.
+// Positions of bonded points relative to their anchors.
 struct BondMotion {
-  PointMotion point;  // against the surface at the anchor, as for contact
-  Lane along;         // m, of the sampled point from the anchor, along t
+  PointMotion point;  // relative to the surface at the anchor, as for contact
+  Lane along;         // m, of the sampled point relative to the anchor, along t
 };
 
-// Of the bonds of two candidates.
+// Bonds of two candidates.
 struct BondLanes {
-  Lane k;                   // Pa/m, of both directions
+  Lane k;                   // Pa/m, in both directions
   Lane offset_n, offset_t;  // m
   Lane strength;            // -, share
-  Lane damage;              // d before
+  Lane damage;              // d before the step
   LaneMask welded;          // by pressure
-  Lane weight;              // m^2, of the pass: area that the point stands for, times its share
+  Lane weight;              // m^2, in this pass: tributary area of the point, times its share
 };
 
-// Books of a block while it is looked at.
+// Running sums of a block.
 struct BondSumsOfLanes {
   using Block = BondBlock;
   Lane energy{}, contact_energy{}, fracture{}, friction_work{}, damping_work{}, area{};
@@ -55,7 +55,7 @@ struct BondSumsOfLanes {
   }
 };
 
-// The law of one bonded point. Weaker bonds open as far as strong ones.
+// The law of one bonded point. Weaker bonds open as far as strong ones before they break.
 inline kernels::CohesiveLaw cohesive_law(const BondRules::Law& law, double k, double strength) {
   return {k,
           k,
@@ -77,8 +77,8 @@ inline void store_points(unsigned points, const Lane& x, const Lane& y, int half
     }
 }
 
-// One pass over bonded rows; `share` of the stiffness and of the law in it: one half where the other particle samples
-// too, as in contact.
+// One pass over bonded rows; `share` of the stiffness and of the law used in it: one half if the other particle is
+// sampled too, as in contact.
 template <class At>
 class BondPass {
  public:
@@ -94,13 +94,13 @@ class BondPass {
   };
   explicit BondPass(const Parts& parts) : s_(parts) {}
 
-  // Bonded lanes. A candidate that stands twice counts once.
+  // Bonded lanes. A candidate that appears twice counts once.
   unsigned bonded(const Two& two) const {
     const unsigned low = s_.bonds.points(two[0]);
     return low | (count_of(two) == 2 ? unsigned{s_.bonds.points(two[1])} << edge_points : 0U);
   }
 
-  // `contact`: forces that the contact law answers at the anchors; asked for only where any has a share in them.
+  // `contact`: forces of the contact law at the anchors; evaluated only if any of them has a share.
   // `position` m, of the sampled points. Returns the forces on the sampled edges and the new shares.
   template <class Answer>
   PointForces act(const Two& two, unsigned bonded, const BondMotion& m, const PointLanes& position,
@@ -118,7 +118,7 @@ class BondPass {
       broken = grow(two, may, openings, b, damage, sums);
     }
     const Lane held = 1.0 - damage;
-    // A weld's compression is contact's alone.
+    // Compression of a weld is carried by contact alone.
     const Lane normal = select(b.welded, open, d_n);
     const Lane spring_n = b.k * normal, spring_t = b.k * d_t;
     const LaneMask lanes = LaneMask::of(bonded);
@@ -177,7 +177,7 @@ class BondPass {
         LaneMask::of((law(two[0]).pressed() ? 0x0fU : 0U) | (law(two[1]).pressed() ? 0xf0U : 0U)),
         s_.share * at_points(s_.rows.law, two, ContactLaw<At>::weight)};
   }
-  // Square of the traction below which nothing of the candidate is damaged, with its full strength. (Pa^2)
+  // Square of the traction below which nothing in the candidate is damaged, at full strength. (Pa^2)
   Lane onset_square(const Two& two) const {
     const auto least = [&](Row<At> row) {
       const double weaker = std::min(law(row).strength, law(row).shear_strength);
@@ -186,7 +186,7 @@ class BondPass {
     return halves(least(two[0]), least(two[1]));
   }
 
-  // Grows the damage of the points that may: seldom, one by one. Returns those that broke.
+  // Grows the damage of the given points: rare, one by one. Returns those that broke.
   [[gnu::noinline]] unsigned grow(const Two& two, unsigned may, const Openings& o,
                                   const BondLanes& b, Lane& damage, Sums& sums) const {
     unsigned broken = 0;
@@ -235,7 +235,7 @@ class BondPass {
     for (int half = 0; half < count_of(two); ++half)
       sums.block.rows += half_of(bonded, half) == BondedPoints<At>::all ? 1 : 0;
   }
-  // Only what is bonded: the narrow phase has answered for the others.
+  // Bonded points only: the narrow phase has handled the others.
   void keep(const Two& two, unsigned bonded, const PointForces& f, const Lane& damage) const {
     for (int half = 0; half < count_of(two); ++half) {
       const Row<At> row = entry(two, half);
@@ -243,7 +243,7 @@ class BondPass {
       s_.rows.touches(row) = 1;
       store_points(points, f.x, f.y, half, &s_.rows.force(row));
       if (points == BondedPoints<At>::all)
-        s_.rows.activation(row) = back_face;  // nothing is left for the narrow phase
+        s_.rows.activation(row) = back_face;  // nothing left for the narrow phase
       store_points(points, damage, half, &s_.bonds.damage(row));
       if (s_.rows.sliding)
         store_points(points, f.elastic_slip, half, &s_.rows.sliding->elastic_slip(row));
@@ -251,7 +251,7 @@ class BondPass {
         store_points(points, (1 / s_.share) * f.pressure, half, &(*s_.rows.bonding->weld)(row));
     }
   }
-  // From the next step on the contact of broken points is the narrow phase's.
+  // From the next step on, the narrow phase handles the contact of broken points.
   void release(const Two& two, unsigned broken) const {
     for (int half = 0; half < count_of(two); ++half) {
       const Row<At> row = entry(two, half);

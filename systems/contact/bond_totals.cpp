@@ -1,6 +1,6 @@
-// bond_totals: sums of the bonds, and what broke.
+// bond_totals: sums over the bonds, and which ones broke.
 //
-// Runs     every step, after bond_forces and contact_totals: what is spent adds up over steps
+// Runs     every step, after bond_forces and contact_totals: dissipation accumulates over steps
 // Active   when the scene has bonds
 #include <algorithm>
 #include <array>
@@ -35,7 +35,7 @@ struct Sums {
   }
 };
 
-// What broke on any rank, in the order of one process: chunk by chunk, of which each is one rank's; with tools last.
+// What broke on any rank, in single-process order: chunk by chunk, each owned by one rank; bonds with tools last.
 std::vector<Crack> cracks_of_ranks(RankLink& link, std::vector<Crack> own) {
   StateWriter writer;
   writer(own);

@@ -35,7 +35,7 @@ namespace {
 using kernels::moved;
 
 // Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours
-// stand in the cells around.
+// are in the surrounding cells.
 class Grid {
  public:
   Grid(const std::vector<Box>& boxes, const std::vector<int>& slots, double distance) {
@@ -50,7 +50,7 @@ class Grid {
     }
     for (int k = 0; k < 2; ++k) {
       low_[k] = all.low[k];
-      // A particle that flew off must not ask for a grid of its own; far cells fold into the last one.
+      // A particle that flew off must not enlarge the grid; far cells fold into the last one.
       count_[k] = static_cast<int>(std::clamp((all.high[k] - all.low[k]) / size_ + 1, 1.0, 4096.0));
     }
     cell_begin_.assign(static_cast<std::size_t>(count_[0] * count_[1]) + 1, 0);
@@ -85,7 +85,7 @@ class Grid {
   std::vector<std::int32_t> cell_begin_, members_;
 };
 
-// Of one outline after the other: boxes of the whole, and of its edges.
+// One outline after the other: boxes of the whole, and of its edges.
 struct Boxes {
   std::vector<Box> particle;             // [slots]; undefined where is_absent is
   std::vector<std::int32_t> edge_begin;  // [slots] into edge
@@ -134,10 +134,10 @@ struct Curves {
 
 using Spot = std::array<double, 2>;
 
-// Where the edge with these four control points begins.
+// Start of the edge with these four control points.
 Spot knot(const double* y) { return {(y[0] + 4 * y[2] + y[4]) / 6, (y[1] + 4 * y[3] + y[5]) / 6}; }
 
-// From the nearest point of the edge's chord to p.
+// Vector from the nearest point of the edge's chord to p.
 Spot way_from_chord(const Spot& p, const double* control) {
   const Spot a = knot(control), b = knot(control + 2);
   const double cx = b[0] - a[0], cy = b[1] - a[1], rx = p[0] - a[0], ry = p[1] - a[1];
@@ -150,7 +150,7 @@ double squared_distance_to_chord(const Spot& p, const double* control) {
   return d[0] * d[0] + d[1] * d[1];
 }
 
-// How far `direction` goes out of the edge with these control points, of its length: 1 straight out, -1 straight in.
+// How far `direction` points out of the edge with these control points: 1 straight out, -1 straight in.
 double outwards(const Spot& direction, const double* control) {
   const Spot a = knot(control), b = knot(control + 2);
   const double out = direction[0] * (b[1] - a[1]) - direction[1] * (b[0] - a[0]);
@@ -164,8 +164,8 @@ double product_of_normals(const double* one, const double* other) {
   return outwards({b[1] - a[1], a[0] - b[0]}, other);
 }
 
-// Whether some part of an edge sees another one in front of it, and is seen by it. Close by, beside each other counts,
-// too: an edge that slides along a flank comes near it from there.
+// Whether some part of an edge sees another one in front of it, and is seen by it. At close range, side by side
+// counts too: an edge that slides along a flank approaches it from there.
 bool faces(const double* own, const double* other) {
   constexpr double opposite = -0.1, close = 0.25, min_close = -0.5;
   if (product_of_normals(own, other) >= opposite) return false;
@@ -185,7 +185,7 @@ bool faces(const double* own, const double* other) {
   return false;
 }
 
-// The search for candidates of one slot after the other.
+// The candidate search, one slot after the other.
 class EdgeSearch {
  public:
   EdgeSearch(const Curves& curves, const Boxes& boxes, const PeriodicCell* cell,
@@ -199,7 +199,7 @@ class EdgeSearch {
       const Spot middle = middle_of(slot, e);
       for (const Other& other : others) {
         const bool own = other.itself;
-        // The image stays, the sampled edge is moved the other way.
+        // The image stays, the sampled edge is shifted the other way.
         const Sampled sampled{slot,
                               e,
                               moved(edge_box(slot, e), {-other.shift[0], -other.shift[1]}),
@@ -224,7 +224,7 @@ class EdgeSearch {
     Image image;
     Point shift;  // m, of the image
     bool itself;
-    std::vector<int> edges;  // those that come near the sampled particle's box
+    std::vector<int> edges;  // those that come near the box of the sampled particle
   };
 
   enum class Of { all, faced };
@@ -248,7 +248,7 @@ class EdgeSearch {
                   neighbour.slot == slot && neighbour.image == Image{},
                   {}};
       const Box own = moved(entry(boxes_.particle, slot), {-other.shift[0], -other.shift[1]});
-      if (!curves_.is_own(slot) && !curves_.is_own(other.slot)) continue;  // of other ranks alone
+      if (!curves_.is_own(slot) && !curves_.is_own(other.slot)) continue;  // owned by other ranks
       if (!near(own, entry(boxes_.particle, other.slot), skin_)) continue;
       for (int e = 0; e < curves_.edges(other.slot); ++e)
         if (near(own, edge_box(other.slot, e), skin_)) other.edges.push_back(e);
@@ -262,10 +262,10 @@ class EdgeSearch {
                                                curves_.edge_points(own.slot, e)) < sharp_fold;
   }
 
-  // The edge of `other` nearest to the middle of the sampled edge, of those that come near its box, or
-  // no_edge. Of its own outline the neighbours are left out: there it is that the outline folds. By the
-  // distance of chords, not of middles: beside the end of a long edge the middle of a short one around the
-  // corner may be nearer, and from there no search leads back over the corner.
+  // The edge of `other` nearest to the middle of the sampled edge, among those near its box, or no_edge. In
+  // self-contact the neighbours are excluded, unless the outline folds there. Measured from chords, not
+  // middles: beside the end of a long edge the middle of a short one around the corner may be nearer, and
+  // from there no search leads back past the corner.
   int nearest_edge(const Other& other, const Sampled& own, Of of) const {
     if (!near(own.box, entry(boxes_.particle, other.slot), skin_)) return Shape::no_edge;
     int nearest = Shape::no_edge;
@@ -290,7 +290,7 @@ class EdgeSearch {
                                                                  : nearest;
   }
 
-  // A box that comes near may belong to an edge around a corner from the nearest one, whose own does not: seen from its
+  // A nearby box may belong to an edge around a corner from the nearest one, whose own box is not near: seen from its
   // back the sampled edge would be deep inside.
   int nearest_of_all(int slot, const Sampled& own) const {
     int nearest = Shape::no_edge;
@@ -320,7 +320,7 @@ int edges_between(int a, int b, int edges) {
 
 namespace {
 
-// Periods that bring the middle of a box into the cell.
+// Periods that shift the middle of a box into the cell.
 Image periods_home(const Tensor2& inverse, const Box& box) {
   const Point share =
       inverse * Point{0.5 * (box.low[0] + box.high[0]), 0.5 * (box.low[1] + box.high[1])};
@@ -328,7 +328,7 @@ Image periods_home(const Tensor2& inverse, const Box& box) {
           -static_cast<std::int32_t>(std::floor(share[1]))};
 }
 
-// All particles brought home, and the images that come near the cell.
+// All particles wrapped into the cell, and the images that come near the cell.
 class Images {
  public:
   Images(const PeriodicCell& cell, const std::vector<Box>& boxes, const std::vector<int>& slots,
@@ -346,11 +346,11 @@ class Images {
         all.high[k] = std::max(all.high[k], entry(boxes_, s).high[k]);
       }
     }
-    // As many periods to each side as can reach over: the extent of all over the cell's heights.
+    // As many periods on each side as can reach across: the extent of all over the cell's heights.
     const auto& h = cell.vectors.t;
     const double extent =
         portable::hypot(all.high[0] - all.low[0], all.high[1] - all.low[1]) + distance;
-    const auto periods = [&](double x, double y) {  // of the other vector
+    const auto periods = [&](double x, double y) {  // components of the other vector
       return static_cast<std::int32_t>(std::ceil(extent * portable::hypot(x, y) / cell.area()));
     };
     const Image most{periods(h[1], h[3]), periods(h[0], h[2])};
@@ -370,7 +370,7 @@ class Images {
 
   const std::vector<Box>& boxes() const { return boxes_; }
   const std::vector<int>& ids() const { return ids_; }
-  // The image with that number, as the particle in `slot` sees it from where it is.
+  // The image with that index, as seen by the particle in `slot` from its actual position.
   Neighbour seen_from(int slot, int id) const {
     const Neighbour& there = entry(of_, id);
     const Image& own = entry(home_, slot);
@@ -380,7 +380,7 @@ class Images {
  private:
   std::vector<Image> home_;    // [slots]
   std::vector<Box> boxes_;     // [slots], then images
-  std::vector<Neighbour> of_;  // of each box: whose, by which periods
+  std::vector<Neighbour> of_;  // for each box: whose, by which periods
   std::vector<int> ids_;
 };
 

@@ -17,18 +17,18 @@ struct Box {
   double low[2], high[2];
 };
 
-// Edges of one outline that are nearer than this along it touch each other only where it has turned by two thirds of
-// a half turn between them, in the root of a notch: their normals' product is below that.
+// Edges of one outline closer than this along it can touch only if the outline turns by two thirds of a half
+// turn between them, at the root of a notch: the product of their normals is then below that.
 inline constexpr int min_fold = 4;
 inline constexpr double sharp_fold = -0.5;
-// Activation of a candidate of an outline against itself that sees its own neighbourhood or the back face of a thin part.
+// Activation of a self-contact candidate that sees its own neighbourhood or the back face of a thin part.
 inline constexpr double back_face = std::numeric_limits<double>::infinity();
-// Along a closed outline of `edges`.
+// Along a closed outline with `edges` edges.
 int edges_between(int a, int b, int edges);
 
-// One candidate: an edge of the particle in `slot` within `skin` of the particle in `other`, whose edge
-// `start` is the nearest to it. `other` = `slot`: the outline comes near itself; `start` is then the nearest
-// that it faces from outside (`faces`), or of all where it faces none: the back face of a thin part is often nearer
+// One candidate: an edge of the particle in `slot` within `skin` of the particle in `other`, whose nearest
+// edge is `start`. `other` = `slot`: self-contact; `start` is then the nearest edge that it faces from
+// outside (`faces`), or the nearest of all if it faces none: the back face of a thin part is often nearer
 // than the flank across a gap.
 struct EdgeCandidate {
   std::int32_t slot, edge, other, start;
@@ -38,13 +38,13 @@ struct EdgeCandidate {
   bool itself() const { return slot == other && image == Image{}; }
 };
 
-// A particle near another one, as it stands or as an image of itself.
+// A particle near another one, either the particle itself or one of its periodic images.
 struct Neighbour {
   std::int32_t slot;
   Image image{};
 };
 
-// m, by which an image stands apart from its particle.
+// m, offset of an image from its particle.
 inline Point shift_of(const PeriodicCell* cell, const Image& image) {
   return cell == nullptr ? Point{} : cell->vectors * image;
 }
@@ -52,8 +52,8 @@ inline Point shift_of(const PeriodicCell* cell, const Image& image) {
 Box box_of(const double* points, int count);
 bool near(const Box& a, const Box& b, double skin);
 
-// Of every slot the particles within `distance` (of boxes), itself included, ascending by slot and image. `control`:
-// x y of every control point; `cell`: null where nothing is periodic.
+// For every slot, the particles within `distance` (of boxes), itself included, ascending by slot and image.
+// `control`: x y of every control point; `cell`: null if nothing is periodic.
 BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const double> control,
                                       const PeriodicCell* cell, double distance);
 
@@ -62,9 +62,9 @@ BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const doub
                                       const PeriodicCell* cell, const BySlot<Neighbour>& neighbours,
                                       double skin);
 
-// The edge from which point `point` of a new candidate looks for its closest one: `start`, or an edge that meets it in a
-// corner where that is nearer to the point. The search goes round a corner only for points beside it, and the edge that is nearest to the
-// middle of the sampled one may be the wrong one for some of its points.
+// The edge from which point `point` of a new candidate starts its closest-point search: `start`, or an edge that meets it
+// at a corner if that is nearer to the point. The search passes a corner only for points beside it, and the edge nearest to
+// the middle of the sampled one may be the wrong one for some of its points.
 int start_of_point(const Bodies& bodies, std::span<const double> control, const PeriodicCell* cell,
                    const EdgeCandidate& candidate, int point);
 

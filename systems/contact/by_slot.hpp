@@ -1,5 +1,5 @@
-// Lists sorted by slot, made by several threads: every slot's share is found by itself, and shares stand one
-// after the other, so that the list does not depend on who found which.
+// Lists sorted by slot, built by several threads: the share of every slot is found independently, and shares
+// are concatenated in order, so that the list does not depend on which thread found what.
 #pragma once
 
 #include <oneapi/tbb/parallel_for.h>
@@ -29,7 +29,7 @@ struct BySlot {
   int count(int slot) const { return entry(begin, slot + 1) - entry(begin, slot); }
 };
 
-inline constexpr int slots_of_a_block = 32;  // a task each
+inline constexpr int slots_of_a_block = 32;  // one task per block
 
 template <class Visit>
 void for_blocks_of_slots(int slots, const Visit& visit) {
@@ -45,7 +45,7 @@ void for_slots(int slots, const Visit& visit) {
   });
 }
 
-// find(slot, list) appends what belongs to the slot.
+// find(slot, list) appends the entries of the slot.
 template <class T, class Find>
 BySlot<T> list_by_slot(int slots, const Find& find) {
   BySlot<T> list;

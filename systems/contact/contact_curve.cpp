@@ -1,8 +1,8 @@
-// contact_curve: control points of the smooth outlines, y = S x, and how fast they move.
+// contact_curve: control points of the smooth outlines, y = S x, and their velocities.
 //
 // Source   systems/contact/contact_kernel.hpp (cubic B-spline of smoothed boundary nodes)
-// Runs     after integrate; its curves are what the next step's contacts see
-// Active   when anything can touch
+// Runs     after integrate; the contacts of the next step use its curves
+// Active   when contact is possible
 #include <array>
 
 #include "components/contact.hpp"
@@ -18,14 +18,14 @@ struct ControlLanes {
   Lane x, y;
 };
 
-// Control point c of what the nodes carry: where they are, how fast they move. As many lists at once as are asked
-// for, since finding the nodes takes as long as adding them up.
+// Control point c of nodal quantities: positions, velocities. Any number of lists at once, since finding the
+// nodes takes as long as adding them up.
 template <class... Nodes>
 std::array<ControlLanes, sizeof...(Nodes)> control_points(const Shape& shape, int c,
                                                           const Nodes&... nodes) {
   std::array<ControlLanes, sizeof...(Nodes)> y{};
   for (const Shape::CurveTerm& term : shape.terms_of(c)) {
-    const Row<Node> node(term.node.value);  // boundary nodes come first among the nodes
+    const Row<Node> node(term.node.value);  // boundary nodes come first in the node numbering
     std::size_t list = 0;
     ((y[list].x += term.weight * nodes(node, 0), y[list].y += term.weight * nodes(node, 1), ++list),
      ...);

@@ -1,9 +1,9 @@
-// contact_force: assembles what every contact does to a particle, as sampled and as other body, on its control points,
-// and from there on its boundary nodes.
+// contact_force: assembles all contact forces on a particle, as sampled and as other body, at its control points,
+// and from there at its boundary nodes.
 //
 // Source   systems/contact/assembly.hpp
 // Runs     after the narrow phase, before integrate
-// Order    a particle sums its own candidates in their order: the same bits for any number of threads
+// Order    a particle sums its own candidates in order: bitwise identical for any number of threads
 #include "engine/chunk_lane.hpp"
 #include "systems/contact/active_pairs.hpp"
 #include "systems/contact/assembly.hpp"
@@ -12,8 +12,8 @@
 namespace pulvis {
 namespace {
 
-// The candidates that touch are some among many and stand anywhere in a large powder: their lines are asked for before
-// they are needed.
+// The candidates that touch are a few among many, scattered in memory in a large powder: their lines are
+// prefetched.
 struct Ahead {
   const ContactIndex& index;
   const contact_force::Pairs& pairs;
@@ -71,12 +71,12 @@ void add_of_tools(const TouchingRows<ToolContact>& tools, const ContactIndex& in
 }  // namespace
 
 [[gnu::flatten]] void contact_force::operator()(Chunk chunk) const {
-  // Copies, which no force that is written can change: they stay in registers.
+  // Copies, which no written force can alias: they stay in registers.
   const BasisByPoint by_point = basis_by_point();
   const EdgeBasis n = edge_basis();
   const Shape& shape = bodies->shape_of_chunk(chunk);
   double* all = &curve_force.chunk(chunk)(Row<ControlPoint>(0));
-  const std::ptrdiff_t numbers = CurveForce::count * shape.control_points();  // of a particle
+  const std::ptrdiff_t numbers = CurveForce::count * shape.control_points();  // for one particle
   BorneEdges borne(static_cast<std::size_t>(shape.control_points()));
   for (int lane = 0; lane < lane_count; ++lane) {
     const int slot = ChunkLane(chunk, lane).slot();

@@ -1,5 +1,5 @@
-// contact_health: stops a run in which a surface went too deep into another (a body on its way through
-// a wall looks like that first), or in which too many closest points were not found: what is not found is not felt.
+// contact_health: stops a run in which a surface has penetrated another too deeply (first sign of a body passing
+// through a wall), or in which too many closest points were not found: a missed point carries no force.
 //
 // Runs     every step, after the forces
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace pulvis {
 
 namespace {
 
-// What a candidate's third key is called: "particle 7", "tool 'top'".
+// Display name for a candidate's third key: "particle 7", "tool 'top'".
 using PartnerName = std::function<std::string(int)>;
 
 // "particle 3, edge 12 against particle 7"
@@ -42,7 +42,7 @@ BlockSums deepest_of(const ContactSums<At>& sums) {
 template <class At>
 void check_depth(const Bodies& bodies, const Clock& clock, double limit, const char* system,
                  const PartnerName& partner, const RowsInSum<At>& rows, const BlockSums& worst) {
-  if (worst.depth <= limit) return;  // NaN is not
+  if (worst.depth <= limit) return;  // false for NaN
   const Row<At> row(worst.deepest);
   const Shape::Edge& edge = entry(bodies.shape_of_slot(rows.pair(row, 0)).edges, rows.pair(row, 1));
   throw RunFailure(
@@ -52,7 +52,7 @@ void check_depth(const Bodies& bodies, const Clock& clock, double limit, const c
                   worst.depth, clock.step, clock.time, limit));
 }
 
-// The share of the run grows only in steps in which some are not found: one of them is named.
+// The run's share grows only in steps in which some are not found: one of them is reported.
 void check_projections(const Bodies& bodies, const Clock& clock, double limit,
                        const PartnerName& partner, const RowsInSum<Contact>& rows,
                        const Totals& totals) {
@@ -82,7 +82,7 @@ void contact_health::operator()() const {
   const BlockSums of_tools = tools ? deepest_of(*tools->sums) : BlockSums{};
   totals->penetration =
       maximum_of_ranks(link, std::max(std::max(0.0, of_pairs.depth), of_tools.depth));
-  // A point that was not found may look deep: that is told first. Where nothing is a number, nothing is found.
+  // A point that was not found may look deep: that is reported first. With NaNs nothing is found.
   if (pairs && !std::isnan(of_pairs.depth))
     check_projections(*bodies, *clock, rules->unconverged_limit, particle, *pairs, *totals);
   const double limit = rules->penetration_limit;

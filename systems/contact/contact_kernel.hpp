@@ -2,15 +2,15 @@
 //
 // Curve    uniform cubic B-spline of control points y (C2). For the edge between knots i and i+1 with
 //          parameter u in [0,1]: x(u) = sum_a N_a(u) y_(i-1+a). The y are linear in the boundary nodes,
-//          y_i = x_i - c (x_(i-1) - 2 x_i + x_(i+1)), so forces on y go back to x by the transpose and
-//          energy and momentum are kept. A corner ends a spline; see scenes/meshes/contact_curve.
+//          y_i = x_i - c (x_(i-1) - 2 x_i + x_(i+1)), so forces on y map back to x by the transpose and
+//          energy and momentum are conserved. A corner ends a spline; see scenes/meshes/contact_curve.
 // Contact  the four Gauss points s of an edge of one body against the closest point m of the other's
 //          curve: (x_s - x_m) . x_m' = 0, gap g = (x_m - x_s) . n_m [m, > 0 in penetration], pressure
-//          p = kappa/2 g (1 + (g/g_s)^2). Then the roles change: two half passes, no master. The forces are
-//          the derivative of sum w kappa/4 g^2 (1 + (g/g_s)^2/2). g_s, a twentieth of the edge, is beyond
-//          what metals that flow reach; the spring stiffens there, so that elastic bodies under large strain
+//          p = kappa/2 g (1 + (g/g_s)^2). Then the roles swap: two half passes, no master. The forces are
+//          the derivative of sum w kappa/4 g^2 (1 + (g/g_s)^2/2). g_s, a twentieth of the edge, is more
+//          than yielding metals reach; the spring stiffens there, so that elastic bodies at large strain
 //          and corners do not sink into each other.
-// Sign     t = direction of growing u (counter-clockwise), n = (t_y, -t_x) outward.
+// Sign     t = direction of increasing u (counter-clockwise), n = (t_y, -t_x) outward.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ template <class T>
 }
 
 // Newton step of the parameter towards the closest point; where the distance is not convex (the far
-// side of the outline) the sign of the slope still leads downhill.
+// side of the outline) the sign of the slope still gives the descent direction.
 template <class T>
 T closest_point_step(T rx, T ry, T sx, T sy, T cx, T cy) {
   const T slope = fma(rx, sx, ry * sy);  // (x_s - x_m) . x_m'

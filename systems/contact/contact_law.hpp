@@ -1,5 +1,5 @@
-// Contact law: what the points of two candidates bear that touch, and what their columns keep of it. Alike for pairs of
-// particles and for tools.
+// Contact law: forces on the touching points of two candidates, and what their columns store. Shared by pairs of
+// particles and tools.
 //
 // Laws     systems/laws/normal_contact.hpp (pressure, damping), systems/laws/friction.hpp
 // Sign     force on the sampled edge: pressure along n, friction traction along t = (-n_y, n_x)
@@ -15,15 +15,15 @@ namespace pulvis {
 
 // ---- the law of a point -----------------------------------------------------------------------------
 struct PointLaw {
-  Lane weight;      // m^2, undeformed area that the point stands for
-  Lane kappa;       // Pa/m, of this pass
-  Lane damping;     // Pa s/m, of this pass
+  Lane weight;      // m^2, undeformed tributary area of the point
+  Lane kappa;       // Pa/m, in this pass
+  Lane damping;     // Pa s/m, in this pass
   Lane inv_length;  // 1/m, of the edge
 };
 
 struct Frictionless {};
 
-// `friction(slip, pressure)`: what the law of friction answers to the slip [m] of the step, or Frictionless.
+// `friction(slip, pressure)`: response of the friction law to the slip [m] of the step, or Frictionless.
 template <class Friction>
 [[gnu::always_inline]] inline PointForces forces_of(const PointLaw& law, const PointMotion& m,
                                                     double dt, const Friction& friction) {
@@ -48,12 +48,12 @@ template <class Friction>
 }
 
 // ---- from and to the columns --------------------------------------------------------------------------
-// Those of a candidate's points that no bond answers for (bits): what the others keep is bond_forces'.
+// A candidate's points that are not handled by a bond (bits): bond_forces stores the state of the others.
 template <class At>
 unsigned free_points(const RowColumns<At>& c, Row<At> row) {
   return all_of_a_half & ~(c.bonding ? unsigned{c.bonding->bonded(row)} : 0U);
 }
-// What the given points of a half (bits) keep; the others keep what they have.
+// Stores the given points of a half (bits); the others keep their values.
 inline void store_points(unsigned points, const Lane& now, int half, double* four) {
   if (points == all_of_a_half)
     store_half(now, half, four);
@@ -62,7 +62,7 @@ inline void store_points(unsigned points, const Lane& now, int half, double* fou
       if ((points >> g & 1) != 0) four[g] = now[half * edge_points + g];
 }
 
-// A candidate whose points are all apart: nothing acts, and nothing can before `activation` has been travelled.
+// A candidate whose points are all apart: no force acts, and none can before the surfaces have moved by `activation`.
 template <class At>
 void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
   c.touches(row) = 0;
@@ -77,7 +77,7 @@ void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
   }
 }
 
-// Bonded points are apart for the narrow phase: bond_forces answers for them.
+// The narrow phase treats bonded points as apart: bond_forces handles them.
 template <class At>
 LaneMask bonded_lanes(const RowColumns<At>& c, const TwoCandidates<At>& two) {
   const unsigned low = c.bonding->bonded(two[0]), high = c.bonding->bonded(two[1]);
@@ -91,13 +91,13 @@ template <class At>
 }
 
 struct Slip {
-  Lane distance, rate, gap;  // m of the step, m/s, m
+  Lane distance, rate, gap;  // m per step, m/s, m
 };
 struct TangentSpring {
-  Lane kappa, inv_kappa;  // Pa/m, of the pass, and its inverse
+  Lane kappa, inv_kappa;  // Pa/m, in this pass, and its inverse
 };
 
-// What the sliding speed adds to the coefficients.
+// The velocity term of the friction coefficients.
 template <class At>
 Lane speed_effect(const RowColumns<At>& c, const TwoCandidates<At>& two, const Lane& slip_rate) {
   using More = FrictionMore<At>;
@@ -107,9 +107,9 @@ Lane speed_effect(const RowColumns<At>& c, const TwoCandidates<At>& two, const L
                               at_candidates(more, two, More::inv_speed));
 }
 
-// Answers of the friction law of two candidates; keeps what sliding has done to those that touch (bits 0 and 1).
-// Of the narrow phase, for which bonded points have no spring to let go; bond_forces asks for none that touch.
-// `share` of kappa: one half where the other particle samples back.
+// Friction response of two candidates; stores the sliding state of those that touch (bits 0 and 1).
+// Used by the narrow phase, where bonded points have no spring to release; bond_forces passes none that touch.
+// `share` of kappa: one half if the other particle is sampled too.
 template <class At>
 kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates<At>& two,
                                     unsigned touching, double share, const Slip& slip,
@@ -132,7 +132,7 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
                                speed_effect(c, two, slip.rate)};
   const auto friction = kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
                                                  spring.inv_kappa);
-  // A point that is apart has its static friction again.
+  // A point that is apart regains its static friction.
   const Lane lost = select(slip.gap > 0.0, law.lost, Lane{});
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0)
@@ -141,13 +141,13 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
   return friction;
 }
 
-// Gaps below which candidates of two bear a force.
+// Gaps below which the two candidates carry a force.
 template <class At>
 Lane range_of(const RowColumns<At>& c, const TwoCandidates<At>& two) {
   return c.adhesion ? at_candidates(*c.adhesion, two, AdhesionLaw<At>::range) : Lane{};
 }
 
-// `weight` m^2, of the pass.
+// `weight` m^2, in this pass.
 template <class At>
 void attract(const RowColumns<At>& c, const TwoCandidates<At>& two, const PointMotion& m,
              const Lane& weight, PointForces& f) {
@@ -192,8 +192,8 @@ template <class At>
     store_points(free, (1 / share) * f.pressure, half, &(*c.bonding->weld)(row));
 }
 
-// Law, columns and books of the candidates of two that touch (bit 0, bit 1). Returns their friction traction times weight
-// [N] (the couple of the other body needs it).
+// Law, columns and sums for those of two candidates that touch (bit 0, bit 1). Returns their friction traction times
+// weight [N] (needed for the couple on the other body).
 template <class At>
 [[gnu::flatten]] Lane act(const RowColumns<At>& c, const TwoCandidates<At>& two, unsigned touching,
                           const PointMotion& m, double share, double dt, LaneSums& sums) {
@@ -205,7 +205,7 @@ template <class At>
   return f.along;
 }
 
-// Asks for a candidate's numbers before they are needed: in a large powder they come from memory, a line a column.
+// Prefetches a candidate's data: in a large powder they come from main memory, one line per column.
 template <class At>
 void fetch(const RowColumns<At>& c, Row<At> row) {
   const auto line = [row](const auto& column) { prefetch(&column(row)); };

@@ -1,4 +1,4 @@
-// The contact curves of all particles, edge by edge, for those who look at contacts on sampled steps.
+// The contact curves of all particles, edge by edge, for observers of contacts on sampled steps.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,7 @@ class Outlines {
   Curve edge(int slot, int edge) const {
     return from(slot, entry(bodies_.shape_of_slot(slot).edges, edge).first_control);
   }
-  // The edge with that first control point of the outline.
+  // The edge that starts at that control point of the outline.
   Curve from(int slot, int control) const {
     const int first = entry(bodies_.slots, slot).first_control + control;
     return Curve(control_.data() + 2 * static_cast<std::size_t>(first));

@@ -1,4 +1,4 @@
-// Books of a narrow phase: what the candidates of a block store, spend and count.
+// Sums of a narrow phase: energy stored, energy dissipated and counts for the candidates of a block.
 #pragma once
 
 #include <bit>
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// Books the depth of a candidate: the first NaN, or the deepest.
+// Records the depth of a candidate: the first NaN, or the deepest.
 template <class At>
 void book_depth(Row<At> row, double depth, BlockSums& sums) {
   if (depth <= sums.depth || std::isnan(sums.depth)) return;
@@ -17,7 +17,7 @@ void book_depth(Row<At> row, double depth, BlockSums& sums) {
   sums.deepest = row.value;
 }
 
-// Books the projection of two candidates: `unconverged`, the lanes whose closest point was not found.
+// Records the projection of two candidates: `unconverged`, the lanes with no closest point found.
 template <class At>
 [[gnu::noinline, gnu::cold]] void book_unconverged(const TwoCandidates<At>& two,
                                                    unsigned unconverged, BlockSums& sums) {
@@ -34,13 +34,13 @@ template <class At>
   if (unconverged != 0) book_unconverged(two, unconverged, sums);
 }
 
-// The sums of a block while it is looked at: lane by lane, and added up at its end.
+// The running sums of a block: lane by lane, added up at its end.
 struct LaneSums {
   using Block = BlockSums;
   Lane energy{}, friction_work{}, damping_work{};
-  BlockSums block;  // the other numbers
+  BlockSums block;  // the other sums
 
-  // Of the candidates of two that touch (bit 0, bit 1).
+  // For those of the two candidates that touch (bit 0, bit 1).
   [[gnu::always_inline]] void add(const PointForces& f, unsigned touching) {
     const LaneMask touch = LaneMask::of(entry(lanes_of_halves, touching));
     energy += select(touch, f.energy, Lane{});

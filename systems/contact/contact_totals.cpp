@@ -1,6 +1,6 @@
-// contact_totals: sums of the contact rows.
+// contact_totals: sums over the contact rows.
 //
-// Runs     every step, since dissipation adds up over steps
+// Runs     every step, since dissipation accumulates over steps
 #include <array>
 #include <cmath>
 
@@ -34,7 +34,7 @@ struct Sums {
 }  // namespace
 
 // Damping by the trapezoidal rule, like the work of the tools: the forces at both ends of the step times its displacement,
-// so that none is booked before the first touch. The force before times the rate now is, of a linear damper, the
+// so that none is counted before first contact. The previous force times the current rate is, for a linear damper, the
 // geometric mean of both powers.
 void contact_totals::operator()() const {
   Sums of;

@@ -1,8 +1,8 @@
-// Corners of the other outline: which of the two edges that meet there answers for a point that is behind one of them.
+// Corners of the other outline: which of the two edges that meet there handles a point that is behind one of them.
 //
-// Law      the edge that it is less deep behind, so that no energy jumps where a point goes from behind one to behind the
-//          other, or out beside a corner. Faces between grains that hold together count, too: at a joint the potential of
-//          what slides along the particle dips to zero and comes back, as narrow as the point is deep
+// Law      the edge with the smaller depth, so that the energy does not jump where a point moves from behind one edge to
+//          behind the other, or out past a corner. Faces between bonded grains count, too: at a joint the potential of a
+//          point that slides along the particle dips to zero and recovers, over a width equal to the depth of the point
 #pragma once
 
 #include "systems/contact/projection.hpp"
@@ -20,13 +20,13 @@ class Corners {
 
   bool any() const { return any_; }
 
-  // Points that another edge may answer for: behind theirs, and near its end.
+  // Points that another edge may have to handle: behind their own edge, and near its end.
   static unsigned in_question(const Projection& p, const PointMotion& m) {
     const Lane from_end = min(p.at.u, 1.0 - p.at.u);
     return ((m.gap > 0.0) & (from_end < reach_of_corner * m.gap * m.inv_slope)).bits();
   }
 
-  // True when some of these points belongs to another edge now.
+  // True if some of these points now belong to another edge.
   [[gnu::noinline]] bool settle(unsigned points, Projection& p, const PointMotion& m) const {
     bool moved = false;
     for (int l = 0; l < lane_count; ++l) {
@@ -41,7 +41,7 @@ class Corners {
   }
 
  private:
-  // A point is less deep behind the other edge of a corner of angle theta only where it is nearer to the corner than
+  // A point is less deep behind the other edge of a corner of angle theta only if it is closer to the corner than
   // depth tan(theta/2): up to 170 degrees.
   static constexpr double reach_of_corner = 12;
 
@@ -69,9 +69,9 @@ class Corners {
     return true;
   }
 
-  // Newton's method from the corner, along the face. None where the point is beside the face.
+  // Newton's method along the face, starting at the corner. None if the point is beside the face.
   static Foot foot_on(const Projection& p, const Shape& shape, int l, int edge, bool forward) {
-    constexpr int steps = 6;  // an edge
+    constexpr int steps = 6;  // per edge
     const int count = static_cast<int>(shape.edges.size());
     for (bool ends = false; !ends; edge = (edge + (forward ? 1 : count - 1)) % count) {
       const Shape::Edge& at = entry(shape.edges, edge);

@@ -1,4 +1,4 @@
-// Points on contact curves, lane by lane (CurvePoint, components/contact.hpp, is one of them).
+// Points on contact curves, lane by lane (a CurvePoint, components/contact.hpp, is one of them).
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 namespace pulvis {
 
 struct CurvePoints {
-  // By their first control point, counted in their outline. As wide as what they are added to: addresses.
+  // By first control point, counted within the outline. As wide as what they are added to: addresses.
   std::array<std::int64_t, lane_count> edge;
   Lane u;
 
-  // The closest points that two candidates keep.
+  // The closest points stored for two candidates.
   template <class Access, class At>
   static CurvePoints of(const Access& closest, const TwoCandidates<At>& two) {
     const Lane number = load_halves(&closest(two[0]).number, &closest(two[1]).number);
@@ -36,6 +36,6 @@ struct CurvePoints {
 };
 
 static_assert(sizeof(PackedCurvePoint) ==
-              sizeof(double));  // four of a candidate lie like four doubles
+              sizeof(double));  // four of a candidate have the layout of four doubles
 
 }  // namespace pulvis

@@ -17,7 +17,7 @@ namespace {
 
 using Two = TwoCandidates<Contact>;
 
-// The force on the other bodies' slope that makes friction free of torque: -T g/|x'| n.
+// The force on the slope of the other bodies that makes friction torque-free: -T g/|x'| n.
 void set_couple(const PointMotion& m, const Lane& along, unsigned touching, const Two& two,
                 const Write<FrictionCouple>& couple) {
   const Lane size = along * m.gap * m.inv_slope;
@@ -28,9 +28,9 @@ void set_couple(const PointMotion& m, const Lane& along, unsigned touching, cons
   }
 }
 
-// One pass over the active pairs. What is inline in the loop over all keeps what it passes in registers.
+// One pass over the active pairs. Functions inlined into the loop over all keep their arguments in registers.
 struct EdgePass {
-  static constexpr double share = 0.5;  // of the stiffness: the other particle samples back
+  static constexpr double share = 0.5;  // of the stiffness: the other particle is sampled too
   using Sums = LaneSums;
   const edge_contact& s;
   const double* points = s.curves.position.values().data();
@@ -47,7 +47,7 @@ struct EdgePass {
     prefetch(&s.points.closest(row));
     if (s.points.couple) prefetch(&(*s.points.couple)(row));
   }
-  // Both outlines, the other where it was met last.
+  // Both outlines, the other one at its last closest point.
   [[gnu::always_inline]] void fetch_other(Row<Contact> row) const {
     const int other = 2 * (s.points.place(row, 1) + s.points.closest(row).unpacked().edge);
     const int own = 2 * s.points.place(row, 0);
@@ -105,7 +105,7 @@ struct EdgePass {
     return motion_of(p, velocity);
   }
 
-  // ---- law and books
+  // ---- law and sums
   [[gnu::always_inline]] void resolve(const Two& two, Projection& p, LaneSums& sums) const {
     book_projection(two, p.unconverged(), sums.block);
     PointMotion motion = motion_at(two, p);
@@ -125,7 +125,7 @@ struct EdgePass {
     const Lane along = act(s.columns, two, touching, motion, share, s.clock->dt_before, sums);
     if (s.points.couple) set_couple(motion, along, touching, two, *s.points.couple);
   }
-  // The candidates of the two that touch (bit 0, bit 1); the others are set apart.
+  // Those of the two candidates that touch (bit 0, bit 1); the others are set to apart.
   [[gnu::always_inline]] unsigned find_touching(const Two& two, const Projection& p,
                                                 PointMotion& motion) const {
     unsigned touching = 0;

@@ -1,10 +1,10 @@
-// initial_bonds: bonds what touches at the start.
-// initial_bond_totals: how much that is over all ranks, with bonds to tools.
+// initial_bonds: bonds surfaces that touch at the start.
+// initial_bond_totals: totals of these over all ranks, including bonds with tools.
 //
-// Law      a point within `reach` of its closest point on a surface that faces it; what gap there is belongs to the bond
-//          and bears nothing
+// Law      a point within `reach` of its closest point on a surface that faces it; an initial gap belongs to the bond
+//          and carries no force
 // Runs     once, at the start, after the first search for contacts
-// Active   when the scene has bonds between particles; the totals when the run has several ranks
+// Active   when the scene has bonds between particles; the totals if the run has several ranks
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@
 namespace pulvis {
 namespace {
 
-// The same on every machine (Steele, Lea & Flood 2014: SplitMix64).
+// Identical on every machine (Steele, Lea & Flood 2014: SplitMix64).
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -24,7 +24,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// A point that its surface sees from beside, past a corner, is no neighbour.
+// A point beside the surface, past a corner, is not a neighbour.
 constexpr double beside = 1e-3;  // of the edge length
 constexpr double facing = -0.5;  // product of the normals
 
@@ -79,7 +79,7 @@ void initial_bonds::operator()() const {
 void initial_bond_totals::operator()() const {
   std::vector<std::int64_t> made(totals->made.begin(), totals->made.end());
   link->ranks->sum(made);
-  std::vector<double> share, width;  // negative, so that the largest are of the nearest
+  std::vector<double> share, width;  // negative, so that the largest are the nearest
   for (const BondTotals::Gap& gap : totals->nearest) share.push_back(-gap.share);
   link->ranks->maximum(share);
   for (std::size_t law = 0; law < share.size(); ++law) {

@@ -1,8 +1,8 @@
-// lost_bodies: a particle whose middle is behind a plane tool has gone through it, however wide the scene has set
-// its limit of penetration. Polylines are left out: they have ends, and particles may be beside them.
+// lost_bodies: a particle whose centre is behind a plane tool has passed through it, however generous the scene's
+// penetration limit is. Polylines are excluded: they have ends, and particles may be beside them.
 //
 // Runs     on sampled steps
-// Active   when the scene has tools that touch
+// Active   when the scene has tools that can touch
 #include <fmt/format.h>
 
 #include "engine/entry.hpp"

@@ -1,4 +1,4 @@
-// Making bonds: what initial_bonds and pressed_bonds set at a point. Alike for pairs of particles and for tools.
+// Bond creation: what initial_bonds and pressed_bonds set at a point. Shared by pairs of particles and tools.
 #pragma once
 
 #include <oneapi/tbb/blocked_range.h>
@@ -11,7 +11,7 @@
 namespace pulvis {
 
 struct BondOpening {
-  double normal = 0, along = 0;  // m, when the bond is made
+  double normal = 0, along = 0;  // m, at bond creation
 };
 
 template <class At>
@@ -25,17 +25,17 @@ void make_bond(const NewBonds<At>& rows, Row<At> row, int g, int law, double str
 }
 
 // ---- at the start ---------------------------------------------------------------------------------
-// Strength of the bonds between two neighbours over the law's (Weibull 1951): P(share < s) = 1 - exp(-s^m). By the
-// numbers of the two, so that both sides draw the same. A tool's number is -1 - its position.
+// Strength of the bonds between two neighbours relative to the law's (Weibull 1951): P(share < s) = 1 - exp(-s^m).
+// Seeded by the two numbers, so that both sides draw the same. A tool's number is -1 - its position.
 double drawn_strength(const BondRules::Law& law, int first, int second);
 
 // ---- by pressure ------------------------------------------------------------------------------------
-// Surfaces weld when their pressure has fallen to this share of its largest: while it grows they are in contact, and
+// Surfaces weld once their pressure has dropped to this share of its maximum: while it grows they are in contact, and
 // slide with friction.
 inline constexpr double weld_at = 0.5;
 
-// Follows the pressure of a row's points and welds those that it has left. `anchor(g)` sets where point g is held, and
-// returns how it stands there.
+// Tracks the pressure of a row's points and welds those whose pressure has dropped. `anchor(g)` sets where point g is
+// held, and returns its position relative to it.
 template <class At, class Anchor>
 void weld(const NewBonds<At>& rows, const Write<WeldPressure<At>>& pressure, const BondRules& rules,
           Row<At> row, const Anchor& anchor) {
@@ -57,7 +57,7 @@ void weld(const NewBonds<At>& rows, const Write<WeldPressure<At>>& pressure, con
   }
 }
 
-// Rows among which pressure may weld, of a task each.
+// Rows among which pressure may weld, grouped into tasks.
 template <class At, class RowWork>
 void for_rows(int rows, const RowWork& work) {
   tbb::parallel_for(tbb::blocked_range<int>(0, rows, RowBlocks<At>::most), [&](const auto& range) {

@@ -1,10 +1,10 @@
-// outline_health: stops a run in which the boundary of a particle has gone through itself: where no contact was
-// felt, or where none is: in the hole of a ring, on a round particle that a tool folds.
+// outline_health: stops a run in which the boundary of a particle has passed through itself: where contact was
+// not detected, or where there is none: in the hole of a ring, on a round particle that a tool folds.
 //
-// Law      Just outside a node of the boundary the boundary is gone round no time; once or more often where the
-//          node is in another part of its own particle. It may be by `limits.penetration` of an edge, as deep as
-//          contacts; in holes, which have no contact, not at all. An outline of which all is seen from its middle
-//          cannot have gone through itself, which is cheap to see and true of most
+// Law      Just outside a boundary node the winding number of the boundary is zero; one or more if the node is
+//          inside another part of its own particle. `limits.penetration` times an edge is allowed, as deep as
+//          contacts; in holes, which have no contact, none. An outline that is star-shaped about its middle
+//          cannot have passed through itself, which is cheap to check and true of most
 // Source   systems/contact/winding_kernel.hpp
 // Runs     on sampled steps
 // Active   when the scene has tools, or more than one particle
@@ -64,8 +64,8 @@ class Boundary {
   bool in_hole(std::size_t i) const { return i >= outline_; }
   const Chord& operator[](std::size_t i) const { return chords_[i]; }
 
-  // How deep the begin of a chord is in another part of the body, m; 0 where it is not. Of an end that is folded
-  // flat nobody knows where outside is: the nodes beside it tell.
+  // Depth of a chord's start inside another part of the body, m; 0 if outside. At an end that is folded flat,
+  // outside is undefined: the adjacent nodes decide.
   double depth(std::size_t i) const {
     const Chord &after = chords_[i], &before = chords_[after.before];
     const Point m = before.normal(), n = after.normal();
@@ -105,7 +105,7 @@ class Boundary {
     seen_ = seen_ && all_seen(middle, first);
   }
 
-  // From `middle` all chords of the loop turn in one direction, and once round.
+  // Seen from `middle`, all chords of the loop turn in one direction, and once around.
   bool all_seen(const Point& middle, std::size_t first) const {
     const double sense = first == 0 ? 1 : -1;
     int times = 0;

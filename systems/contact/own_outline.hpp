@@ -1,7 +1,7 @@
-// Own outline: an outline against itself. Two parts of it meet from outside, where it folds; seen from inside, each
-// point is at some depth below the back face of its own body, too.
+// Own outline: self-contact of an outline. Two parts of it meet from outside, where it folds; seen from inside, each
+// point is also at some depth below the back face of its own body.
 //
-// Law      half way to the closest point the outline is gone round once behind a thin part, and twice where it overlaps
+// Law      winding number half way to the closest point: one behind a thin part, two where the outline overlaps
 //          itself
 #pragma once
 
@@ -14,16 +14,16 @@
 
 namespace pulvis {
 
-// Of an edge: no contact begins deeper; its spring would be stiffer at once than the time step knows. (What got there
-// unseen, outline_health tells. A contact may get as deep as limits.penetration lets it.)
+// Share of an edge: no contact starts deeper; its spring would at once be stiffer than the time step assumes.
+// (outline_health reports undetected ones. An existing contact may get as deep as limits.penetration allows.)
 inline constexpr double deepest_begin = 0.1;
 
 class OwnOutline {
  public:
   OwnOutline(const Shape& shape, const double* control) : shape_(shape), control_(control) {}
 
-  // Half way from the closest point on the edge `there`, against whose normal it sees the point on `edge`. Both
-  // are known to be passed as curves are; chords stand for all the others.
+  // From `half_way` to the closest point on the edge `there`, along `back`, against its normal; the point is on
+  // `edge`. Both edges are crossed as curves, which is known in advance; chords represent all the others.
   bool overlaps(int edge, int there, const Point& half_way, const Point& back) const {
     int times = 1;  // through the point itself, out of its own part
     for (int e = 0; e < edges(); ++e)
@@ -48,10 +48,10 @@ class OwnOutline {
   const double* control_;
 };
 
-// What a point of an edge sees in its own outline.
+// What a point of an edge sees of its own outline.
 enum class OwnSight { neighbourhood, outside, fold, inside };
 
-// Of Gauss point g of `edge`, in that lane of the projection. `touched`: it did in the step before.
+// For Gauss point g of `edge`, in that lane of the projection. `touched`: it touched in the step before.
 inline OwnSight own_sight(const Projection& p, const PointMotion& m, int lane, int edge, int g,
                           const OwnOutline& own, bool touched) {
   const int there = edge_number(own.shape(), entry(p.at.edge, lane));
@@ -67,8 +67,8 @@ inline OwnSight own_sight(const Projection& p, const PointMotion& m, int lane, i
   return !unseen && own.overlaps(edge, there, half_way, back) ? OwnSight::fold : OwnSight::inside;
 }
 
-// Of a candidate against its own outline: takes out the points that do not touch a fold (bits of those that touched
-// in the step before: `touched`), and returns how near those outside are, m: endless where there are none.
+// For a self-contact candidate: excludes the points that do not touch a fold (`touched`: bits of those that touched
+// in the step before), and returns the distance of the nearest one outside, m: infinite if there is none.
 inline double exclude_own_body(const Projection& p, int half, int edge, const OwnOutline& own,
                                unsigned touched, PointMotion& m) {
   double nearest = back_face;

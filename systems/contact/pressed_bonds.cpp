@@ -1,8 +1,8 @@
-// pressed_bonds: cold welding: points whose pressure has passed a threshold hold together once it has fallen again.
+// pressed_bonds: cold welding: points whose pressure has exceeded a threshold bond once it has dropped again.
 //
 // Law      strength = growth (largest pressure - threshold), up to the law's (systems/contact/new_bonds.hpp)
 // Runs     after edge_contact, before bond_forces
-// Active   when the scene has bonds that pressure makes between particles
+// Active   when the scene has bonds between particles that form under pressure
 #include "systems/contact/new_bonds.hpp"
 
 namespace pulvis {
@@ -11,7 +11,7 @@ void pressed_bonds::operator()(SmallTasks) const {
   for_rows<Contact>(rows.pair.rows(), [&](Row<Contact> row) {
     weld(rows, pressure, *rules, row, [&](int g) {
       at.anchor(row, g) = at.closest(row, g);
-      return BondOpening{};  // from the surface on
+      return BondOpening{};  // measured from the surface
     });
   });
 }

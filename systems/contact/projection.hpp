@@ -1,8 +1,8 @@
-// Projection: where the Gauss points of two candidates stand and how they move against the curves of other outlines.
+// Projection: positions and velocities of the Gauss points of two candidates relative to the curves of other outlines.
 //
-// Method   Newton's for (x_s - x_m) . x_m' = 0, from where the point was closest before; a step goes over one edge at
-//          most, on to the next edge or to a corner
-// Lanes    every point stops by itself, so that none depends on the others
+// Method   Newton's for (x_s - x_m) . x_m' = 0, starting at the previous closest point; a step crosses at most one
+//          edge, on to the next edge or to a corner
+// Lanes    each point stops independently, so that none depends on the others
 #pragma once
 
 #include <algorithm>
@@ -13,21 +13,21 @@
 
 namespace pulvis {
 
-// The curves of the other outlines as the search walks them, of both candidates.
+// The curves of the other outlines that the search walks along, for both candidates.
 struct OtherCurves {
   std::array<int, 2> slot;
-  std::array<std::int32_t, 2> first;  // control point of the outline
+  std::array<std::int32_t, 2> first;  // first control point of the outline
   std::array<bool, 2>
-      round_corners;       // the search goes round them: not where an outline folds on itself
+      round_corners;       // search past corners: not where an outline folds onto itself
   const double* position;  // of all control points
-  const double* velocity;  // null where the scene needs none
+  const double* velocity;  // null if the scene needs none
 };
 
 struct CurveLanes {
   kernels::Cubic<Lane> x, y;
 };
 
-// Functions of two candidates that are inline in the loop over all: what they pass stays in registers then.
+// Functions of two candidates that are inlined into the loop over all: their arguments then stay in registers.
 [[gnu::always_inline, gnu::flatten]] inline CurveLanes gather(const OtherCurves& other,
                                                               const double* points,
                                                               const CurvePoints& at) {
@@ -44,10 +44,10 @@ inline int edge_number(const Shape& shape, std::int64_t first_control) {
   return entry(shape.edge_from, first_control);
 }
 
-// How a point stands to the edge around a corner.
+// Position of a point relative to the edge around a corner.
 struct AroundCorner {
-  int edge = Shape::no_edge;  // where the point is in front of it or behind it: not beside it
-  bool behind = false;        // its line
+  int edge = Shape::no_edge;  // if the point is in front of or behind it: not beside it
+  bool behind = false;        // behind its line
 };
 inline AroundCorner edge_around_corner(const Shape& shape, int edge, bool forward,
                                        const double* outline, const Point& p) {
@@ -61,8 +61,8 @@ inline AroundCorner edge_around_corner(const Shape& shape, int edge, bool forwar
           way[0] * slope[1] - way[1] * slope[0] < 0};
 }
 
-// Points that leave their edge go on in the next one, or around a corner, or stop at it. Returns the lanes that stand
-// where they stood, at a corner.
+// Points that leave their edge move on to the next one, or around a corner, or stop at it. Returns the lanes that were
+// already at that corner.
 inline unsigned cross_edges(const Bodies& bodies, const OtherCurves& other,
                             const PointLanes& points, const Lane& before, CurvePoints& at,
                             unsigned& behind_next) {
@@ -105,9 +105,9 @@ inline unsigned cross_edges(const Bodies& bodies, const OtherCurves& other,
 
 struct Projection {
   static constexpr int max_steps = 41;
-  // Of an edge. A Newton step that short leaves about its square, and the gap is exact to the square of that. (With
-  // 1e-5 the normals carry so much round-off on that micrometres and metres part by more than 1e-9;
-  // docs/performance.md.)
+  // In edge lengths. After a Newton step that short the error is about its square, and the gap is accurate to the square
+  // of that. (With 1e-5 the normals carry so much round-off that runs in micrometres and in metres differ by more than
+  // 1e-9; docs/performance.md.)
   static constexpr double step_tolerance = 2e-6;
 
   OtherCurves other;
@@ -115,9 +115,9 @@ struct Projection {
   CurvePoints at;
   CurveLanes curve;
   Lane rx, ry;          // from the curve to the point, m
-  unsigned beyond = 0;  // lanes closest to a corner, from outside its edge
-  unsigned inside = 0;  // of those, the ones in a body behind a corner that points inwards
-  unsigned done = 0;    // lanes that stand
+  unsigned beyond = 0;  // lanes closest to a corner, from outside their edge
+  unsigned inside = 0;  // among those, the ones inside a body behind a re-entrant corner
+  unsigned done = 0;    // lanes that have converged
 
   unsigned unconverged() const { return ~done & all_lanes; }
 
@@ -136,7 +136,7 @@ struct Projection {
     done |= (abs(du) < step_tolerance).bits();
     if (any((at.u < 0.0) | (at.u > 1.0))) cross(bodies, before);
   }
-  // Seldom: outside the loop of Newton steps.
+  // Rare: kept out of the Newton loop.
   [[gnu::noinline]] void cross(const Bodies& bodies, const Lane& before) {
     unsigned behind_next = 0;
     beyond |= cross_edges(bodies, other, points, before, at, behind_next);
@@ -149,7 +149,7 @@ struct Projection {
   }
 };
 
-// All of them to the end, side by side.
+// Runs all of them to convergence, side by side.
 template <class... Projections>
 [[gnu::always_inline]] inline void project(const Bodies& bodies, Projections&... all) {
   for (int step = 0; (all.done & ...) != all_lanes && step < Projection::max_steps; ++step)
@@ -157,7 +157,7 @@ template <class... Projections>
   (all.offset(), ...);
 }
 
-// Behind a corner that points inwards the way out leads to the corner itself.
+// Behind a re-entrant corner the way out leads to the corner itself.
 [[gnu::noinline]] inline void look_to_corners(const Projection& p, const LaneMask& lanes,
                                               PointMotion& m) {
   const Lane distance = sqrt(fma(p.rx, p.rx, p.ry * p.ry));
@@ -166,8 +166,8 @@ template <class... Projections>
   m.ny = select(apart, -(p.ry / distance), m.ny);
 }
 
-// How the points move against the curves; both rates vanish in a common rigid motion. Past a corner a point is outside
-// the other body.
+// Motion of the points relative to the curves; both rates vanish in a common rigid motion. Past a corner a point is
+// outside the other body.
 [[gnu::always_inline, gnu::flatten]] inline PointMotion motion_of(const Projection& p,
                                                                   const PointLanes& velocity) {
   const Lane sx = p.curve.x.slope(p.at.u), sy = p.curve.y.slope(p.at.u);
@@ -191,8 +191,8 @@ template <class... Projections>
   return m;
 }
 
-// Past a corner what attracts is the corner itself: the distance to an outline has no jump there, and so no work is lost
-// where a point passes from an edge to beside it.
+// Past a corner the corner itself attracts: the distance to an outline is continuous there, so no energy is lost when
+// a point passes from an edge to beside it.
 [[gnu::noinline]] inline void attract_to_corners(const Projection& p, PointMotion& m) {
   const Lane distance = sqrt(fma(p.rx, p.rx, p.ry * p.ry));
   const LaneMask corner = LaneMask::of(p.beyond & ~p.inside) & (distance > 0.0);

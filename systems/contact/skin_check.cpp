@@ -1,13 +1,13 @@
-// skin_check: whether the contact rows must be made anew: it compares how far surfaces that are near each
-// other have come nearer since the rows were made with the skin for which they were made.
+// skin_check: whether the contact rows must be rebuilt: compares how much closer nearby surfaces have come
+// since the rows were built with the skin for which they were built.
 //
-// Clock::travel bounds that for any two surfaces. Only when it could be used up, all are looked at: then
-// what they moved together (a compact pushed out of its die, the upper part of a long one that is pressed)
-// and what they moved to and fro is left out. What is left of the skin says when to look again.
+// Clock::travel is an upper bound for any two surfaces. Only when it could be used up, all are checked: then
+// common motion (a compact ejected from its die, the upper part of a long one being pressed) and back-and-forth
+// motion are excluded. The remaining skin determines the next check.
 //
 // Source   systems/contact/skin_kernel.hpp
 // Runs     first of the contact systems; does nothing while Clock::travel is below `look_at`
-// Active   when anything can touch
+// Active   when contact is possible
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
@@ -27,17 +27,17 @@
 namespace pulvis {
 namespace {
 
-constexpr double min_left = 0.2;  // of the skin: with less, looking costs more than new rows
+constexpr double min_left = 0.2;  // of the skin: with less left, checking costs more than new rows
 
-// What the next step may use up, where steps are long beside the skin: surfaces are to be found before they
-// meet. (A fold of an outline that is first seen when its sides are through each other looks like the back face
+// What the next step may use up, if steps are long relative to the skin: surfaces must be found before they
+// meet. (A fold of an outline first seen when its sides have passed through each other looks like the back face
 // of a thin part.)
 double look_ahead(const ContactIndex& index, double travel) {
   const double step = travel - index.travel_seen;
   return step > min_left * index.skin ? step : 0;
 }
 
-struct OutlineMotion {  // of the outline in a slot since the rows were made
+struct OutlineMotion {  // of the outline in a slot since the rows were built
   Box before, displacement;
 };
 
@@ -54,7 +54,7 @@ OutlineMotion motion_of(const double* before, const double* now, int points) {
   return m;
 }
 
-// Of a minimum: the same bits in whatever order the threads take the slots.
+// A minimum: bitwise identical in whatever order the threads take the slots.
 template <class Left>
 double min_of_slots(const std::vector<int>& slots, const Left& left) {
   using Range = tbb::blocked_range<std::size_t>;
@@ -68,7 +68,7 @@ double min_of_slots(const std::vector<int>& slots, const Left& left) {
       [](double a, double b) { return std::min(a, b); });
 }
 
-// How far the nearest images have moved against their particles.
+// How far the nearest images have moved relative to their particles.
 double displacement_of_images(const ContactIndex& index, const PeriodicCell* cell) {
   double sum = 0;
   for (std::size_t i = 0; cell != nullptr && i < 4; ++i)
@@ -76,7 +76,7 @@ double displacement_of_images(const ContactIndex& index, const PeriodicCell* cel
   return sum;
 }
 
-// As the neighbour's image moved, from where that stood.
+// Motion of the neighbour's image, from its position at that time.
 OutlineMotion of_image(const OutlineMotion& m, const ContactIndex& index, const PeriodicCell& cell,
                        int k) {
   const Tensor2 before{index.cell_before};
@@ -86,7 +86,7 @@ OutlineMotion of_image(const OutlineMotion& m, const ContactIndex& index, const 
           kernels::moved(m.displacement, {is[0] - was[0], is[1] - was[1]})};
 }
 
-// Particles that were no neighbours: whichever of all moved most against each other.
+// Particles that were not neighbours: the largest relative motion of any two.
 double remaining_of_non_neighbours(const ContactIndex& index, const PeriodicCell* cell,
                                    const std::vector<int>& slots,
                                    const std::vector<OutlineMotion>& motion, const Optional<BorderOutlines<CurvePosition>>& border) {
@@ -113,7 +113,7 @@ double left_of_neighbours(const Bodies& bodies, const ContactIndex& index,
   for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
        ++k) {
     const int other = entry(index.neighbours, k);
-    if (other < slot && bodies.owns(other)) continue;  // seen from there
+    if (other < slot && bodies.owns(other)) continue;  // handled from the other slot
     const OutlineMotion& stored = entry(motion, other);
     const OutlineMotion its = cell == nullptr ? stored : of_image(stored, index, *cell, k);
     const double allowed = std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
@@ -122,7 +122,7 @@ double left_of_neighbours(const Bodies& bodies, const ContactIndex& index,
   return minimum;
 }
 
-// Towards a plane only what goes against its normal counts, so that a compact may slide along it.
+// Relative to a plane only motion against its normal counts, so that a compact may slide along it.
 double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const OutlineMotion& m) {
   double minimum = 1e300;
   for (int t = 0; t < tools.position.rows(); ++t) {

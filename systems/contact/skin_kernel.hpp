@@ -1,11 +1,11 @@
-// How much of the skin two bodies have used up since the contact rows were made.
+// How much of the skin two bodies have used up since the contact rows were built.
 //
-// Source   Verlet 1967 (neighbour lists), here by net displacement and relative to each other, so that
-//          neither common motion nor vibration counts.
+// Source   Verlet 1967 (neighbour lists), here by relative net displacement, so that neither common
+//          motion nor vibration counts.
 // Symbols  u   displacement of a surface point since then, m
-//          D   smallest axis-aligned box that holds u of all control points of a body
-// Law      Curves lie in the hull of their control points, so two points of bodies a and b that were apart by
-//          more than g along an axis have not met while closing(D_a, D_b) < g.
+//          D   smallest axis-aligned box that contains u of all control points of a body
+// Law      Curves lie in the hull of their control points, so two points of bodies a and b that were more
+//          than g apart along an axis cannot have met while closing(D_a, D_b) < g.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline double gap(const Box& a, const Box& b) {
   return largest;
 }
 
-// How far points with displacements in these boxes can have come nearer along an axis, at most.
+// Upper bound on how much closer points with displacements in these boxes can have come along an axis.
 inline double closing(const Box& a, const Box& b) {
   double maximum = 0;
   for (int k = 0; k < 2; ++k)
@@ -32,7 +32,7 @@ inline double closing(const Box& a, const Box& b) {
   return maximum;
 }
 
-// Least x . n of a box, and the most by which displacements from a box can go against n.
+// Minimum of x . n over a box, and the largest displacement in a box against n.
 inline double min_along(const Box& box, const std::array<double, 2>& n) {
   double minimum = 0;
   for (int k = 0; k < 2; ++k) {

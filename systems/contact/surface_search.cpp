@@ -9,7 +9,7 @@ namespace {
 
 using Piece = ToolSurface::Piece;
 
-// 0 times infinity is no number, but the end of a level piece has a height.
+// 0 times infinity is NaN, but the end of a level piece has a finite height.
 double along(double from, double t, double s) { return t == 0 ? from : from + t * s; }
 
 Box straight_box(const Piece& p) {
@@ -47,7 +47,7 @@ bool piece_near(const Piece& p, const Box& box, double reach) {
   return p.side != 0 && near(corner_box(p), box, reach);
 }
 
-// Pieces [first, last] hang below tree[node].
+// Pieces [first, last] are below tree[node].
 struct Branch {
   std::size_t node;
   int first, last;

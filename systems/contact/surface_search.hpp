@@ -8,15 +8,15 @@
 namespace pulvis {
 
 struct PieceRange {
-  std::int32_t first = 0, last = -1;  // nothing is near: last < first
+  std::int32_t first = 0, last = -1;  // empty range: last < first
   bool empty() const { return last < first; }
 };
 
-// Fills `tree`; once, when the chain is made.
+// Fills `tree`; called once, when the chain is built.
 void index_pieces(ToolSurface& surface);
 
 // From the first to the last piece with a point within `reach` of `box` (in the tool's frame). Exact for
-// the straight parts' lines; pieces between the two need not be near.
+// the lines of the straight parts; pieces in between need not be near.
 PieceRange pieces_near(const ToolSurface& surface, const Box& box, double reach);
 
 }  // namespace pulvis

@@ -1,5 +1,5 @@
-// Systems of surfaces that meet. What a system reads and writes is what it declares here, once; systems/step.cpp puts
-// them in order, and each is described at the top of its own file.
+// Contact systems. What a system reads and writes is declared here and nowhere else; systems/step.cpp sets the order
+// of the systems, and each is described at the top of its own file.
 #pragma once
 
 #include "components/bond.hpp"
@@ -11,7 +11,7 @@
 
 namespace pulvis {
 
-// ---- which rows there are -----------------------------------------------------------------------
+// ---- contact rows -------------------------------------------------------------------------------
 struct skin_check {
   Read<Bodies> bodies;
   Read<Clock> clock;
@@ -24,14 +24,14 @@ struct skin_check {
   void operator()() const;
 };
 
-// What the laws of a row follow from.
+// The inputs of a row's contact laws.
 struct ContactStiffness {
   Read<ContactRules> rules;
   Optional<Read<BondRules>> bonds;
   Read<BulkModulus> bulk;
   Read<Density> density;
 };
-// What is set when a row is made.
+// What is set when a row is created.
 template <class At>
 struct NewRows {
   Write<RowBlocks<At>> blocks;
@@ -74,8 +74,8 @@ struct bin_tool_edges {
   void operator()() const;
 };
 
-// ---- what they do ---------------------------------------------------------------------------------
-// What the narrow phases read and write of a row.
+// ---- contact forces -------------------------------------------------------------------------------
+// What the narrow phases read and write per row.
 template <class At>
 struct RowColumns {
   Read<ContactPair<At>> pair;
@@ -83,21 +83,21 @@ struct RowColumns {
   Write<ActivationTravel<At>> activation;
   Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
-  struct Sliding {  // in scenes with friction
+  struct Sliding {  // scenes with friction only
     Write<ElasticSlip<At>> elastic_slip;
     Optional<Read<FrictionMore<At>>> more;
     Optional<Write<SlipWeakening<At>>> lost;
   };
   Optional<Sliding> sliding;
-  struct Bonding {                  // in scenes with bonds
-    Read<BondedPoints<At>> bonded;  // bond_forces answers for those
+  struct Bonding {                  // scenes with bonds only
+    Read<BondedPoints<At>> bonded;  // handled by bond_forces
     Optional<Write<WeldPressure<At>>> weld;
   };
   Optional<Bonding> bonding;
   Optional<Read<AdhesionLaw<At>>> adhesion;
 };
 
-// Which rows make a block, and what each adds up to.
+// Which rows form a block, and the sums of each.
 template <class At, class Sums>
 struct BlockBooks {
   Read<RowBlocks<At>> blocks;
@@ -161,7 +161,7 @@ struct BondColumns {
   Read<BondStrength<At>> strength;
   Write<BondDamage<At>> damage;
 };
-// What is set when bonds are made.
+// What is set when bonds are created.
 template <class At>
 struct NewBonds {
   Read<ContactPair<At>> pair;
@@ -188,7 +188,7 @@ struct initial_bonds {  // once, at the start
   void operator()() const;
 };
 
-struct initial_bond_totals {  // likewise
+struct initial_bond_totals {  // as above
   Write<BondTotals> totals;
   Write<RankLink> link;
   void operator()() const;
@@ -229,7 +229,7 @@ struct bond_totals {
   void operator()() const;
 };
 
-// ---- whether the run is still sound -----------------------------------------------------------------
+// ---- health checks ----------------------------------------------------------------------------------
 template <class At>
 struct RowsInSum {
   Read<ContactPair<At>> pair;

@@ -1,10 +1,10 @@
-// Two candidates worked on at once, four Gauss points each: what the stages of a narrow phase hand on.
+// Two candidates processed at once, four Gauss points each: the data that the stages of a narrow phase pass on.
 //
 //   active_pairs.hpp   which candidates may touch in this step
-//   projection.hpp     where their points stand against the other surface (tools: tools/tool_projection.hpp)
+//   projection.hpp     where their points are relative to the other surface (tools: tools/tool_projection.hpp)
 //   own_outline.hpp    which of them see their own body
-//   contact_law.hpp    what they bear: pressure, damping, friction
-//   contact_sums.hpp   the books of a block
+//   contact_law.hpp    their forces: pressure, damping, friction
+//   contact_sums.hpp   the sums of a block
 //   assembly.hpp       from the points to the nodes (contact_force)
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace pulvis {
 
-// The lanes of the one, then those of the other. The same candidate twice where one is left over.
+// The lanes of one, then those of the other. The same candidate twice if one is left over.
 template <class At>
 using TwoCandidates = std::array<Row<At>, 2>;
 template <class At>
@@ -27,16 +27,16 @@ int count_of(const TwoCandidates<At>& two) {
 
 inline constexpr unsigned all_lanes = (1U << lane_count) - 1;
 inline constexpr unsigned all_of_a_half = (1U << edge_points) - 1;
-// Bits of the points of one candidate, of the lanes of both.
+// Bits of the points of one candidate, from the lanes of both.
 constexpr unsigned half_of(unsigned bits, int half) { return bits >> (half * edge_points) & 15; }
 inline constexpr std::array<unsigned, 4> lanes_of_halves{0x00, 0x0f, 0xf0, 0xff};
 
-// The numbers of a candidate at its four points, of both.
+// The values of a candidate at its four points, for both.
 template <class Access, class At>
 Lane at_points(const Access& column, const TwoCandidates<At>& two, int first = 0) {
   return load_halves(&column(two[0], first), &column(two[1], first));
 }
-// A number of a candidate, of both.
+// One value per candidate, for both.
 template <class Access, class At>
 Lane at_candidates(const Access& column, const TwoCandidates<At>& two, int number) {
   return halves(column(two[0], number), column(two[1], number));
@@ -55,7 +55,7 @@ inline constexpr auto basis_at_points = [] {
   return n;
 }();
 
-// The Gauss points of two edges from their four control points each, which lie one after the other.
+// The Gauss points of two edges from their four control points each, which are contiguous.
 inline PointLanes edge_points_at(const double* low, const double* high) {
   PointLanes p{};
   for (std::size_t a = 0; a < 4; ++a) {
@@ -66,8 +66,8 @@ inline PointLanes edge_points_at(const double* low, const double* high) {
   return p;
 }
 
-// Points that stand against images of other particles, as they stand against those particles. `vectors` of the cell: m,
-// or m/s for velocities.
+// Points in contact with periodic images, shifted to where they are relative to the particles themselves. `vectors` of
+// the cell: m, or m/s for velocities.
 template <class Images, class At>
 inline void move_to_images(const Tensor2& vectors, const Images& image,
                            const TwoCandidates<At>& two, PointLanes& p) {
@@ -77,24 +77,24 @@ inline void move_to_images(const Tensor2& vectors, const Images& image,
   p.y -= halves(a[1], b[1]);
 }
 
-// What a projection finds: how the points stand and move against the other surface.
+// Result of a projection: position and motion of the points relative to the other surface.
 struct PointMotion {
   Lane gap;        // m, > 0 in penetration
   Lane nx, ny;     // outward normal of the other surface
   Lane gap_rate;   // m/s
   Lane slip_rate;  // m/s, along t = (-ny, nx)
-  Lane inv_slope;  // 1/m, 1/|x'| of the other curve; where it has one
+  Lane inv_slope;  // 1/m, 1/|x'| of the other curve, if it has one
 };
 
-// What the law answers.
+// Response of the contact law.
 struct PointForces {
   Lane x, y;           // N, on the sampled edge
-  Lane along;          // N, of it friction, along t
-  Lane elastic_slip;   // m, new
-  Lane pressure;       // Pa, of the pass
+  Lane along;          // N, its friction part, along t
+  Lane elastic_slip;   // m, new value
+  Lane pressure;       // Pa, in this pass
   Lane energy;         // J, stored
-  Lane friction_work;  // J, spent in this step
-  Lane damping_work;   // J, spent in this step
+  Lane friction_work;  // J, dissipated in this step
+  Lane damping_work;   // J, dissipated in this step
 };
 
 }  // namespace pulvis

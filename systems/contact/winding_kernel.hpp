@@ -1,6 +1,6 @@
-// How often an outline goes round a point, from how a ray from the point crosses its chords.
+// Winding number of an outline around a point, from how a ray from the point crosses its chords.
 //
-// Law      the winding number of a closed chain round q is the sum over a ray from q of +1 where it leaves, -1
+// Law      the winding number of a closed chain around q is the sum over a ray from q of +1 where it leaves, -1
 //          where it enters (material to the left of the chain): 1 in a body, 0 outside, 2 where the body overlaps itself
 // Symbols  q   start of the ray, m;   d   its direction;   a, b   ends of a chord, in the order of the outline
 #pragma once

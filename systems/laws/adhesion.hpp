@@ -1,8 +1,8 @@
-// With what traction surfaces attract each other that touch or nearly do, without memory.
+// Traction with which surfaces in or near contact attract each other, without memory.
 //
-// Law      sigma (1 - 3 x^2 + 2 x^3), x = s/h from 0 to 1, s the gap and h its range; sigma = 2 w/h where they touch,
-//          so that parting them takes the work of adhesion w [J/m^2]. As Maugis's (1992) constant traction, but it
-//          fades smoothly: no force jumps when a point comes into range.
+// Law      sigma (1 - 3 x^2 + 2 x^3), x = s/h from 0 to 1, s the gap and h its range; sigma = 2 w/h in contact,
+//          so that separating them takes the work of adhesion w [J/m^2]. Like Maugis's (1992) constant traction, but
+//          it fades smoothly: no force jumps when a point comes into range.
 // Sign     g > 0 in penetration, s = -g
 #pragma once
 
@@ -16,7 +16,7 @@ struct Attraction {
   T energy;    // J/m^2, <= 0; 0 apart
 };
 
-// `sigma` Pa, of one pass; `range` m, 0: none.
+// `sigma` Pa, in one pass; `range` m, 0: none.
 template <class T>
 Attraction<T> adhesion(T g, T sigma, T range) {
   const T zero{};

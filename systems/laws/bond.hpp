@@ -1,14 +1,14 @@
-// What a bond bears: a cohesive law of two stiffnesses, bilinear in every mode.
+// Bond response: a cohesive law with two stiffnesses, bilinear in every mode.
 //
-// Law      w0 = (k_n <d_n>^2 + k_t d_t^2)/2 [J/m^2], what the opening d would store undamaged; lambda = sqrt(2 w0)
-//          b = k_t d_t^2/(2 w0), the share of shear; onset and end mix with b^eta (Benzeggagh & Kenane 1996):
+// Law      w0 = (k_n <d_n>^2 + k_t d_t^2)/2 [J/m^2], the undamaged energy of the opening d; lambda = sqrt(2 w0)
+//          b = k_t d_t^2/(2 w0), the shear share; onset and end are mixed with b^eta (Benzeggagh & Kenane 1996):
 //            lambda_0^2 = sigma_c^2/k_n + (tau_c^2/k_t - sigma_c^2/k_n) b^eta
 //            G          = G_I + (G_II - G_I) b^eta,      lambda_f = 2 G/lambda_0
-//          d = lambda_f (lambda - lambda_0)/(lambda (lambda_f - lambda_0)), never less than before (Camanho & Davila
+//          d = lambda_f (lambda - lambda_0)/(lambda (lambda_f - lambda_0)), never decreasing (Camanho & Davila
 //          2002; Turon, Camanho, Costa & Davila 2006, in energy norms so that k_n and k_t may differ)
 //          traction (1 - d) (k_n d_n, k_t d_t): unloads to the origin
-// Damage   of a mode spends G s, s = (lambda - lambda_0)/(lambda_f - lambda_0): all of G at the end
-// Compression (d_n < 0) never damages.
+// Damage   in one mode dissipates G s, s = (lambda - lambda_0)/(lambda_f - lambda_0): all of G at the end
+// Compression (d_n < 0) causes no damage.
 #pragma once
 
 #include <algorithm>
@@ -26,12 +26,12 @@ struct CohesiveLaw {
 };
 
 struct CohesiveDamage {
-  double d;      // -, new; 1: broken
-  double spent;  // J/m^2, by what it grew
+  double d;      // -, new value; 1: broken
+  double spent;  // J/m^2, dissipated by its growth
   double shear;  // -, b
 };
 
-// b^eta, and the energy of a mode. (J/m^2)
+// b^eta, and the energy for a mode mix. (J/m^2)
 inline double mixed_share(const CohesiveLaw& law, double shear) {
   return law.mixed_exponent == 2 ? shear * shear : portable::pow(shear, law.mixed_exponent);
 }
@@ -50,7 +50,7 @@ inline CohesiveDamage cohesive_damage(const CohesiveLaw& law, double d_n, double
   const double energy = fracture_energy(law, shear);
   const double end = 2 * energy / onset;
   const double lambda = std::sqrt(both);
-  // How far damage d has come, of the way from onset to end.
+  // Progress of damage d, as a share of the way from onset to end.
   const auto share = [&](double d) { return onset * d / (end - d * (end - onset)); };
   if (lambda >= end) return {1, energy * (1 - share(before)), shear};
   if (lambda <= onset) return {before, 0, shear};

@@ -1,5 +1,5 @@
-// Elementary functions of a law, for numbers and for lanes. Those of engine/portable_math.hpp, lane by lane: a lane
-// has the bits of the number.
+// Elementary functions for laws, for numbers and for lanes. Those of engine/portable_math.hpp, lane by lane: a lane
+// is bitwise equal to the scalar result.
 #pragma once
 
 #include <type_traits>
@@ -9,7 +9,7 @@
 
 namespace pulvis::kernels {
 
-// f(number) for each number of x.
+// f(number) for each number in x.
 template <class T, class F>
 T each_number(const T& x, const F& f) {
   if constexpr (is_pack<T>)

@@ -1,4 +1,4 @@
-// Which laws a material flows by. The resource is there only where one hardens along a curve, or by its rate.
+// The flow laws of the materials. The resource exists only if one hardens nonlinearly or is rate-dependent.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace pulvis {
 struct FlowLaw {
   kernels::HardeningLaw hardening;
   kernels::RateLaw rate;
-  std::string file = {};  // of a table, as the scene names it
+  std::string file = {};  // of a table, as named in the scene
 
   bool is_linear() const { return hardening.index() == 0 && rate.index() == 0; }
 };
@@ -33,16 +33,16 @@ inline std::string name_of(const FlowLaw& law) {
 struct FlowLaws {
   static constexpr const char* resource_name = "flow_laws";
   static constexpr bool fixed = true;
-  std::vector<FlowLaw> of_material;  // of a solid: of each part
+  std::vector<FlowLaw> of_material;  // of a solid: one per part
 
-  // A chunk's particles are of one class, and so of one material.
+  // All particles of a chunk are of one class, hence of one material.
   const FlowLaw& of_chunk(const Bodies& bodies, Chunk chunk) const {
     return entry(of_material, entry(bodies.slots, chunk.index * lane_count).material);
   }
 };
 
-// Calls use(law) with the law's own type: once a chunk, not once a point. Linear hardening keeps its columns, where
-// elastic particles have an infinite yield stress.
+// Calls use(law) with the concrete type of the law: once per chunk, not per point. Linear hardening keeps its columns,
+// where elastic particles have an infinite yield stress.
 template <class T, class Use>
 void with_hardening(const FlowLaw& law, const kernels::LinearHardening<T>& linear, const Use& use) {
   std::visit(
@@ -55,7 +55,7 @@ void with_hardening(const FlowLaw& law, const kernels::LinearHardening<T>& linea
       law.hardening);
 }
 
-// The same with the rate law, over a step of 1/over_dt. Kept out of its caller, which is inlined as a whole for linear
+// The same including the rate law, over a step of 1/over_dt. Kept out of its caller, which is fully inlined for linear
 // hardening.
 template <class T, class Use>
 [[gnu::noinline]] void with_law(const FlowLaw& law, const kernels::LinearHardening<T>& linear,

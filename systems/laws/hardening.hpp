@@ -1,10 +1,10 @@
-// Isotropic hardening: how the flow stress grows with the accumulated plastic strain.
+// Isotropic hardening: growth of the flow stress with accumulated plastic strain.
 //
-// Law      a struct with sigma_y [Pa], where flow begins, and for numbers and lanes
-//            flow_stress(eps)   Pa, never falls
-//            modulus(eps)       Pa, its slope; infinite where the curve starts upright
+// Law      a struct with the initial yield stress sigma_y [Pa], and for numbers and lanes
+//            flow_stress(eps)   Pa, non-decreasing
+//            modulus(eps)       Pa, its slope; infinite where the curve starts vertically
 //            plastic_work(eps)  J/m^3, its integral from 0
-//          and its word in scenes, `name`. A law is one more struct and one more entry of HardeningLaw.
+//          and its keyword in scenes, `name`. A new law is one more struct and HardeningLaw entry.
 // Source   Voce (1948); Swift (1952); Ludwik (1909)
 // Symbols  eps  accumulated plastic strain [-], >= 0
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace pulvis::kernels {
 
-// sigma_y + H eps; H = 0: perfectly plastic. The return map knows its closed form.
+// sigma_y + H eps; H = 0: perfectly plastic. The return map uses its closed form.
 template <class T>
 struct LinearHardening {
   static constexpr const char* name = "linear";
@@ -31,8 +31,8 @@ struct LinearHardening {
 struct VoceHardening {
   static constexpr const char* name = "voce";
   double sigma_y = 0;
-  double Q = 0;  // Pa, growth in all
-  double b = 0;  // -, 1/b is the strain in which 63% of it come
+  double Q = 0;  // Pa, total increase
+  double b = 0;  // -, 1/b is the strain at which 63% of it is reached
   template <class T>
   T flow_stress(T eps) const {
     return sigma_y + Q * (1.0 - exponential(-b * eps));
@@ -67,7 +67,7 @@ struct SwiftHardening {
   }
 };
 
-// sigma_y + K eps^n (Johnson and Cook's A + B eps^n): upright at eps = 0 where n < 1.
+// sigma_y + K eps^n (the A + B eps^n of Johnson and Cook): vertical at eps = 0 if n < 1.
 struct LudwikHardening {
   static constexpr const char* name = "ludwik";
   double sigma_y = 0;
@@ -87,11 +87,11 @@ struct LudwikHardening {
   }
 };
 
-// Straight lines between points, the first at eps = 0; behind the last one the stress stays.
+// Piecewise linear between points, the first at eps = 0; constant stress beyond the last one.
 struct TabulatedHardening {
   static constexpr const char* name = "table";
   double sigma_y = 0;            // the first stress
-  std::vector<double> eps = {};  // -, rising
+  std::vector<double> eps = {};  // -, increasing
   std::vector<double> stress = {};
   std::vector<double> work = {};  // J/m^3, up to each point
 
@@ -123,7 +123,7 @@ struct TabulatedHardening {
   }
 
  private:
-  std::size_t before(double x) const {  // the point at or before x
+  std::size_t before(double x) const {  // the last point at or before x
     const auto after = std::upper_bound(eps.begin() + 1, eps.end(), x);
     return static_cast<std::size_t>(after - eps.begin()) - 1;
   }

@@ -1,7 +1,7 @@
-// What pressure surfaces bear that penetrate each other (the gap g [m] is > 0 then).
+// Contact pressure between surfaces that penetrate each other (the gap g [m] is then > 0).
 //
-// Spring   p = kappa/2 g (1 + (g/g_s)^2), from each of two half passes. g_s, a twentieth of the edge, is beyond
-//          what metals that flow reach; the spring stiffens there, so that elastic bodies under large strain
+// Spring   p = kappa/2 g (1 + (g/g_s)^2), in each of two half passes. g_s, a twentieth of the edge, is more
+//          than yielding metals reach; the spring stiffens there, so that elastic bodies at large strain
 //          and corners do not sink into each other.
 // Damping  c [Pa s/m] on the rate of the gap (T 5.1); never pulls.
 #pragma once
@@ -17,7 +17,7 @@ struct Traction {
   T damping_power;  // W/m^2, >= 0
 };
 
-// Penetration over edge length at which the spring bears twice what a linear one does.
+// Penetration over edge length at which the spring carries twice the force of a linear one.
 inline constexpr double stiffening_depth = 0.05;
 
 // Tangent of the spring over kappa at a penetration of `depth` edge lengths.
@@ -26,7 +26,7 @@ inline double stiffening(double depth) {
   return 1 + 3 * x * x;
 }
 
-// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `inv_edge` 1/m, over the length of
+// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `inv_edge` 1/m, inverse length of
 // the edge.
 template <class T>
 Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T inv_edge) {

@@ -1,4 +1,4 @@
-// Rate dependence: the flow stress of hardening times a factor that grows with the rate of plastic strain.
+// Rate dependence: the hardening flow stress times a factor that grows with the plastic strain rate.
 //
 // Law      a struct with factor(rate) >= 1, factor(0) = 1, and slope(rate) [s], its derivative; for numbers and
 //          lanes, rate in 1/s
@@ -31,12 +31,12 @@ struct CowperSymonds {
 
 using RateLaw = std::variant<NoRate, CowperSymonds>;
 
-// Hardening and rate together, over a step: flow begins at the stress of the one, and goes on at that of both.
+// Hardening and rate combined, over a step: yield starts at the hardening stress, and flow follows the combined stress.
 template <class Hardening, class Rate>
 struct RatedHardening {
   const Hardening& hardening;
   const Rate& rate;
-  double over_dt;  // 1/s, one over the step
+  double over_dt;  // 1/s, inverse time step
 
   template <class T>
   T flow_stress(T eps) const {
@@ -51,7 +51,7 @@ struct RatedHardening {
 template <class Hardening, class Rate>
 RatedHardening(const Hardening&, const Rate&, double) -> RatedHardening<Hardening, Rate>;
 
-// Flow stress and its slope once `grown` plastic strain has come onto `eps` in this step.
+// Flow stress and its slope after `grown` plastic strain has been added to `eps` in this step.
 template <class T>
 struct Flow {
   T stress, modulus;
@@ -69,7 +69,7 @@ Flow<T> flow_after(const RatedHardening<Hardening, Rate>& law, T eps, T grown) {
           slow.modulus * factor + slow.stress * law.rate.slope(rate) * law.over_dt};
 }
 
-// What the rate alone makes of the work of a step, J/m^3: that of hardening is the integral of its curve.
+// Contribution of the rate alone to the work of a step, J/m^3: that of hardening is the integral of its curve.
 template <class T, class Hardening>
 T rate_work(const Hardening&, T, T) {
   return T{};
@@ -80,7 +80,7 @@ T rate_work(const RatedHardening<Hardening, Rate>& law, T eps, T grown) {
   return slow * (law.rate.factor(grown * law.over_dt) - 1.0) * grown;
 }
 
-// Plastic strain that a step at most adds where the stress is `excess` times the flow stress of hardening beyond it.
+// Upper bound on the plastic strain of a step if the stress exceeds the hardening flow stress by `excess` times that stress.
 template <class T, class Law>
 T max_growth(const Law&, T) {
   return T{} + std::numeric_limits<double>::infinity();
@@ -90,21 +90,21 @@ T max_growth(const RatedHardening<Hardening, CowperSymonds>& law, T excess) {
   return (law.rate.C / law.over_dt) * power(max(excess, T{}), law.rate.p);
 }
 
-// A step of Newton's method for x, of which f falls by `steep`.
+// A Newton step in x, in which f falls with slope `steep`.
 template <class T, class Law>
 T newton_step(const Law&, T x, T f, T steep) {
   return x + f / steep;
 }
-// The flow stress goes with the p-th root of the rate, upright at rest. In x^(1/p) it is a line: from above the root the
-// steps go down to it and do not pass it.
+// The flow stress varies with the p-th root of the rate, vertical at rest. In x^(1/p) it is a line: from above the root
+// the steps descend to it without overshooting.
 template <class T, class Hardening>
 T newton_step(const RatedHardening<Hardening, CowperSymonds>& law, T x, T f, T steep) {
   const double p = law.rate.p;
   return x * power(max(1.0 + f / (p * (x * steep)), T{}), p);
 }
 
-// Plastic work of a step beyond the area under the hardening curve, J/m^3 of undeformed volume: that of the rate, and what comes
-// of it that a Cauchy stress acts on theta times that volume.
+// Plastic work of a step beyond the area under the hardening curve, J/m^3 of undeformed volume: that of the rate, and that
+// due to the Cauchy stress acting on theta times that volume.
 template <class T, class Law>
 T work_beyond_hardening(const Law& law, T eps, T grown, T theta) {
   const T stress = min(law.flow_stress(fma(T{} + 0.5, grown, eps)), 1e300);  // elastic: infinite

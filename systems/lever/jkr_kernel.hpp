@@ -1,13 +1,13 @@
-// A ball of elastic material that adheres to a rigid plane, and the spring that holds it.
+// An adhesive elastic ball on a rigid plane, and the spring that holds it.
 //
 // Source   Johnson, Kendall & Roberts (1971); equilibria and stability after Maugis (1992):
 //            F = K a^3/R - sqrt(6 pi w K a^3),   delta = a^2/R - sqrt(8 pi w a/(3K)),   K = 4/3 E*
-//          Approach alone lets go where d delta/da = 0: a_m^3 = pi w R^2/(8 E*), F = -5/6 pi w R. With
-//          q^2 = a/a_m the law is F = (pi w R/6)(q^6 - 6 q^3), delta = (a_m^2/R)(q^4 - 4 q), q >= 1; a force
-//          alone lets go at q^3 = 3, F = -3/2 pi w R.
-// Symbols  F force on the ball, N, < 0: it is drawn; delta approach, m; a radius of contact, m; R radius of
+//          Displacement control: contact is lost at d delta/da = 0: a_m^3 = pi w R^2/(8 E*), F = -5/6 pi w R.
+//          With q^2 = a/a_m: F = (pi w R/6)(q^6 - 6 q^3), delta = (a_m^2/R)(q^4 - 4 q), q >= 1. Load control:
+//          contact is lost at q^3 = 3, F = -3/2 pi w R.
+// Symbols  F force on the ball, N, < 0: attraction; delta approach, m; a contact radius, m; R radius of
 //          the ball, m; w work of adhesion, J/m^2; E* of the ball, Pa; rho stiffness of the spring, N/m;
-//          tau = F + rho delta, what the spring would give at delta = 0
+//          tau = F + rho delta, the spring force at delta = 0
 // Valid    a small against R; R w^2/(E*^2 z^3) large against 1, z the range of attraction (Tabor 1977)
 #pragma once
 
@@ -40,14 +40,14 @@ inline double jkr_pull_off(const AdhesiveBall& ball) {
 }
 
 struct JkrAnswer {
-  bool holds = false;  // a stable equilibrium of contact and spring is there
+  bool holds = false;  // whether contact and spring have a stable equilibrium
   double q = 0;
   double force = 0;  // N
   double slope = 0;  // -, d force / d tau
 };
 
-// Where share_f F + rho delta = tau on the stable branch: right of the one minimum of that sum, from where it
-// grows and is convex, so that Newton's method comes down to the root from above.
+// Where share_f F + rho delta = tau on the stable branch: right of the only minimum of that sum, where it
+// is increasing and convex, so that Newton's method converges to the root from above.
 inline JkrAnswer jkr_balance(const JkrScale& law, double share_f, double rho, double tau) {
   const auto sum = [&](double q) { return share_f * law.force_at(q) + rho * law.approach_at(q); };
   const auto slope = [&](double q) {
@@ -75,14 +75,14 @@ inline JkrAnswer jkr_balance(const JkrScale& law, double share_f, double rho, do
   return answer;
 }
 
-// Radius of contact, m, at an approach; 0 where it has let go.
+// Contact radius, m, at an approach; 0 if contact is lost.
 inline double jkr_radius(const AdhesiveBall& ball, double approach) {
   const JkrScale law(ball);
   const JkrAnswer at = jkr_balance(law, 0, 1, approach);
   return at.holds ? law.radius * at.q * at.q : 0;
 }
 
-// Pressure in the middle of the circle of contact, Pa.
+// Pressure at the centre of the contact circle, Pa.
 inline double jkr_pressure(const AdhesiveBall& ball, double radius) {
   return 2 * ball.modulus * radius / (std::numbers::pi * ball.radius) -
          std::sqrt(2 * ball.work * ball.modulus / (std::numbers::pi * radius));

@@ -1,26 +1,26 @@
-// One point of a probe against a rigid target: what its force must fulfil, and how that changes.
+// One point of a probe against a rigid target: the conditions on its force, and their derivatives.
 //
 // Source   Alart & Curnier (1991): the unilateral condition and Coulomb's law as equations that are
-//          differentiable but for their non-smooth points, solved by Newton's method together with equilibrium.
-//          Curnier & Alart's penalties are free numbers: near the stiffness of what is behind the point
-//          (rho) the method settles; the penalties of the law (k), a thousand times as stiff, throw it
-//          from one direction of sliding to the other and back for ever.
-//          Adhesion: a constant pull-off force in contact (Derjaguin, Muller & Toporov 1975) that fades
+//          differentiable except at non-smooth points, solved by Newton's method together with equilibrium.
+//          Curnier & Alart's penalties are free parameters: near the stiffness behind the point (rho) the
+//          method converges; the penalties of the law (k), a thousand times as stiff, make it alternate
+//          between one sliding direction and the other forever.
+//          Adhesion: a constant pull-off force in contact (Derjaguin, Muller & Toporov 1975) that decays
 //          outside as 1/(1 + g/r)^2.
 // Symbols  f force on the point, N; g gap, m, < 0 inside; n normal out of the target, H = dn/dx, 1/m;
 //          A(g) adhesion, N; N = n.f + A pressing force >= 0, N; t = f - (n.f) n; P = 1 - n n^T
 //          x - x_old displacement since the last equilibrium, m; t_old its tangential force, N
 //            apart   f = -A n                                         where N^ <= 0
-//          A point that touched before keeps the adhesion of contact, A(0), for as long as it may touch:
-//          it leaves when the force draws with A(0), not when an increment's displacement has opened a gap.
+//          A point that touched before keeps the contact adhesion A(0) for as long as it may touch: it
+//          separates when the force exceeds A(0), not when an increment's displacement has opened a gap.
 //            touches g + N/k = 0,   N^ = N - rho (g + N/k)            where N^ > 0, and then
 //            sticks  w = P (x - x_old) + (t - P t_old)/k_t = 0        where |t^| <= mu N^
 //            slides  t = mu N^ t^/|t^|,   t^ = t - rho_t w
-//          An elastic ball that adheres (JKR, systems/lever/jkr_kernel.hpp) touches, where it has a force since then
-//          or g <= 0, as long as the spring rho finds a stable equilibrium with it:
+//          An adhesive elastic ball (JKR, systems/lever/jkr_kernel.hpp) touches, if it has had a force since then
+//          or g <= 0, as long as it has a stable equilibrium with the spring rho:
 //            touches n.f = F*,   F* + rho delta* = n.f - rho g,   F* = F_JKR(delta*),   N = F* + 3/2 pi w R
 //            apart   f = 0
-// Valid    any smooth surface; the derivatives are those of the equations, non-smooth points apart
+// Valid    any smooth surface; the derivatives are those of the equations, except at non-smooth points
 #pragma once
 
 #include <Eigen/Core>
@@ -33,28 +33,28 @@ namespace pulvis::kernels {
 struct ProbeLaw {
   double normal_stiffness, tangential_stiffness;  // N/m
   double friction;                                // -
-  double pull_off, range;                         // N, m: of this point
+  double pull_off, range;                         // N, m: for this point
   AdhesiveBall ball{};
 };
 
-// Where the point is, and what it carries from the last equilibrium.
+// Position of the point, and its state at the last equilibrium.
 struct ProbePlace {
   double gap;
   Eigen::Vector3d normal;
-  Eigen::Matrix3d turn;  // 1/m, d normal / d place
+  Eigen::Matrix3d turn;  // 1/m, d normal / d position
   Eigen::Vector3d moved, old_tangential;
   bool touched = false;  // at the last equilibrium
 };
 
 struct ProbeEquation {
   enum class State { apart, sticks, slides };
-  Eigen::Vector3d residual;            // N, zero where the law is fulfilled
+  Eigen::Vector3d residual;            // N, zero where the law is satisfied
   Eigen::Matrix3d by_force, by_place;  // -, N/m
   double pressing, limit;              // N; mu N
   State state = State::apart;
 };
 
-// Attraction and its derivative by the gap.
+// Attraction and its derivative with respect to the gap.
 inline double adhesion(const ProbeLaw& law, double gap, double& slope) {
   slope = 0;
   if (law.pull_off == 0 || gap <= 0) return law.pull_off;
@@ -63,18 +63,18 @@ inline double adhesion(const ProbeLaw& law, double gap, double& slope) {
   return law.pull_off * fade * fade;
 }
 
-// d (P v) / d place
+// d (P v) / d position
 inline Eigen::Matrix3d turned(const ProbePlace& at, const Eigen::Vector3d& v) {
   return -at.normal.dot(v) * at.turn - at.normal * (at.turn.transpose() * v).transpose();
 }
 
-// What friction may bear, and how that changes.
+// The friction limit, and its derivatives.
 struct FrictionBound {
   double size = 0;  // N
   Eigen::RowVector3d by_force = Eigen::RowVector3d::Zero(), by_place = Eigen::RowVector3d::Zero();
 };
 
-// Adds the law along the surface to a point that touches.
+// Adds the tangential law for a point that touches.
 inline void add_friction(const ProbeLaw& law, const ProbePlace& at, const Eigen::Vector3d& f,
                          double rho_t, const FrictionBound& bound, ProbeEquation& r) {
   using Eigen::Matrix3d;
@@ -109,8 +109,8 @@ inline ProbeEquation adhesive_ball_equation(const ProbeLaw& law, const ProbePlac
   const double tau = n.dot(f) - rho * at.gap;
   ProbeEquation r;
   JkrAnswer balance;
-  // Without a force it has let go, in this search for an equilibrium or before: to be drawn back from afar by
-  // what the spring alone would allow is no way to touch.
+  // Without a force it has lost contact, in this equilibrium search or before: being pulled back from afar by
+  // what the spring alone would allow does not count as touching.
   const bool held = at.touched && f.squaredNorm() > 0;
   if (held || at.gap <= 0 || tau >= 0) balance = jkr_balance(JkrScale(law.ball), 1, rho, tau);
   if (!balance.holds) {

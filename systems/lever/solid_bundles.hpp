@@ -1,4 +1,4 @@
-// Columns of a solid and of its probe that always go together, as bundles of accesses (engine/bundle.hpp).
+// Columns of a solid and its probe that always go together, as bundles of accesses (engine/bundle.hpp).
 #pragma once
 
 #include "components/probe.hpp"
@@ -7,11 +7,11 @@
 
 namespace pulvis {
 
-struct Configuration {  // where the solid's nodes were, and how far they have moved
+struct Configuration {  // initial positions of the solid's nodes, and their displacements
   Read<ReferencePosition> reference;
   Read<Displacement> displacement;
 };
-struct ElementForces {  // of all elements
+struct ElementForces {  // for all elements
   Read<ElementForce> hexahedra;
   Optional<Read<TetrahedronForce>> tetrahedra;
 };
@@ -19,7 +19,7 @@ struct ElementTangents {
   Read<ElementTangent> hexahedra;
   Optional<Read<TetrahedronTangent>> tetrahedra;
 };
-// The points of a probe: what they are, what they carry from the last equilibrium, what they bear.
+// The points of a probe: what they are, their state at the last equilibrium, their forces.
 struct Probe {
   Read<ProbeNode> node;
   Read<ProbeStiffness> stiffness;

@@ -1,5 +1,5 @@
-// probe_contact: where the points of the probe are on the target, and how well their forces fulfil the law
-// of contact there. commit_contact: what they carry on to the next increment.
+// probe_contact: positions of the probe's points relative to the target, and how well their forces satisfy
+// the contact law there. commit_contact: the state they carry over to the next increment.
 //
 // Source   systems/lever/probe_contact_kernel.hpp; distances and normals come from the target's shape
 // Runs     before residual, in every evaluation of an equilibrium iteration; after an increment
@@ -10,7 +10,7 @@
 namespace pulvis {
 
 void probe_contact::operator()() const {
-  // Against a thousandth of the penalties round-off in a place weighs as little as it does in the solid.
+  // With a thousandth of the penalties, round-off in a position matters as little as it does in the solid.
   constexpr double rho = 1e-3;
   for (int i = 0; i < probe.node.rows(); ++i) {
     const Row<ProbePoint> row(i);

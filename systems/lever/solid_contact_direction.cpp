@@ -1,14 +1,14 @@
-// contact_direction: solves the contact, its non-smooth points included, with the solid as it answers to first order,
-// and brings what its forces change into Newton's direction.
+// contact_direction: solves the contact, including its non-smooth points, with the linearised response of the solid,
+// and adds the effect of its forces to the Newton direction.
 //
 // Source   The solid's tangent K is symmetric and positive definite, so it is factorised as L D L^T
-//          whatever the contact does. With y = K^-1 r the direction at unchanged forces f_0 of the probe,
+//          whatever the contact state. With y = K^-1 r the direction at unchanged forces f_0 of the probe,
 //            du = y + K^-1 B (f - f_0),   x = x_0 + B^T y + S (f - f_0) - Z e_z,   S = B^T K^-1 B
-//          and f, Z fulfil the law of contact and the servo's equation (solid_contact_problem.hpp). Stick
-//          and slip are settled there, where an iteration costs nothing; the iterations of the solid see
-//          its own smooth answer only.
-// Symbols  B [3 unknowns, 3 points] where the points' places come from
-// Runs     after newton_direction, whose answer is y
+//          and f, Z satisfy the contact law and the servo equation (solid_contact_problem.hpp). Stick
+//          and slip are resolved there, where an iteration costs nothing; the iterations of the solid see
+//          only its own smooth response.
+// Symbols  B [3 unknowns, 3 points] its transpose gives the displacements of the points
+// Runs     after newton_direction, whose result is y
 // Active   when the scene has a surface
 #include <algorithm>
 
@@ -27,7 +27,7 @@ using Eigen::VectorXd;
 
 constexpr int max_rounds = 20;
 
-// The points of the probe that are asked, on a solid that answers to their forces.
+// The active points of the probe, on a solid that responds to their forces.
 class ProbeContact {
  public:
   explicit ProbeContact(const contact_direction& system)
@@ -40,21 +40,21 @@ class ProbeContact {
         free_(equations_.direction),
         points_(first_points()) {}
 
-  // The law of contact at the points, from where they would come to lie at unchanged forces.
+  // The contact law at the points, starting from their positions at unchanged forces.
   ContactProblem problem() const {
     ContactProblem problem{target_.shape.get(), target_.end_radius, {}, {}, {}, target_.may_jump};
     if (target_.servo) problem.set_point = target_.set_point;
     for (const int p : points_) {
       const Row<ProbePoint> row(p);
       problem.points.push_back(contact_point(row, place(p, free_), target_, probe_));
-      // What has snapped off in an earlier iteration is not held by the adhesion of contact any more.
+      // Points that snapped off in an earlier iteration are no longer held by contact adhesion.
       if (equations_.jumped && state_(row, 3) == 0) problem.points.back().touched = false;
     }
     problem.compliance = compliance();
     return problem;
   }
 
-  // The steps of the forces, the target's height and the solid.
+  // The increments of the forces, the target's height and the solid.
   void take(const ContactAnswer& answer, const ContactProblem& problem) {
     equations_.height_step = answer.height;
     equations_.force_step.setZero(3 * probe_.node.rows());
@@ -68,7 +68,7 @@ class ProbeContact {
     equations_.contact_change = change();
   }
 
-  // Points that come to touch by that are asked as well. False: there are none.
+  // Activates points that this brings into contact. False: there are none.
   bool ask_more() {
     std::vector<int> more;
     for (int p = 0; p < probe_.node.rows(); ++p)
@@ -82,7 +82,7 @@ class ProbeContact {
   Index count() const { return static_cast<Index>(points_.size()); }
   int node(int p) const { return probe_.node(Row<ProbePoint>(p)); }
 
-  // Those that carry a force, touch or are drawn, and the nearest one.
+  // Those that carry a force, touch or are attracted, and the nearest one.
   std::vector<int> first_points() const {
     std::vector<int> points;
     int nearest = 0;
@@ -98,7 +98,7 @@ class ProbeContact {
     return points;
   }
 
-  // B_p^T of a direction: how the point moves.
+  // B_p^T times a direction: motion of the point.
   Vector3d moved(int p, const VectorXd& direction) const {
     Vector3d sum = Vector3d::Zero();
     for (const auto& s : mesh_.supports_of(node(p)))
@@ -110,7 +110,7 @@ class ProbeContact {
     return probe_place(node(p), configuration_, target_) + moved(p, direction);
   }
 
-  // K^-1 B_p, asked of the factors once.
+  // K^-1 B_p, computed once.
   const MatrixXd& response(int p) const {
     auto& answers = equations_.answers;
     answers.resize(static_cast<std::size_t>(probe_.node.rows()));
@@ -136,7 +136,7 @@ class ProbeContact {
     return s;
   }
 
-  // By how much forces, over the largest, or places, over the scanner's displacement, still change.
+  // Remaining change of forces, over the largest, or of positions, over the scanner's displacement.
   double change() const {
     const double maximum = equations_.force_step.lpNorm<Eigen::Infinity>();
     double moved_by = 0, travel = Vector3d(target_.travel.data()).norm();
@@ -145,7 +145,7 @@ class ProbeContact {
           moved(p, equations_.direction) - equations_.height_step * Vector3d::UnitZ();
       moved_by = std::max(moved_by, step.norm());
     }
-    // A probe that slides steadily moves on under forces that stay.
+    // A probe that slides steadily keeps moving under constant forces.
     return std::max(maximum == 0 ? 0 : maximum / std::max(maximum, equations_.largest_force),
                     moved_by == 0 ? 0 : moved_by / std::max(moved_by, travel));
   }
@@ -163,7 +163,7 @@ class ProbeContact {
   const Read<ProbeState>& state_;
   SolidEquations& equations_;
   VectorXd free_;            // m, the direction at unchanged forces
-  std::vector<int> points_;  // in rising order
+  std::vector<int> points_;  // in ascending order
 };
 
 }  // namespace

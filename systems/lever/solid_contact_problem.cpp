@@ -14,12 +14,12 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int max_iterations = 60;
-constexpr int max_cuts = 12;         // halvings of a step of the line search
-constexpr int max_steps = 400;       // of the flow through a jump
-constexpr double tolerance = 1e-11;  // -, of the largest force
+constexpr int max_cuts = 12;         // step halvings of the line search
+constexpr int max_steps = 400;       // of the flow during a jump
+constexpr double tolerance = 1e-11;  // -, relative to the largest force
 
 struct Linearised {
-  MatrixXd matrix;  // of the forces, then the servo's row and column
+  MatrixXd matrix;  // for the forces, then the servo's row and column
   VectorXd missing;
   bool touches = false;
 };
@@ -34,7 +34,7 @@ class ContactNewton {
     if (problem_.set_point) follow();
   }
 
-  // Full steps settle nearly always in a few iterations; where the normal turns quickly (valleys) they
+  // Full steps almost always converge in a few iterations; where the normal rotates quickly (valleys) they
   // throw the probe from side to side, and a line search on the residual does not.
   ContactAnswer solve(bool line_search) {
     int i = 0;
@@ -78,8 +78,8 @@ class ContactNewton {
                     point(p).place + moved - height_ * Vector3d::UnitZ());
   }
 
-  // The target follows the point that pressed hardest: an increment's displacement along a slope shall not tear the
-  // probe off before the law has been asked.
+  // The target follows the point that pressed hardest: an increment's displacement along a slope must not tear the
+  // probe off before the contact law has been evaluated.
   void follow() {
     Index hardest = -1;
     double maximum = 0;
@@ -92,7 +92,7 @@ class ContactNewton {
     height_ = (at.gap + maximum / point(hardest).law.normal_stiffness) / at.normal.z();
   }
 
-  // Nothing touches, but the servo wants its force: the nearest point takes it.
+  // Nothing touches, but the servo needs its force: the nearest point takes it.
   void press_nearest() {
     Index nearest = 0;
     double gap = place(0).gap;
@@ -143,11 +143,11 @@ ContactAnswer settle(const ContactProblem& problem) {
   return answer.converged ? answer : ContactNewton(problem).solve(true);
 }
 
-// No equilibrium is near: adhesion (DMT) draws more steeply than the lever holds. The points flow to the next one
-// against dashpots c that are taken away step by step, x + c S (x - x_k) = x_0 + S (f - f_0); what the
-// dashpots eat is what a real snap radiates.
+// No equilibrium is nearby: the adhesion (DMT) gradient exceeds the lever's stiffness. The points flow to the
+// next one against dashpots c that are removed step by step, x + c S (x - x_k) = x_0 + S (f - f_0); the energy
+// dissipated by the dashpots is what a real snap radiates.
 ContactAnswer jump(const ContactProblem& problem) {
-  // Eigen cuts large products, and with them their sums, by the caches of the processor at hand.
+  // Eigen blocks large products, and with them their sums, by the cache sizes of the processor.
   Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20);
   const MatrixXd& s = problem.compliance;
   const auto size = s.rows();
@@ -205,7 +205,7 @@ ContactAnswer jump(const ContactProblem& problem) {
 
 ContactAnswer solve_contact(const ContactProblem& problem) {
   ContactAnswer answer = settle(problem);
-  // The law of an adhesive ball jumps of itself.
+  // The law of an adhesive ball jumps by itself.
   const bool by_law = problem.points.front().law.ball.work > 0;
   if (!answer.converged && problem.may_jump && !problem.set_point && !by_law)
     answer = jump(problem);

@@ -1,5 +1,5 @@
-// solid_element, element_force: what every hexahedron answers to its corners' displacements: forces,
-// energy, and with the first also the tangent.
+// solid_element, element_force: response of every hexahedron to its corner displacements: forces,
+// energy, and for the first also the tangent.
 //
 // Source   systems/lever/solid_kernel.hpp, systems/lever/solid_plastic_kernel.hpp (elements that yield)
 // Runs     first in every evaluation of an equilibrium iteration

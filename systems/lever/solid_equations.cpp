@@ -1,7 +1,7 @@
 // residual, factorise, newton_direction: the equations of an equilibrium iteration.
 //
 // Source   K du = r with the lower triangle of K by columns; Eigen's simplicial L D L^T, whose ordering
-//          (approximate minimum degree) is found once: the pattern never changes.
+//          (approximate minimum degree) is computed once: the pattern never changes.
 // Runs     after solid_force (residual) and block_tangent (factorise, then newton_direction)
 // Active   when the scene has a lever
 #include "systems/lever/solid_equations.hpp"
@@ -38,7 +38,7 @@ void make_pattern(const SolidAssembly& assembly, Matrix& k) {
   k.makeCompressed();
 }
 
-// Blocks of a column lie in rising order of rows, the diagonal one first: so do its numbers.
+// Blocks of a column are in ascending order of rows, the diagonal one first: so are its values.
 template <class Matrix, class Real>
 void fill_values(const SolidAssembly& assembly, std::span<const Real> blocks, Matrix& k) {
   auto* value = k.valuePtr();
@@ -56,7 +56,7 @@ void fill_values(const SolidAssembly& assembly, std::span<const Real> blocks, Ma
   }
 }
 
-// That of a large solid takes minutes. Interrupted, the solid is left without factors.
+// For a large solid this takes minutes. If interrupted, the solid is left without factors.
 template <class Real>
 void factorise_stiffness(SolidFactors<Real>& solid, bool first) {
   using Factors = typename SolidFactors<Real>::Factors;
@@ -83,15 +83,15 @@ void refactorise(SolidFactors<Real>& solid, const std::vector<double>& values) {
   factorise_stiffness(solid, false);
 }
 
-// The sum of the forces on every free node, and the sizes that it is compared with.
+// Force balance of every free node, and the magnitudes it is compared with.
 struct Balance {
   const SolidMesh& mesh;
   Eigen::VectorXd& sum;
   double squares = 0;  // N^2, of all forces that must balance
-  // Of the probe:
+  // On the probe:
   double pushed = 0;   // N, upwards
   double largest = 0;  // N, in any direction
-  double broken = 0;   // N, by which the forces break the law of contact at most
+  double broken = 0;   // N, largest violation of the contact law by the forces
 
   void add(int node, int k, double force) {
     for (const auto& support : mesh.supports_of(node))
@@ -121,8 +121,8 @@ struct Balance {
       broken = std::max(broken, contact.state(Row<ProbePoint>(i), 4));
   }
 
-  // Where a lever bends, the forces in its elements are far larger than those on it: they set the digits
-  // that the balance can have.
+  // Where a lever bends, the forces in its elements are far larger than those on it: they limit the
+  // accuracy that the balance can have.
   void count_elements(const ElementForces& elements) {
     for (const double f : elements.hexahedra.values()) squares += f * f;
     if (elements.tetrahedra)
@@ -145,7 +145,7 @@ void SolidFactors<Real>::factorise(const SolidAssembly& assembly, std::span<cons
                     stiffness.rows()));
 }
 
-// L D L^T x = P b, then P^T x. Columns of L hold what lies below the diagonal, which is 1.
+// L D L^T x = P b, then P^T x. Columns of L store the part below the diagonal, which is 1.
 template <class Real>
 typename SolidFactors<Real>::Three SolidFactors<Real>::solve_three(const Three& forces) const {
   Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor> x = factors->permutationP() * forces;
@@ -201,7 +201,7 @@ void SolidEquations::factorise_again(std::vector<double> values) {
 void residual::operator()() const {
   Balance balance{*mesh, equations->residual};
   balance.sum.setZero(3 * mesh->unknowns);
-  // Where adhesion and pressure balance, no force is left to compare with but the adhesion.
+  // Where adhesion and pressure balance, the adhesion is the only force left to compare with.
   const double pull_off = contact ? contact->target->pull_off : 0;
   balance.squares = pull_off * pull_off;
   balance.largest = pull_off;

@@ -1,5 +1,5 @@
 // The equations of an equilibrium iteration: the sparse stiffness of the solid and its factors, the
-// residual, and the direction of Newton's step. Seen by systems only.
+// residual, and the Newton direction. Used by systems only.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -13,8 +13,8 @@
 
 namespace pulvis {
 
-// In one precision. Bending of a lever is what is left of its stiffness in thickness: 1e-16 (L/t)^4 of it is
-// lost in double, and 1e-19 (L/t)^4 in long double.
+// In one precision. The bending stiffness of a lever is a small remainder of its thickness stiffness: 1e-16 (L/t)^4 of
+// it is lost in double, and 1e-19 (L/t)^4 in long double.
 template <class Real>
 struct SolidFactors {
   using Matrix = Eigen::SparseMatrix<Real, Eigen::ColMajor, int>;
@@ -23,43 +23,43 @@ struct SolidFactors {
   Matrix stiffness;  // lower triangle, [3 unknowns]^2, N/m
   std::unique_ptr<Factors> factors;
 
-  // Makes the factors, and the pattern at first; throws RunFailure where there are none.
+  // Factorises, and builds the pattern the first time; throws RunFailure if there is no factorisation.
   void factorise(const SolidAssembly& assembly, std::span<const Real> blocks);  // [blocks, 3, 3]
-  // K^-1 of three forces. Solved one after the other, every difference would wait for the one before it; side by side they take
-  // a third of the time, and each has the bits that it has alone.
+  // K^-1 times three forces. Solved one after the other, every operation would wait for the one before it; side by side they
+  // take a third of the time, and each is bitwise equal to its separate solution.
   using Three = Eigen::Matrix<Real, Eigen::Dynamic, 3>;
   Three solve_three(const Three& forces) const;
-  // Of a stable solid; round-off can lose it.
+  // True for a stable solid; round-off can destroy it.
   bool positive() const { return factors != nullptr && (factors->vectorD().array() > 0).all(); }
 };
 
 struct SolidEquations {
   static constexpr const char* resource_name = "solid_equations";
 
-  SolidFactors<double> plain;  // one of the two
+  SolidFactors<double> plain;  // only one of the two is used
   SolidFactors<long double> extended;
   bool in_extended = false;
-  Eigen::VectorXd residual;    // [3 unknowns] N: applied - of the stresses
+  Eigen::VectorXd residual;    // [3 unknowns] N: applied - internal
   Eigen::VectorXd direction;   // [3 unknowns] m
-  double scale = 0;            // N, the forces that must balance: root of the sum of squares
-  double set_point_error = 0;  // -, of the servo: what is missing over the set point
-  // Of the contact, together with the direction:
-  bool contact_solved = true;  // an answer was found
-  double contact_error = 0;    // -, by how much the forces break the law, over the largest
-  // By how much forces, over the largest, or places, over the scanner's displacement, change in the step that fulfils the law.
+  double scale = 0;            // N, the forces that must balance: root sum of squares
+  double set_point_error = 0;  // -, of the servo: missing force over the set point
+  // Contact, solved together with the direction:
+  bool contact_solved = true;  // a solution was found
+  double contact_error = 0;    // -, violation of the contact law by the forces, over the largest
+  // Change of forces, over the largest, or of positions, over the scanner's displacement, in the step that satisfies the law.
   double contact_change = 0;
-  double largest_force = 0;    // N, of the probe's points
-  Eigen::VectorXd force_step;  // [3 points] N, of the probe
+  double largest_force = 0;    // N, on the probe's points
+  Eigen::VectorXd force_step;  // [3 points] N, on the probe
   double height_step = 0;      // m, of the servo
   double released = 0;         // J, by a jump
-  bool jumped = false;         // in this search for an equilibrium
-  // Increments to come that do not try the factors of the one before, and how many those will be after the next failure:
+  bool jumped = false;         // in this equilibrium search
+  // Number of further increments that do not try the previous factors, and that number after the next failure:
   int fresh_increments = 0, fresh_after_failure = 1;
-  // [points] K^-1 to unit forces on the point, [3 unknowns, 3]; empty until it was asked for
+  // [points] K^-1 times unit forces on the point, [3 unknowns, 3]; empty until requested
   std::vector<Eigen::MatrixXd> answers;
 
-  // Where an increment had no use for old factors the next ones hardly will: twice as many after every failure, since a
-  // press that turns the tip far may be followed by a scan that does not.
+  // If an increment could not use old factors the next ones hardly will: twice as many after every failure, since an
+  // indentation that rotates the tip far may be followed by a scan that does not.
   void rest_from_old_factors() {
     fresh_increments = fresh_after_failure;
     fresh_after_failure = std::min(2 * fresh_after_failure, 16);
@@ -78,11 +78,11 @@ struct SolidEquations {
     return extended.solve_three(forces.cast<long double>()).cast<double>();
   }
 
-  // Factors may be older than the present stiffness of the solid; what they were made from makes them again,
-  // and the answers.
-  // Empty before the first factorisation; in long double the digits beyond a double follow.
+  // Factors may be older than the current stiffness of the solid; the values they were made from are enough to
+  // rebuild them, and the answers.
+  // Empty before the first factorisation; in long double the digits beyond double precision follow.
   std::vector<double> factorised() const;
-  void factorise_again(std::vector<double> values);  // throws BadState where the pattern is another
+  void factorise_again(std::vector<double> values);  // throws BadState if the pattern differs
   template <class Bytes>
   void state(Bytes& bytes) {
     std::vector<double> values = factorised();

@@ -1,10 +1,10 @@
-// factorise_extended: stiffness and factors of the solid in long double, from the elements on.
+// factorise_extended: stiffness and factors of the solid in long double, starting from the elements.
 //
-// Source   as solid_element, block_tangent and factorise, whose numbers in double have lost the bending of a
-//          lever some 5,000 times longer than thick, or a billion times softer than its tip. A matrix made
-//          in double cannot be mended: it must have its digits from the kernels.
+// Source   like solid_element, block_tangent and factorise, whose double values have lost the bending of a
+//          lever some 5,000 times longer than thick, or a billion times softer than its tip. A matrix built
+//          in double cannot be repaired: it must get its digits from the kernels.
 // Runs     after residual, in place of block_tangent and factorise
-// Active   when the answers of a lever at rest did not converge in double (AfmSimulation)
+// Active   when the solutions for a lever at rest did not converge in double (AfmSimulation)
 #include <oneapi/tbb/parallel_for.h>
 
 #include "systems/lever/solid_response.hpp"
@@ -40,7 +40,7 @@ void pack(const Matrix& tangent, Wide* to) {
     for (int j = 0; j <= i; ++j) *to++ = tangent(i, j);
 }
 
-// Where an element flows, its tangent is the plastic one, in double.
+// If an element yields, its tangent is the plastic one, in double.
 void wide_tangent(const SolidReader& reader, Row<SolidElement> row,
                   const Optional<SolidPlasticity<Read>>& plasticity, Wide* to) {
   if (plasticity && plasticity->yield(row, 0) > 0) {

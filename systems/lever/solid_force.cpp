@@ -1,7 +1,7 @@
-// solid_force, block_tangent: bring the numbers of the elements together, node by node and block by block.
+// solid_force, block_tangent: assemble the element contributions, node by node and block by block.
 //
-// Source   Every sum runs along a list made once (components/solid.hpp, SolidAssembly), in its order: the
-//          result has the same bits with any number of threads, and nothing is scattered.
+// Source   Every sum runs along a list built once (components/solid.hpp, SolidAssembly), in its order: the
+//          result is bitwise identical for any number of threads, and nothing is scattered.
 // Runs     after solid_element and solid_tetrahedron, before residual and factorise
 // Active   when the scene has a lever
 #include <oneapi/tbb/parallel_for.h>
@@ -11,7 +11,7 @@
 namespace pulvis {
 namespace {
 
-constexpr int grain = 64;  // rows a task, some microseconds of work
+constexpr int grain = 64;  // rows per task, some microseconds of work
 
 template <class Body>
 void for_rows(int rows, const Body& body) {

@@ -2,13 +2,13 @@
 //
 // Source   Green-Lagrange strain enhanced by incompatible modes: Simo & Rifai (1990), Klinkel & Wagner
 //          (1997): E = E_u + M alpha. As the energy is quadratic in E, alpha = -H^-1 q solves its equation
-//          exactly at every displacement and needs no memory.
-//          Thin layers: transverse shear from the middles of the edges, Dvorkin & Bathe (1984), so that a
-//          plate of skew or tapered elements does not lock; their modes leave transverse shear alone.
+//          exactly for every displacement and needs no memory.
+//          Thin layers: transverse shear sampled at the mid-edges, Dvorkin & Bathe (1984), so that a plate of
+//          skewed or tapered elements does not lock; their modes leave transverse shear unchanged.
 // Symbols  X, u [3, 8] corners and their displacements, m; xi, eta, zeta in [-1, 1]; J = dX/dxi;
-//          E [6] 11 22 33 12 23 13, shear doubled; S [6] its stress (second Piola-Kirchhoff), Pa;
-//          T [6, 6] from covariant strains to Cartesian ones; M = T(J_0) N(xi) det J_0 / det J
-// Valid    strains small against 1; rotations of any size
+//          E [6] 11 22 33 12 23 13, engineering shear; S [6] its stress (second Piola-Kirchhoff), Pa;
+//          T [6, 6] from covariant to Cartesian strains; M = T(J_0) N(xi) det J_0 / det J
+// Valid    strains small compared to 1; arbitrary rotations
 #pragma once
 
 #include <Eigen/Dense>
@@ -24,10 +24,10 @@ inline constexpr std::array<std::array<int, 2>, 6> voigt_pair{
 inline constexpr double corner_sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
-// Where a thin layer takes its transverse shear from: 0, 1 for row 13; 2, 3 for row 23.
+// Where a thin layer samples its transverse shear: 0, 1 for row 13; 2, 3 for row 23.
 inline constexpr double shear_points[4][3] = {{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
 
-// In double; in long double where the stiffness of a lever needs more digits (solid_extended.cpp).
+// In double; in long double if the stiffness of a lever needs more digits (solid_extended.cpp).
 template <class Real>
 struct HexKernel {
   using Corners = Eigen::Matrix<Real, 3, 8>;
@@ -66,9 +66,9 @@ struct HexKernel {
 
   static Vector3 vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-  // Derivative of a nodal field by xi_i: a sum of differences along the four edges that run that way. So what
-  // both ends share, as top and bottom of a thin lever far from its clamp do, drops out before it is rounded:
-  // a strain has the digits of the displacements' differences, not of the displacements.
+  // Derivative of a nodal field by xi_i: a sum of differences along the four edges in that direction. What
+  // both ends share, as top and bottom of a thin lever far from its clamp do, thus cancels before rounding:
+  // a strain has the accuracy of the displacement differences, not of the displacements.
   static Vector3 gradient_of(const Corners& values, const ShapeGradient& d, int i) {
     static constexpr int edges[3][4][2] = {{{0, 1}, {3, 2}, {4, 5}, {7, 6}},
                                            {{0, 3}, {1, 2}, {4, 7}, {5, 6}},
@@ -84,8 +84,8 @@ struct HexKernel {
     return j;
   }
 
-  // Covariant strains e and their derivative b by the corners' displacements, at one point. Written in
-  // u, not in the deformed places, so that tiny displacements keep all their digits.
+  // Covariant strains e and their derivative b by the corner displacements, at one point. Written
+  // in u, not in current positions, so that tiny displacements keep all their digits.
   static void covariant_strain(const Corners& X, const Corners& u, const ShapeGradient& d, int row,
                                Voigt& e, StrainRows& b) {
     const auto [i, j] = entry(voigt_pair, row);
@@ -99,7 +99,7 @@ struct HexKernel {
           share * (d(a, i) * (Gj + Uj) + d(a, j) * (Gi + Ui)).transpose();
   }
 
-  // Cartesian from covariant strains, with J^-1, whose rows are the contravariant base vectors.
+  // From covariant to Cartesian strains, with J^-1, whose rows are the contravariant base vectors.
   static Voigt6 strain_transformation(const Matrix3& inverse) {
     Voigt6 t;
     for (int r = 0; r < 6; ++r) {
@@ -162,10 +162,10 @@ struct HexKernel {
     }
   };
 
-  // What one Gauss point needs in both passes.
+  // The data of one Gauss point that both passes need.
   struct Point {
     Real volume = 0;  // m^3, det J times the Gauss weight
-    Voigt strain;     // of the displacements alone
+    Voigt strain;     // from the displacements alone
     StrainRows b;     // its derivative
     Modes modes;
     Voigt6 transformation;
@@ -199,7 +199,7 @@ struct HexKernel {
     return p;
   }
 
-  // Adds volume * s^ij dN_a/dxi_i dN_b/dxi_j, what the stress does to a rotating element.
+  // Adds volume * s^ij dN_a/dxi_i dN_b/dxi_j, the geometric stiffness.
   static void add_geometric(const Point& p, const Voigt& s, const ThinShear* shear,
                             GeometricMatrix& g) {
     const auto add = [&](const ShapeGradient& d, int row, Real stress) {
@@ -225,7 +225,7 @@ struct HexKernel {
     return points;
   }
 
-  // The modes' equations before anything is added; where there are no modes they stay solvable.
+  // Initial value of the mode equations; without modes they stay solvable.
   static ModeMatrix no_modes_yet(HexFormulation formulation) {
     return formulation == HexFormulation::standard ? ModeMatrix(ModeMatrix::Identity())
                                                    : ModeMatrix(ModeMatrix::Zero());
@@ -237,7 +237,7 @@ struct HexKernel {
     return minimum;
   }
 
-  // Adds a point's stress and its derivative c to the tangent, the modes left aside.
+  // Adds a point's stress and its derivative c to the tangent, without the modes.
   static void add_tangent(const Point& p, const Voigt& stress, const Voigt6& c,
                           const ThinShear* shear, NodalMatrix& tangent,
                           GeometricMatrix& geometric) {
@@ -246,7 +246,7 @@ struct HexKernel {
     add_geometric(p, p.transformation.transpose() * stress, shear, geometric);
   }
 
-  // Condenses the modes, whose equations' tangent is h, and puts the geometric part on the diagonals.
+  // Condenses out the modes, with h the tangent of their equations; adds the geometric part to the diagonals.
   static void finish_tangent(const ModeCoupling& l, const Eigen::LLT<ModeMatrix>& h,
                              const GeometricMatrix& geometric, NodalMatrix& tangent) {
     tangent.noalias() -= l.transpose().lazyProduct(h.solve(l).eval());
@@ -256,10 +256,10 @@ struct HexKernel {
   }
 
   struct Response {
-    NodalVector force = NodalVector::Zero();    // N, what holds the element in place
+    NodalVector force = NodalVector::Zero();    // N, the forces that hold the element in place
     NodalMatrix tangent = NodalMatrix::Zero();  // N/m
     Real energy = 0;                            // J
-    Real min_determinant = 0;                   // of J, m^3; <= 0: the element is inside out
+    Real min_determinant = 0;                   // of J, m^3; <= 0: the element is inverted
   };
 
   static Response response(const Corners& X, const Corners& u, Real lambda, Real mu,

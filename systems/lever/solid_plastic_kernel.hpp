@@ -2,11 +2,11 @@
 //
 // Source   Green-Lagrange strain split into an elastic and a plastic part, E = E_e + E_p, with the second
 //          Piola-Kirchhoff stress S = C E_e: Green & Naghdi (1965). Radial return and consistent tangent:
-//          Simo & Hughes (1998), box 3.1 and 3.2, on the deviator of S. The incompatible modes make the
-//          element's stresses orthogonal to them (Simo & Rifai 1990); with plastic points that takes a few
-//          Newton steps of their own at every displacement.
+//          Simo & Hughes (1998), boxes 3.1 and 3.2, on the deviator of S. The incompatible modes make the
+//          element's stresses orthogonal to them (Simo & Rifai 1990); with plastic points this takes a few
+//          inner Newton steps for every displacement.
 // Symbols  theta, theta_bar, n as there; law: isotropic hardening of systems/body/j2_kernel.hpp
-// Valid    strains small against 1 (S is then the stress in the turned material), rotations of any size
+// Valid    strains small compared to 1 (S is then the stress in the rotated material), arbitrary rotations
 #pragma once
 
 #include "systems/body/j2_kernel.hpp"
@@ -14,9 +14,9 @@
 
 namespace pulvis::kernels {
 
-// What a Gauss point commits.
+// The committed state of a Gauss point.
 struct PlasticMemory {
-  Voigt strain = Voigt::Zero();  // E_p, shear doubled
+  Voigt strain = Voigt::Zero();  // E_p, engineering shear
   double accumulated = 0;        // -, equivalent plastic strain
 };
 using HexMemory = std::array<PlasticMemory, 8>;
@@ -24,7 +24,7 @@ using HexMemory = std::array<PlasticMemory, 8>;
 struct PlasticMaterial {
   double lambda = 0, mu = 0;  // Pa
   LinearHardening<double> law;
-  const HardeningLaw* curve = nullptr;  // instead of the line
+  const HardeningLaw* curve = nullptr;  // used instead of linear hardening
 };
 
 struct PlasticStress {
@@ -48,8 +48,8 @@ inline double flow_stress_of(const PlasticMaterial& m, double eps) {
   return std::visit([&](const auto& law) { return law.flow_stress(eps); }, *m.curve);
 }
 
-// Growth of the plastic strain, and the slope of the flow stress where it ends. Not a number where a curve gives none:
-// the increment is then cut, as where the modes find no balance.
+// Plastic strain increment, and the slope of the flow stress at its end. NaN if a curve gives none: the
+// increment is then cut, as it is if the modes find no balance.
 struct PlasticStep {
   double grown, modulus;
 };
@@ -69,8 +69,8 @@ inline PlasticStep plastic_step(const PlasticMaterial& m, double norm, double ex
       *m.curve);
 }
 
-// What exceeds the flow stress by round-off does not flow: a point that an equilibrium left on the yield surface
-// answers the next increment elastically first, and is not thrown far beyond where it unloads.
+// A stress that exceeds the flow stress only by round-off does not flow: a point left on the yield surface by an
+// equilibrium responds elastically first in the next increment, and does not overshoot when it unloads.
 inline PlasticStress return_map(const Voigt& strain, const PlasticMaterial& m,
                                 const Voigt6& elastic, const PlasticMemory& before) {
   PlasticStress p{elastic * (strain - before.strain), elastic, before};
@@ -98,7 +98,7 @@ inline PlasticStress return_map(const Voigt& strain, const PlasticMaterial& m,
   return p;
 }
 
-// The modes' amplitudes at which the stresses do no work on them.
+// The mode amplitudes for which the stresses do no work on the modes.
 struct ModeBalance {
   ModeVector alpha = ModeVector::Zero();
   ModeVector work;  // of the stresses on each mode
@@ -121,7 +121,7 @@ inline void evaluate_modes(const std::array<HexPoint, 8>& points, const PlasticM
   }
 }
 
-// Where no point flows any further the balance is linear: from there Newton's method starts. Returns the size
+// If no point yields further the balance is linear: Newton's method starts from that solution. Returns the size
 // of the terms of the work, which sets its round-off.
 inline double elastic_modes(const std::array<HexPoint, 8>& points, const Voigt6& elastic,
                             HexFormulation formulation, const HexMemory& before, ModeBalance& b) {
@@ -139,7 +139,7 @@ inline double elastic_modes(const std::array<HexPoint, 8>& points, const Voigt6&
   return size;
 }
 
-// The work is the derivative of a convex function of the amplitudes: a step that goes beyond its minimum is
+// The work is the derivative of a convex function of the amplitudes: a step that overshoots its minimum is
 // halved.
 inline ModeBalance balance_modes(const std::array<HexPoint, 8>& points, const PlasticMaterial& m,
                                  const Voigt6& elastic, HexFormulation formulation,
@@ -165,8 +165,8 @@ inline ModeBalance balance_modes(const std::array<HexPoint, 8>& points, const Pl
   return b;
 }
 
-// The response, and what the points would store if this displacement were kept. Where the modes find no
-// balance the force is not a number: the increment is then cut.
+// The response, and the state that the points would commit at this displacement. If the modes find no
+// balance the force is NaN: the increment is then cut.
 inline HexResponse plastic_response(const Corners& X, const Corners& u, const PlasticMaterial& m,
                                     HexFormulation formulation, const HexMemory& before,
                                     bool with_tangent, HexMemory* after = nullptr) {

@@ -1,4 +1,4 @@
-// commit_plasticity: the plastic strains of an equilibrium become those that the next increment starts from.
+// commit_plasticity: the plastic strains of an equilibrium become the initial state of the next increment.
 //
 // Source   systems/lever/solid_plastic_kernel.hpp
 // Runs     after an increment has found its equilibrium, never within an iteration

@@ -1,5 +1,5 @@
-// One element's response from the columns of the solid: what solid_element, element_force,
-// commit_plasticity, the tetrahedra's systems and factorise_extended share.
+// One element's response from the columns of the solid: shared by solid_element, element_force,
+// commit_plasticity, the systems of the tetrahedra and factorise_extended.
 #pragma once
 
 #include "engine/entry.hpp"

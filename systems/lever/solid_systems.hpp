@@ -1,5 +1,5 @@
-// The systems of the quasi-static solver. What a system reads and writes is what it declares here, once;
-// systems/lever/static_solver.cpp puts them in order, and each is described at the top of its own file.
+// Systems of the quasi-static solver. What a system reads and writes is declared here and nowhere else;
+// systems/lever/static_solver.cpp sets their order, and each is described at the top of its own file.
 #pragma once
 
 #include "engine/system.hpp"
@@ -9,11 +9,11 @@
 
 namespace pulvis {
 
-// Only where a material of the solid yields. Mode: of the plastic strains of the last equilibrium.
+// Only if a material of the solid yields. Mode: access to the plastic strains of the last equilibrium.
 template <template <class> class Mode>
 struct SolidPlasticity {
   Read<SolidYield> yield;
-  Optional<Read<FlowLaws>> laws;  // of the parts; without them all harden linearly
+  Optional<Read<FlowLaws>> laws;  // one per part; without them all harden linearly
   Mode<SolidMemory> memory;
 };
 
@@ -131,7 +131,7 @@ struct contact_direction {
   void operator()() const;
 };
 
-// ---- what an equilibrium leaves -------------------------------------------------------------------
+// ---- after an equilibrium -------------------------------------------------------------------------
 struct commit_contact {
   Configuration configuration;
   Read<Target> target;

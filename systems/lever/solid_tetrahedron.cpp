@@ -1,8 +1,8 @@
-// solid_tetrahedron, tetrahedron_force: what every tetrahedron answers to its nodes' displacements: forces, energy,
-// and with the first also the tangent.
+// solid_tetrahedron, tetrahedron_force: response of every tetrahedron to its nodal displacements: forces, energy,
+// and for the first also the tangent.
 //
 // Source   systems/lever/solid_tetrahedron_kernel.hpp
-// Runs     beside solid_element, first in every evaluation of an equilibrium iteration
+// Runs     alongside solid_element, first in every evaluation of an equilibrium iteration
 // Active   when a mesh from a file has tetrahedra
 #include "systems/lever/solid_response.hpp"
 
@@ -16,7 +16,7 @@ void for_tetrahedra(Chunk chunk, const SolidMesh& mesh, const Each& each) {
     each(Row<SolidTetrahedron>(e));
 }
 
-// Of solid_tetrahedron or tetrahedron_force: stores forces and energy, and gives all.
+// For solid_tetrahedron or tetrahedron_force: stores forces and energy, and returns everything.
 template <class System>
 kernels::TetrahedronResponse stored_response(const System& system, Row<SolidTetrahedron> row,
                                              bool with_tangent) {

@@ -2,10 +2,10 @@
 //
 // Source   Total Lagrangian with quadratic shape functions and straight edges, so that the Jacobian is
 //          constant (Bathe 1996, secs. 5.3, 6.3); four Gauss points, exact for the linear element's energy:
-//          4 x 6 strains are as many as the 30 displacements less six rigid motions
+//          4 x 6 strains match the 30 displacements less six rigid motions
 // Symbols  X, u [3, 10] nodes and their displacements, m; E Green-Lagrange strain, S its stress (second
 //          Piola-Kirchhoff), Pa; H = du/dX; L barycentric coordinates
-// Valid    strains small against 1; rotations of any size
+// Valid    strains small compared to 1; arbitrary rotations
 #pragma once
 
 #include <Eigen/Dense>
@@ -16,10 +16,10 @@
 
 namespace pulvis::kernels {
 
-// Corners between which the nodes 4 to 9 lie.
+// Corners of the edges on which nodes 4 to 9 lie.
 inline constexpr int tetrahedron_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}};
 
-// As HexKernel, in double or long double.
+// Like HexKernel, in double or long double.
 template <class Real>
 struct TetrahedronKernel {
   using Nodes = Eigen::Matrix<Real, 3, 10>;
@@ -53,7 +53,7 @@ struct TetrahedronKernel {
     barycentric.template bottomRows<3>() = jacobian.inverse();
     barycentric.row(0) = -barycentric.template bottomRows<3>().colwise().sum();
     const Real volume = jacobian.determinant() / 24;  // of each Gauss point
-    // What all nodes share drops out before it is rounded.
+    // The common translation cancels before it is rounded.
     const Nodes own = u.colwise() - u.col(0);
     const Voigt6 c = HexKernel<Real>::elasticity(lambda, mu);
 
@@ -69,7 +69,7 @@ struct TetrahedronKernel {
       const Matrix3 e = Real(0.5) * (h + h.transpose() + h.transpose() * h);
       const Matrix3 s = lambda * e.trace() * Matrix3::Identity() + 2 * mu * e;
       r.energy += 0.5 * volume * e.cwiseProduct(s).sum();
-      const Matrix3 first = volume * f * s;  // of Piola and Kirchhoff
+      const Matrix3 first = volume * f * s;  // first Piola-Kirchhoff stress times volume
       const Nodes nodal = first.lazyProduct(d.transpose());
       r.force += nodal.reshaped();
       if (!with_tangent) continue;

@@ -9,7 +9,7 @@
 namespace pulvis {
 namespace {
 
-// ---- the order of an equilibrium iteration: a newcomer's first page ---------------------------
+// ---- the order of an equilibrium iteration: start reading here --------------------------------
 std::vector<System> evaluation(World& w, bool with_tangent) {
   std::vector<System> list{with_tangent ? make_system<solid_element>(w, "solid_element")
                                         : make_system<element_force>(w, "element_force")};
@@ -34,7 +34,7 @@ std::vector<System> linearisation(World& w) {
   return list;
 }
 
-// With the solid's factors of an earlier iteration, or new ones. The contact is always solved anew.
+// With the solid's factors from an earlier iteration, or new ones. The contact is always solved anew.
 std::vector<System> iteration(World& w, bool new_factors) {
   std::vector<System> list = new_factors ? linearisation(w) : evaluation(w, false);
   list.push_back(make_system<newton_direction>(w, "newton_direction"));
@@ -42,7 +42,7 @@ std::vector<System> iteration(World& w, bool new_factors) {
   return list;
 }
 
-// What an equilibrium leaves behind for the next increment.
+// What an equilibrium carries over to the next increment.
 std::vector<System> memory(World& w) {
   std::vector<System> list;
   if (w.has<ProbeNode>()) list.push_back(make_system<commit_contact>(w, "commit_contact"));
@@ -177,10 +177,10 @@ double StaticSolver::error() const {
 }
 
 // Where a stiff tip hangs on a soft lever, round-off in its displacements leaves more than the tolerance: a residual
-// that no longer falls is as good as it gets, where Newton's method itself would hardly move on. (A lever 10,000 times
-// longer than thick answers the last digit of its displacements with more than its load.) Then the law of contact
-// holds where its forces fit the places, or where both have stopped changing: the places of a ball a
-// thousand times stiffer than its lever are good to 1e-13 of its displacement, which is 1e-5 of its forces.
+// that no longer falls is as good as it gets, provided Newton's method itself would hardly move on. (For a lever
+// 10,000 times longer than thick, the last digit of its displacements is worth more than its load.) The contact law
+// is satisfied if its forces fit the positions, or if both have stopped changing: the positions of a ball a
+// thousand times stiffer than its lever are accurate to 1e-13 of its displacement, which is 1e-5 of its forces.
 bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& settings) const {
   const auto& equations = world_.resource<SolidEquations>();
   const bool stays = r.size() > 1 && r.back() > 0.1 * r[r.size() - 2];
@@ -194,7 +194,7 @@ bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& s
   return r.back() <= settings.tolerance || floor;
 }
 
-// Of Newton's direction, over the displacements or the scanner's displacement.
+// Of the Newton step, over the displacements or the scanner's displacement.
 double StaticSolver::step_size() const {
   const auto& u = world_.column<Displacement>();
   double largest = 0;
@@ -208,8 +208,8 @@ double StaticSolver::step_size() const {
 }
 
 // The full step is taken at first: the residual of a thin lever, whose membrane is a million times stiffer
-// than its bending, rises far above its start and then falls quadratically. From the third iteration on
-// a step must not make it grow tenfold; it is halved until it does not.
+// than its bending, rises far above its initial value and then falls quadratically. From the third iteration
+// on a step must not increase it tenfold; it is halved until it does not.
 NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   NewtonReport report;
   const auto& equations = world_.resource<SolidEquations>();
@@ -225,12 +225,12 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
     stop_if_asked();
     (reuse ? reuse_ : *iterate_).run();
     report.residuals.push_back(error());
-    // Factors that do not gain a digit an iteration are too old, until round-off is reached.
-    // (The first one started from balance: what the contact's new forces left is no measure.)
+    // Factors that do not gain a digit per iteration are too old, until round-off is reached.
+    // (The first iteration started from balance: the residual left by the new contact forces is no measure.)
     const bool good = error() <= settings.round_off || i == 1 ||
                       (i > 0 && error() < 0.1 * report.residuals[report.residuals.size() - 2]);
-    // A very stiff tip that has turned by a thousandth of a radian is another one for the old factors:
-    // what they made of it is too far off to go on from.
+    // A very stiff tip that has rotated by a thousandth of a radian is too different for the old factors:
+    // their result is too far off to continue from.
     if (i == 2 && old_at_first && reuse && !(error() < 0.5 * report.residuals[1] || good)) {
       restore(start);
       report = {};

@@ -1,7 +1,7 @@
 // Equilibrium of a solid under dead loads and contact, by Newton's method with a line search.
 //
 // An iteration is a task graph, like a step of the explicit method: evaluate (elements, forces, tangent,
-// residual), factorise, direction. The loop around it lives here.
+// residual), factorise, direction. The iteration loop is here.
 #pragma once
 
 #include <memory>
@@ -15,17 +15,17 @@ namespace pulvis {
 
 struct NewtonSettings {
   double tolerance = 1e-10;   // -, residual over the forces that must balance
-  double round_off = 1e-7;    // -, the same, below which a residual that stays is round-off
-  double step = 1e-6;         // -, Newton's step over the displacements, that round-off may leave
-  double last_digits = 1e-9;  // -, the same, where it is all that counts: in extended precision
+  double round_off = 1e-7;    // -, the same, below which a residual that stalls counts as round-off
+  double step = 1e-6;         // -, Newton step over displacements, tolerated as round-off
+  double last_digits = 1e-9;  // -, the same, if it is the only criterion: in extended precision
   double contact_tolerance =
-      1e-7;             // -, force that breaks the law of contact, or that the servo misses
-  int iterations = 25;  // after which the increment counts as failed
-  // The solid's factors are kept from one iteration and increment to the next while they gain a digit each
-  // time: a tip drawn over a surface hardly turns its lever. Without it the convergence is quadratic.
+      1e-7;             // -, violation of the contact law by forces, or force error of the servo
+  int iterations = 25;  // maximum, before the increment counts as failed
+  // The solid's factors are reused across iterations and increments while they gain a digit each time: a
+  // tip dragged over a surface hardly rotates its lever. Without reuse, convergence is quadratic.
   bool reuse_factors = false;
-  bool may_jump = false;  // of the probe, to an equilibrium further off; nothing smaller will do
-  int cuts = 12;          // halvings of a step that the line search tries
+  bool may_jump = false;  // for the probe, to a distant equilibrium; nothing less will do
+  int cuts = 12;          // maximum step halvings in the line search
 };
 
 struct NewtonReport {
@@ -34,13 +34,13 @@ struct NewtonReport {
   double released = 0;            // J, by a jump of the probe
 };
 
-// Columns and resources that every solid needs; the mesh and the material are there already.
+// Columns and resources that every solid needs; the mesh and the material must exist already.
 void add_solid_columns(World& world);
-// Of a solid that has tetrahedra.
+// For a solid with tetrahedra.
 void add_tetrahedron_columns(World& world);
-// Of a solid some of whose elements yield.
+// For a solid in which some elements yield.
 void add_plastic_columns(World& world);
-// Of a probe of so many points; the target is there already.
+// For a probe with that many points; the target must exist already.
 void add_probe_columns(World& world, std::size_t points);
 
 class StaticSolver {
@@ -49,26 +49,26 @@ class StaticSolver {
   explicit StaticSolver(World& world);
   ~StaticSolver();
 
-  // Evaluates and factorises at the present displacements.
+  // Evaluates and factorises at the current displacements.
   void linearise();
-  // Of the last linearisation: displacements [3 nodes] by forces [3 nodes], held and hanging nodes
+  // Response of the last linearisation: displacements [3 nodes] to forces [3 nodes], fixed and hanging nodes
   // included.
   std::vector<double> respond(std::span<const double> forces) const;
-  // Newton's method from the present displacements; they are left as they were where it fails, and so is
-  // the target's height where a servo moves it.
+  // Newton's method from the current displacements; if it fails they are restored, and so is the height of
+  // the target if a servo moves it.
   NewtonReport equilibrate(const NewtonSettings& settings = {});
-  // Evaluates the forces, no tangent.
+  // Evaluates the forces, not the tangent.
   void look() { look_.run(); }
-  // What contact and plasticity carry on to the next increment, from the present equilibrium.
+  // Commits the contact and plasticity state of the current equilibrium for the next increment.
   void commit();
 
-  // From now on with factors in long double: for a lever so thin or soft that those in double do not answer.
+  // Switches to factors in long double: for a lever so thin or soft that those in double do not converge.
   void extend_precision();
   bool in_extended_precision() const;
-  // All pivots of the last factorisation are positive, as a solid's at rest must be.
+  // All pivots of the last factorisation are positive, as required of a solid at rest.
   bool stable() const;
 
-  // What an equilibrium is searched in: displacements, forces of the contact, height of the target.
+  // Unknowns of the equilibrium search: displacements, contact forces, height of the target.
   struct State {
     std::vector<double> displacement, force;  // m [3 nodes], N [3 points]
     double height = 0;                        // m

@@ -1,10 +1,10 @@
-// Areas that closed outlines have in common with every cell of a rectangular grid, exactly.
+// Areas of the intersections of closed outlines with each cell of a rectangular grid, exact.
 //
 // Law      Green: the area of an outline (material on the left) between the lines y = b and y = b + h and
 //          within a strip of x is -integral of clamp(y - b, 0, h) dx over its edges in the strip. Edges are
-//          straight, so that the integral is that of trapezoids. No outline is cut or closed anew: any
+//          straight, so that the integral is that of trapezoids. No outline is clipped or closed again: any
 //          simple polygon will do, with holes (clockwise), inside, across or around the grid.
-// Cost     of an edge: the cells that it crosses; what lies below an edge is added up at the end.
+// Cost     per edge: the cells that it crosses; everything below an edge is accumulated at the end.
 // Range    coordinates in units of a cell, from the lower left corner of the grid
 #pragma once
 
@@ -23,7 +23,7 @@ class CellAreas {
         crossed_(count(columns, rows)),
         below_(count(columns, rows + 1)) {}
 
-  // From (x0, y0) to (x1, y1). `weight` 1, or -1 where the material is on the right.
+  // From (x0, y0) to (x1, y1). `weight` 1, or -1 if the material is on the right.
   void add_edge(double x0, double y0, double x1, double y1, double weight = 1) {
     if (x0 == x1) return;
     if (x0 < x1)
@@ -68,7 +68,7 @@ class CellAreas {
     }
   }
 
-  // An edge of signed width `width` that goes from height `low` to `high`, up or down, in column i.
+  // An edge of signed width `width` from height `low` to `high`, up or down, in column i.
   void add_in_column(int i, double low, double high, double width) {
     if (!(high > 0)) return;
     const auto rows = static_cast<double>(rows_);
@@ -89,7 +89,7 @@ class CellAreas {
   }
 
   int columns_, rows_;
-  std::vector<double> crossed_;  // [rows * columns]: by edges in the cell
+  std::vector<double> crossed_;  // [rows * columns]: from edges within the cell
   std::vector<double> below_;    // [(rows + 1) * columns]: widths of edges with so many rows below
 };
 

@@ -1,11 +1,11 @@
-// contact_network: the points of all contact rows summed up into one contact for every pair of particles,
+// contact_network: combines the points of all contact rows into one contact for every pair of particles,
 // and for every particle and tool that touch.
 //
 // Law      force = sum over the points of both half passes, as contact_force gives them to the bodies; the
-//          normal is the direction of the sum of their normal parts, so that it does not depend on where
-//          the mesh nodes lie. Length: current length that the touching points stand for, mean of both sides
+//          normal is the direction of the sum of their normal components, so that it does not depend on the
+//          mesh nodes. Length: current tributary length of the touching points, mean of both sides
 // Runs     on sampled steps, after the narrow phases
-// Active   when the scene asks for contacts
+// Active   when the scene requests contacts
 #include <algorithm>
 
 #include "engine/entry.hpp"
@@ -17,13 +17,13 @@
 namespace pulvis {
 namespace {
 
-// Sums of a contact while its points are gathered.
+// Running sums of a contact.
 struct Gathered {
   ContactLink link;
-  Image image{};  // of its second particle
+  Image image{};  // of the second particle
   double weight = 0;
 
-  // `force` on the sampled side, `normal` into it; `side` -1 where that is the link's second particle.
+  // `force` on the sampled side, `normal` into it; `side` -1 if that is the link's second particle.
   void add(const Point& at, const Point& normal, const Point& force, double length, double side) {
     const double size = length_of(force);
     const double push = force[0] * normal[0] + force[1] * normal[1];
@@ -62,7 +62,7 @@ class Partners {
     all_.back().image = image;
     return all_.back();
   }
-  // Points may touch without a force, where the surfaces just meet: those make no contact.
+  // Points may touch without a force, where the surfaces just meet: those form no contact.
   void move_to(std::vector<ContactLink>& links, double sides) const {
     for (const Gathered& g : all_)
       if (g.weight > 0) links.push_back(g.finished(sides));
@@ -73,8 +73,8 @@ class Partners {
   std::vector<Gathered> all_;
 };
 
-// Adds the points of a row that bear a force; normal_at(point, g) looks into the sampled particle. `shift` m, from where the
-// sampled particle is to where it touches the link's first one.
+// Adds the points of a row that carry a force; normal_at(point, g) points into the sampled particle. `shift` m, from the
+// position of the sampled particle to where it touches the link's first one.
 template <class At, class NormalAt>
 void add_points(const Curve& sampled, const Read<PointForce<At>>& force, Row<At> row, double side,
                 const NormalAt& normal_at, Gathered& contact, const Point& shift = {}) {
@@ -109,11 +109,11 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
   const auto image_of = [&](Row<Contact> row) {
     return pairs.images ? pairs.images->of(row) : Image{};
   };
-  // Of the two links of a particle with an image of itself one is kept.
+  // Of the two links between a particle and its own image one is kept.
   const auto counts = [](int number, int other, const Image& image) {
     return other > number || (other == number && image > Image{});
   };
-  // Each pair belongs to its particle of lower number, whose rows and those against it are looked through.
+  // Each pair belongs to its particle of lower number, whose rows and those against it are searched.
   auto links = list_by_slot<ContactLink>(
       static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ContactLink>& found) {
         const int number = outlines.number(slot);

@@ -1,13 +1,13 @@
-// contact_quality: how far the outlines sink into each other, and which contacts are too narrow for their mesh.
+// contact_quality: how far the outlines penetrate each other, and which contacts are too narrow for their mesh.
 //
-// Law      overlap = sum over the touching points of gap times the length they stand for; of a pair both
-//          half passes see all of it, hence half of each. Penetration work = sum of normal force times
-//          gap: what a penetration costs the tools in displacement, by virtual work (scenes/results/contact_findings.hpp).
-//          Width of a contact in edges: the shares of its edges that its touching points stand for. A face
-//          of one edge between two corners counts as wide enough: what presses on the whole of it is no
-//          contact of curved outlines
+// Law      overlap = sum over the touching points of gap times tributary length; for a pair both half
+//          passes see all of it, hence half of each. Penetration work = sum of normal force times gap:
+//          the tool displacement that penetration costs, by virtual work (scenes/results/contact_findings.hpp).
+//          Width of a contact in edges: sum of the tributary shares of its touching points in their edges. A
+//          face of one edge between two corners counts as wide enough: if the whole of it is in contact it is
+//          not a contact of curved outlines
 // Runs     on sampled steps, after the narrow phases
-// Active   wherever there is contact
+// Active   when contact is possible
 #include <algorithm>
 
 #include "engine/entry.hpp"
@@ -19,7 +19,7 @@
 namespace pulvis {
 namespace {
 
-// What one outline feels of one other, or of a tool.
+// Contact of one outline with one other, or with a tool.
 struct Side {
   int other = 0;
   Point force{};      // N
@@ -28,7 +28,7 @@ struct Side {
   bool face = false;  // a whole face of one edge between two corners
 };
 
-// All that one particle contributes.
+// Contributions of one particle.
 struct Found {
   double overlap = 0;  // m^2
   double work = 0;     // J
@@ -47,7 +47,7 @@ struct Gap {
   Point normal;  // into the sampled particle
 };
 
-// `gap_at(point, g)`: how deep the point of the row is in the other. `share` of the overlap that is the row's.
+// `gap_at(point, g)`: depth of the row's point in the other body. `share` of the overlap counted for the row.
 template <class At, class GapAt>
 void add_row(const Curve& sampled, const Shape::Edge& edge, const Read<PointForce<At>>& force,
              Row<At> row, double share, int other, const GapAt& gap_at, Found& found) {

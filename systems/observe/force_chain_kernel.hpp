@@ -1,11 +1,11 @@
-// Force chains: which particles carry the load from one to the next.
+// Force chains: which particles pass the load on from one to the next.
 //
 // Source   Peters, Muthuswamy, Wibowo & Tordesillas, "Characterization of force chains in granular
 //          material", Phys. Rev. E 72, 041307 (2005)
 // Law      A particle can be part of a chain if its major principal compression is above the mean of all
-//          particles. It leads on to a particle that touches it, can be part of one too, and lies within 45
-//          degrees of the direction of that compression, if the same holds from there. Chains have three
-//          particles at least; branches belong to the chain
+//          particles. It leads on to a touching particle that can be part of one too and lies within 45
+//          degrees of the direction of that compression, if the same holds from there. Chains have at least
+//          three particles; branches belong to the chain
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct PlaneStress {  // Pa, in the plane of the slice; tension > 0
   double xx = 0, yy = 0, xy = 0;
 };
 
-template <std::size_t N>  // of so many dimensions
+template <std::size_t N>  // number of dimensions
 struct MajorCompression {
   double size = 0;                    // Pa, > 0 in compression
   std::array<double, N> direction{};  // unit vector
@@ -42,7 +42,7 @@ inline MajorCompression<2> major_compression(const PlaneStress& s) {
 
 inline constexpr int min_of_a_chain = 3;
 
-// By particle: its chain, numbered from 1 in the order of their first particles; 0 where it is in none.
+// Per particle: its chain, numbered from 1 in the order of their first particles; 0 if it is in none.
 template <std::size_t N>
 std::vector<std::int32_t> chains_of(
     const std::vector<MajorCompression<N>>& load, std::span<const std::array<double, N>> centre,

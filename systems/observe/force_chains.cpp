@@ -2,7 +2,7 @@
 //
 // Source   systems/observe/force_chain_kernel.hpp
 // Runs     on sampled steps, after particle_stress and contact_network
-// Active   when the scene asks for contacts
+// Active   when the scene requests contacts
 #include "systems/observe/force_chain_kernel.hpp"
 #include "systems/observe/systems.hpp"
 

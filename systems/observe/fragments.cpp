@@ -1,7 +1,7 @@
-// fragments: which particles bonds hold together, and how much of every particle's bonds is broken.
+// fragments: which particles are held together by bonds, and the broken share of every particle's bonds.
 //
-// Law      a bond between particles joins them as long as one of its points holds, whatever made it; bonds with tools
-//          join nothing. What is broken is counted of bonds made at the start, not of welds
+// Law      a bond between particles joins them as long as one of its points holds, whatever its origin; bonds with
+//          tools join nothing. The broken share counts bonds made at the start, not welds
 // Runs     on sampled steps, after bond_totals
 // Active   when the scene has bonds
 #include "systems/observe/fragments_kernel.hpp"
@@ -13,7 +13,7 @@
 namespace pulvis {
 namespace {
 
-// Adds up what holds. `other_of(row)`: number of the particle on the other side, or none (-1).
+// Adds up the intact bonds. `other_of(row)`: number of the particle on the other side, or none (-1).
 template <class At>
 class BondsThatHold {
  public:
@@ -38,7 +38,7 @@ class BondsThatHold {
   }
 
  private:
-  // m, as of cracks: half of it where the other side samples, too.
+  // m, as for cracks: half of it if the other side is sampled too.
   double length_of_points(Row<At> row, unsigned points) const {
     constexpr double share = std::is_same_v<At, Contact> ? 0.5 : 1;
     double area = 0;

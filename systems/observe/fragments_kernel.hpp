@@ -1,4 +1,4 @@
-// Particles that hold together.
+// Groups of particles held together by bonds.
 //
 // Source   disjoint sets with path halving: Tarjan & van Leeuwen, J. ACM 31(2), 245 (1984). The root of a set is its
 //          lowest number, so that the result does not depend on the order of the bonds

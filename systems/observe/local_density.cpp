@@ -1,11 +1,11 @@
-// local_density: how much of every cell of a grid between the tools is particle, and how much is tool.
+// local_density: particle area and tool area in every cell of a grid between the tools.
 //
 // Source   systems/observe/cell_area_kernel.hpp. The outlines are the polygons of the boundary nodes, whose area
-//          is that of the particle. The grid spans the tools' true surfaces at that time; where a side is a
-//          polyline it reaches to the deepest point of its face, and the cells lose what the tool fills. Beyond
+//          equals that of the particle. The grid spans the actual tool surfaces at that time; on a polyline
+//          side it reaches to the deepest point of its face, and the area filled by the tool is removed. Beyond
 //          the end of a face (the mouth of a die) there is no grid, and no area in it once the punches are there
 // Runs     on sampled steps
-// Active   when the scene asks for density cells
+// Active   when the scene requests density cells
 #include <algorithm>
 #include <limits>
 
@@ -30,7 +30,7 @@ Point beyond(const Point& end, const Point& inner, double far) {
   return {end[0] + far * dx / length, end[1] + far * dy / length};
 }
 
-// The chain of a polyline tool where it stands, with straight ends that go on for `far`.
+// The chain of a polyline tool at its current position, with straight ends extended by `far`.
 std::vector<Point> chain_of(const std::vector<Point>& surface, Point tool, double far) {
   std::vector<Point> chain{{}};
   for (const Point& p : surface) chain.push_back({tool[0] + p[0], tool[1] + p[1]});
@@ -39,17 +39,17 @@ std::vector<Point> chain_of(const std::vector<Point>& surface, Point tool, doubl
   return chain;
 }
 
-// The part of a polyline tool that looks into the powder: without the ends of its chain that lead aside, as the
-// land around the mouth of a die does. An end that looks into the powder goes on without end.
+// The part of a polyline tool that faces the powder: without the ends of its chain that turn aside, like the
+// land around the mouth of a die. An end that faces the powder extends without end.
 struct Face {
   std::vector<Point> chain;
-  double farthest = 0;                    // m: outwards, of the points of the tool's own surface
-  double low = -endless, high = endless;  // m: how far it goes along its side
+  double farthest = 0;                    // m: outermost of the points of the tool's own surface
+  double low = -endless, high = endless;  // m: its extent along its side
 };
 
 struct FaceRange {
   std::size_t first, last;     // points of the surface
-  bool open_first, open_last;  // goes on beyond them
+  bool open_first, open_last;  // extends beyond them
 };
 
 FaceRange face_range(const std::vector<Point>& surface, int side) {
@@ -68,7 +68,7 @@ FaceRange face_range(const std::vector<Point>& surface, int side) {
 Face face_of(const std::vector<Point>& surface, int side, Point tool, double far) {
   const std::size_t along = across(side), out = 1 - along;
   const FaceRange range = face_range(surface, side);
-  std::vector<Point> chain = chain_of(surface, tool, far);  // one point more at both ends
+  std::vector<Point> chain = chain_of(surface, tool, far);  // one more point at both ends
   chain.erase(chain.begin() + static_cast<std::ptrdiff_t>(range.last + (range.open_last ? 3 : 2)),
               chain.end());
   chain.erase(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(
@@ -87,7 +87,7 @@ Face face_of(const std::vector<Point>& surface, int side, Point tool, double far
   return face;
 }
 
-// Farthest outwards that the chain of `side` comes between `low` and `high` of the other axis.
+// Outermost position that the chain of `side` reaches between `low` and `high` of the other axis.
 double farthest(const std::vector<Point>& chain, int side, double low, double high) {
   const std::size_t along = across(side), out = 1 - along;
   double maximum = -endless;
@@ -125,7 +125,7 @@ class Grid {
     over_ = {1 / cell_[0], 1 / cell_[1]};
   }
 
-  // Nothing is left of the die between its punches: they stand beyond its mouth.
+  // Nothing is left of the die between its punches: they are beyond its mouth.
   bool empty() const { return !(cell_[0] > 0 && cell_[1] > 0); }
   double cell_area() const { return cell_[0] * cell_[1]; }
 
@@ -135,7 +135,7 @@ class Grid {
                    (b[1] - y0) * over_[1], weight);
   }
 
-  // The body of a polyline tool, to the right of its chain: closed far outside of the grid.
+  // The body of a polyline tool, to the right of its chain: closed far outside the grid.
   void add_tool(kernels::CellAreas& areas, int side) const {
     std::vector<Point> body = chain(side);
     Point begin = body.front(), end = body.back();
@@ -150,7 +150,7 @@ class Grid {
  private:
   bool is_plane(int side) const { return entry(grid_.surface, side).empty(); }
 
-  // As far as planes and faces go: no side of the grid is where the tools beside it have ended.
+  // Limited to the planes and faces: the grid has no side where the tools beside it have ended.
   void set_sides() {
     std::array<Face, 4> face;
     for (int s = 0; s < 4; ++s) {
@@ -198,7 +198,7 @@ void local_density::operator()() const {
     return;
   }
   kernels::CellAreas particles(grid->columns, grid->rows), tools(grid->columns, grid->rows);
-  for (const int slot : bodies->slot_of_number) {  // one after the other: the same bits always
+  for (const int slot : bodies->slot_of_number) {  // sequential: always bitwise identical
     const auto x = position.chunk(Chunk{slot / lane_count});
     const int lane = slot % lane_count, shape = entry(bodies->slots, slot).shape;
     for (const auto& [a, b] : entry(grid->outline, shape))

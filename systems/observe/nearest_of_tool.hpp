@@ -1,4 +1,4 @@
-// How far a point of an outline is from a tool's surface, for those who look at contacts on sampled steps.
+// Distance of a point of an outline from a tool's surface, for observers of contacts on sampled steps.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@
 namespace pulvis {
 
 struct NearestOfTool {
-  double distance;  // m, > 0 in the powder
+  double distance;  // m, > 0 on the powder side
   Point normal;     // out of the tool
 };
 

@@ -1,9 +1,9 @@
-// What a contact network is like as a whole: coordination, fabric, forces, orientation.
+// Overall measures of a contact network: coordination, fabric, forces, orientation.
 //
 // Source   fabric tensor: Satake, "Fabric tensor in granular materials" (1982); Oda, Soils & Foundations
 //          22(4), 96 (1982)
 // Law      F_ij = mean over the contacts of n_i n_j: trace 1; anisotropy = difference of its principal
-//          values, 0 where all directions are alike, 1 where all contacts are parallel
+//          values, 0 if the directions are isotropic, 1 if all contacts are parallel
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace pulvis::kernels {
 struct Fabric {
   double xx = 0, xy = 0, yy = 0;
   double anisotropy() const { return 2 * portable::hypot(0.5 * (xx - yy), xy); }
-  // rad, in (-pi/2, pi/2]: of the direction that most contacts face.
+  // rad, in (-pi/2, pi/2]: the preferred direction of the contact normals.
   double angle() const { return 0.5 * portable::atan2(2 * xy, xx - yy); }
 };
 
@@ -51,7 +51,7 @@ ForceSizes force_sizes(const Links& links) {
   return sizes;
 }
 
-// By particle: how many others, or tools, it touches.
+// Per particle: how many other particles, or tools, it touches.
 template <class Links>
 void count_contacts(const Links& links, bool both, std::vector<double>& counts) {
   for (const auto& link : links) {
@@ -60,12 +60,12 @@ void count_contacts(const Links& links, bool both, std::vector<double>& counts) 
   }
 }
 
-// Directions of contact normals, from 0 to 180 degrees since a contact faces both ways. Sector k lies around
-// k times 180/18 degrees, so that the axes are middles of sectors.
+// Directions of contact normals, from 0 to 180 degrees since a contact faces both ways. Sector k is at
+// k times 180/18 degrees, so that the axes are sector centres.
 inline constexpr int rose_sectors = 18;
 
 struct Rose {
-  std::array<double, rose_sectors> number{}, force{};  // shares of all; sums 1
+  std::array<double, rose_sectors> number{}, force{};  // shares of all contacts; each sums to 1
 };
 
 inline Rose rose(std::span<const ContactLink> links) {

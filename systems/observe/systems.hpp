@@ -1,5 +1,5 @@
-// Systems of sampled steps that look at a powder as a whole. What a system reads and writes is what it declares here,
-// once; systems/step.cpp puts them in order, and each is described at the top of its own file.
+// Systems that observe the powder as a whole on sampled steps. What a system reads and writes is declared here and
+// nowhere else; systems/step.cpp sets their order, and each is described at the top of its own file.
 #pragma once
 
 #include "components/bond.hpp"
@@ -46,7 +46,7 @@ struct BondedRows {
 };
 struct fragments {
   Read<Bodies> bodies;
-  Optional<Read<BondRules>> rules;  // where anything can touch
+  Optional<Read<BondRules>> rules;  // if contact is possible
   Read<BondTotals> totals;
   Optional<BondedRows<Contact>> pairs;
   Optional<BondedRows<ToolContact>> tools;

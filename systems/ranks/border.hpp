@@ -1,4 +1,4 @@
-// How ranks tell each other where the outlines of particles are.
+// How ranks exchange the outlines of particles.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// A column of outlines: in two dimensions of control points, in three of Bezier points.
+// An outline column: control points in two dimensions, Bezier points in three.
 class Outlines {
  public:
   template <class C>
@@ -29,17 +29,17 @@ class Outlines {
   std::size_t numbers_;
 };
 
-// What the outlines of `slots` are in all columns, one after the other, and back.
+// Packs the outlines of `slots` from all columns, one after the other, and unpacks them.
 Ranks::Bytes packed(const Bodies& bodies, std::span<const int> slots,
                     std::span<const Outlines> columns);
 void unpack(std::span<const std::byte> bytes, const Bodies& bodies, std::span<const int> slots,
             std::span<const Outlines> columns);
 
-// Slots as a message, and back.
+// Slots to a message, and back.
 Ranks::Bytes bytes_of_slots(const std::vector<int>& slots);
 std::vector<int> slots_in(const Ranks::Bytes& bytes);
 
-// All of the border, at once; nothing where the run has one process.
+// Exchanges the whole border at once; does nothing if the run has one process.
 void tell_border(RankLink& link, const Bodies& bodies, std::span<const Outlines> columns);
 inline void tell_border(RankLink& link, const Bodies& bodies, const Outlines& column) {
   tell_border(link, bodies, std::span(&column, 1));

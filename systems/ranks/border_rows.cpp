@@ -1,7 +1,7 @@
 // list_border_rows, list_border_pairs: which rows two ranks share, and whose outlines they need.
 //
-// Law      a row is its sampled particle's owner's, who computes it. The owner of the other particle has it, too, and rests
-//          it. Both know the rows that they share in the same order, so that a row is told by its position among them
+// Law      a row belongs to the owner of its sampled particle, which computes it. The owner of the other particle has it
+//          too, but inactive. Both list the shared rows in the same order: a row is identified by its position
 // Runs     after the broad phase, when it has made new rows
 // Active   when the run has several ranks
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// What two ranks share, by the other's number.
+// The rows shared by two ranks, by the number of the other rank.
 class Shared {
  public:
   explicit Shared(const RankLink& link, const Bodies& bodies) : link_(link), bodies_(bodies) {}
 
-  // `number`: of the row or pair. True where another rank computes it.
+  // `number`: of the row or pair. True if another rank computes it.
   bool take(int number, int sampled, int other) {
     const bool own = bodies_.owns(sampled), its = bodies_.owns(other);
     if (own && its) return false;
@@ -29,9 +29,9 @@ class Shared {
     RankLink::Neighbour& outlines = outlines_[link_.owner_of(far)];
     (own ? rows.send : rows.receive).push_back(number);
     if (own)
-      outlines.receive.push_back(other);  // the narrow phase looks at it
+      outlines.receive.push_back(other);  // needed by this rank's narrow phase
     else
-      outlines.send.push_back(other);  // the other's does
+      outlines.send.push_back(other);  // needed by the other rank's
     return !own;
   }
   static std::vector<RankLink::Neighbour> listed(std::map<int, RankLink::Neighbour> by_rank,
@@ -62,7 +62,7 @@ class Shared {
 void list_border_rows::operator()() const {
   if (index->due) list();
 }
-// Nothing of this rank's looks at it: neither the narrow phase, nor bonds.
+// Nothing on this rank uses it: neither the narrow phase, nor bonds.
 void list_border_rows::rest(Row<Contact> row) const {
   activation(row) = never;
   if (bonded) (*bonded)(row) = 0;

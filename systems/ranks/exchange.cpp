@@ -1,10 +1,10 @@
-// send_outlines, receive_outlines: where the outlines are that the rows of another rank look at.
-// send_contacts, receive_contacts (in three dimensions send_loads, receive_loads): what rows that touch do to particles of
+// send_outlines, receive_outlines: positions of the outlines that the rows of another rank need.
+// send_contacts, receive_contacts (in three dimensions send_loads, receive_loads): effects of touching rows on particles of
 // another rank.
 //
 // Runs     outlines are sent as soon as they have moved, at the end of a step, and awaited when the bodies of the next one
-//          have been taken; contacts are sent after the narrow phase and the bonds between particles, and awaited after those
-//          of tools
+//          have been processed; contacts are sent after the narrow phase and the bonds between particles, and awaited after
+//          those of tools
 // Active   when the run has several ranks
 #include <cstring>
 
@@ -29,7 +29,7 @@ std::vector<int> ranks_that_send(const std::vector<RankLink::Neighbour>& all) {
   return ranks;
 }
 
-// Messages that are put together from numbers, and taken apart.
+// Messages serialised from numbers, and deserialised.
 class Writer {
  public:
   template <class T>
@@ -88,7 +88,7 @@ template struct receive_outlines<Plane>;
 template struct receive_outlines<Space>;
 
 // ---- contacts -----------------------------------------------------------------------------------------
-// Of every row that touches: its position among the shared ones, forces, closest points, couples.
+// For every touching row: its position among the shared ones, forces, closest points, couples.
 void send_contacts::operator()() const {
   std::vector<Ranks::Message> messages;
   for (const RankLink::Neighbour& near : link->rows) {
@@ -127,7 +127,7 @@ void receive_contacts::operator()(SmallTasks) const {
   }
 }
 
-// Of every pair that touches: its position among the shared ones, how many faces it loads, these and their loads.
+// For every touching pair: its position among the shared ones, the number of loaded faces, these and their loads.
 void send_loads::operator()() const {
   std::vector<Ranks::Message> messages;
   for (const RankLink::Neighbour& near : link->rows) {

@@ -1,8 +1,8 @@
-// find_border: which particles of other ranks are near those of this one, and where their outlines are.
+// find_border: which particles of other ranks are near those of this one, and the positions of their outlines.
 //
-// Law      every rank tells all others the box of its own particles, and sends to each what comes near its box. So both
+// Law      every rank sends the box of its own particles to all others, and to each rank what is near its box. So both
 //          ranks of a pair of particles have both outlines, and find the same candidates
-// Runs     between skin_check, which says when, and the broad phase
+// Runs     between skin_check, which triggers it, and the broad phase
 // Active   when the run has several ranks
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-struct Extent {  // a box, z = 0 in two dimensions; of nothing as it begins
+struct Extent {  // a box, z = 0 in two dimensions; initially empty
   std::array<double, 3> low{endless, endless, endless}, high{-endless, -endless, -endless};
 
   void take(std::size_t axis, double x) {
@@ -53,7 +53,7 @@ Extent extent_of(Space, std::span<const double> points) {
   return extent;
 }
 
-// Whether an image of `own`, or it itself, comes near `there`.
+// Whether `own`, or an image of it, comes near `there`.
 bool comes_near(const Extent& own, const Extent& there, const PeriodicCell* cell, double distance) {
   if (there.is_empty()) return false;
   if (cell == nullptr) return own.is_near(there, {}, distance);
@@ -77,7 +77,7 @@ bool comes_near(const Extent& own, const Extent& there, const PeriodicCell* cell
   return false;
 }
 
-// Of every rank the box of its particles.
+// The box of the particles of every rank.
 std::vector<Extent> extents_of_ranks(const RankLink& link, const Extent& own) {
   const auto count = static_cast<std::size_t>(link.ranks->count());
   std::vector<double> numbers(6 * count, -endless);

@@ -1,4 +1,4 @@
-// What all ranks find together. One process has it already.
+// Reductions over all ranks. With one process the local result is the result.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 namespace pulvis {
 
 using Link = Optional<Write<RankLink>>;
-// And where a system looks at the border, too, the outlines of it.
+// For systems that also read the border: its outlines.
 template <class Position>
 struct BorderOutlines {
   Write<RankLink> link;
   Write<Position> outlines;
 };
 
-// Null where there is one process.
+// Null if there is one process.
 inline RankLink* link_of(const Link& link) { return link ? &**link : nullptr; }
 template <class Position>
 RankLink* link_of(const Optional<BorderOutlines<Position>>& border) {
@@ -40,7 +40,7 @@ double minimum_of_ranks(const L& link, double number) {
   return -maximum_of_ranks(link, -number);
 }
 
-// The same at the end of a step, and with it whether something broke on any rank.
+// The same at the end of a step, combined with whether anything failed on any rank.
 inline void agree(RankLink& link, std::span<double> numbers) {
   std::vector<double> all(numbers.begin(), numbers.end());
   all.push_back(link.failure.empty() ? 0 : 1);

@@ -16,7 +16,7 @@ std::span<const std::int32_t> keys_of(const World& world) {
   return {pair.values(), 3 * pair.table.rows};
 }
 
-// Of other ranks, by rank: near particles of this one when the rows were made.
+// Particles of other ranks, by rank, that were near those of this one when the rows were built.
 std::map<int, std::vector<int>> needed_of(const World& share) {
   const ContactIndex& index = share.resource<ContactIndex>();
   const Bodies& bodies = share.resource<Bodies>();

@@ -1,6 +1,6 @@
-// Systems of a run of several ranks: borders, and what is told across them. What a system reads and writes is what it
-// declares here, once; systems/step.cpp and systems/space/step.cpp put them in order.
-// D: Plane or Space, the columns of the outlines in two and three dimensions.
+// Systems of a run on several ranks: borders, and the data sent across them. What a system reads and writes is
+// declared here and nowhere else; systems/step.cpp and systems/space/step.cpp set their order.
+// D: Plane or Space, the outline columns in two or three dimensions.
 #pragma once
 
 #include "components/bond.hpp"
@@ -21,7 +21,7 @@ struct Space {
   using Before = space::SurfaceBefore;
 };
 
-// ---- when the rows are made anew ------------------------------------------------------------------
+// ---- when the rows are rebuilt --------------------------------------------------------------------
 template <class D>
 struct find_border {
   Read<ContactIndex> index;
@@ -79,7 +79,7 @@ struct receive_outlines {
   void operator()(SmallTasks) const;
 };
 
-// What a row does to its other particle.
+// The effect of a row on its other particle.
 struct RowsAcross {
   Write<ContactTouches<Contact>> touches;
   Write<PointForce<Contact>> force;

@@ -14,14 +14,14 @@
 namespace pulvis::space {
 namespace {
 
-struct Touches {  // what can touch
+struct Touches {  // which kinds of contact are possible
   bool pairs, tools;
   explicit Touches(const World& w)
       : pairs(w.has<ContactPair<FaceContact>>()), tools(w.has<ContactPair<FaceToolContact>>()) {}
   bool any() const { return pairs || tools; }
 };
 
-// On sampled steps: of the powder as a whole...
+// In sampled steps: of the powder as a whole...
 void observe_whole(World& w, SystemList& observe) {
   // clang-format off
   observe.add<contact_network>    ("contact_network",   w.has<ContactNetwork>());
@@ -29,7 +29,7 @@ void observe_whole(World& w, SystemList& observe) {
   observe.add<local_density>      ("local_density",     w.has<DensityGrid>());
   // clang-format on
 }
-// ...and all, when the forces are known.
+// ...and all observers, once the forces are known.
 template <class F>
 std::vector<System> observed_in_space(World& w) {
   SystemList observe(w, When::on_sample);
@@ -45,8 +45,8 @@ std::vector<System> observed_in_space(World& w) {
   return observe.taken();
 }
 
-// ---- the order of a step: a newcomer's first page ------------------------------------------------
-// F: how the elements of the scene take their stresses (components/space/formulation.hpp).
+// ---- the order of a step: start reading here -----------------------------------------------------
+// F: formulation of the elements of the scene (components/space/formulation.hpp).
 template <class F>
 Steps steps_with(World& w) {
   const bool plastic = w.has<PlasticStrain<F::points>>();

@@ -1,9 +1,9 @@
-// apply_constraints: replaces the force on every constrained node, in the direction in which it is held, by the one
-// that lets the leapfrog meet the prescribed position at t_(n+1), and keeps the difference as reaction.
+// apply_constraints: replaces the force on every constrained node, in the constrained direction, by the one that
+// lets the leapfrog reach the prescribed position at t_(n+1), and stores the difference as the reaction.
 //
 // Source   systems/tools/constraint_kernel.hpp. The reaction is added to the internal force, so that the kinetic
-//          energy of the step (systems/body/energies.cpp) sees the force that acted.
-// Runs     after every force of the step, before integrate
+//          energy of the step (systems/body/energies.cpp) includes the force that acted.
+// Runs     after all forces of the step, before integrate
 // Active   when the scene has constraints
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
@@ -15,7 +15,7 @@
 namespace pulvis {
 namespace {
 
-// How far the programme has taken a tool from its start.
+// Programmed displacement of a tool from its initial position.
 Point tool_travel(const ToolProgram& program, int tool, double time) {
   const Point3 now = tool_position_at(program, tool, time);
   const Point3& start = entry(program.start, tool);

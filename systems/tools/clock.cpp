@@ -1,8 +1,8 @@
-// first_time_step, advance_clock: choose the next step; the latter moves time on.
+// first_time_step, advance_clock: choose the next step; the latter advances the time.
 //
-// The step is what every body can stand (stable_time_step), times `safety`. Stability knows nothing of speeds:
-// where surfaces would move by more than a share of the thinnest part of an outline or a tool
-// (scenes/meshes/thinnest), the step is shorter, so that nothing is passed unseen.
+// The step is the stable one of every body (stable_time_step), times `safety`. Stability ignores velocities:
+// if surfaces would move by more than a share of the thinnest part of an outline or a tool
+// (scenes/meshes/thinnest), the step is shortened, so that nothing passes through undetected.
 //
 // Runs     advance_clock last in a step
 #include <fmt/format.h>
@@ -22,16 +22,16 @@
 namespace pulvis {
 namespace {
 
-// Geometry changes little in a step; where it does, at impact, the stable step is looked at more often.
+// Geometry changes little in a step; where it does, on impact, the stable step is evaluated more often.
 constexpr std::int64_t max_steps_between_looks = 8;
 constexpr double max_strain_between_looks = 0.01;
-// Of the thinnest part, that surfaces may move against each other in a step: what they pass into is seen while
-// its near side is the nearer one by far, also where speeds grow within the step.
+// Share of the thinnest part that surfaces may move against each other in a step: what they enter is seen
+// while its near side is by far the nearer one, also where speeds grow within the step.
 constexpr double max_share_of_thickness = 0.25;
 
 double length_of(const Point3& v) { return portable::hypot(portable::hypot(v[0], v[1]), v[2]); }
 
-// Of all tools, from `time` on.
+// Over all tools, from `time` on.
 double farthest_displacement(const ToolProgram& program, const Optional<Read<ServoVelocity>>& servo,
                              double time, double dt) {
   double farthest = 0;
@@ -47,10 +47,10 @@ double farthest_displacement(const ToolProgram& program, const Optional<Read<Ser
   return farthest;
 }
 
-// How far any two surfaces move against each other in a step, at most.
+// Upper bound on the relative motion of any two surfaces in a step.
 class Approach {
  public:
-  // `fastest`: m/s, of all outlines.
+  // `fastest`: m/s, over all outlines.
   Approach(const SurfaceSpeeds& speeds, double fastest) : speeds_(speeds), fastest_(fastest) {
     if (speeds.cell)
       for (const double v : (*speeds.cell)->rate.t) images_ += std::abs(v);
@@ -67,10 +67,10 @@ class Approach {
  private:
   const SurfaceSpeeds& speeds_;
   double fastest_;
-  double images_ = 0;  // m/s, of the nearest images against their particles
+  double images_ = 0;  // m/s, of the nearest images relative to their particles
 };
 
-// No surface may be on one side of a part before a step and on its other side after it, or nearer to that.
+// No surface may be on one side of a part before a step and on, or closer to, its other side afterwards.
 double without_passing(const Approach& approach, const Clock& clock, double thinnest, double dt) {
   const double maximum = max_share_of_thickness * thinnest;
   for (double displacement = approach.displacement(clock.time, dt);
@@ -80,7 +80,7 @@ double without_passing(const Approach& approach, const Clock& clock, double thin
   return dt;
 }
 
-// Of all particles of all ranks.
+// Over all particles of all ranks.
 struct Extremes {
   double min_step = 1e300, fastest = 0;  // s, m/s
 };
@@ -102,12 +102,12 @@ Extremes extremes_of(const Bodies& bodies, const Read<StableTimeStep>& stable,
 
 void choose_time_step(double min_step, const Approach& approach,
                       const Optional<Read<ContactRules>>& rules, Clock& clock) {
-  // Never grow fast: the accelerations that follow from a sudden change belong to the old step.
+  // Never grow fast: the accelerations caused by a sudden change belong to the old step.
   const double wanted = clock.safety * min_step;
   clock.dt = clock.dt_before > 0 ? std::min(wanted, 1.02 * clock.dt_before) : wanted;
   if (approach.anything())
     clock.dt = without_passing(approach, clock, (*rules)->thinnest, clock.dt);
-  // Land on the end of the run exactly, without a sliver of a last step.
+  // Hit the end of the run exactly, without a tiny last step.
   const double left = clock.end - clock.time;
   if (left > 0 && left < 2 * clock.dt) clock.dt = left > clock.dt ? 0.5 * left : left;
   if (left > 0 && clock.time + clock.dt == clock.time)
@@ -117,7 +117,7 @@ void choose_time_step(double min_step, const Approach& approach,
         clock.step, clock.time, clock.dt));
 }
 
-// Where speeds grow manifold within a step, the bound on the next one is no help.
+// Where speeds multiply within a step, the bound for the next one does not help.
 void require_in_sight(double displacement, const ContactRules& rules, const Clock& clock) {
   if (displacement <= rules.thinnest || std::isnan(displacement)) return;
   throw RunFailure(fmt::format(
@@ -144,13 +144,13 @@ void advance_clock::operator()() const {
     const double displacement = approach.displacement(clock->time, clock->dt);
     require_in_sight(displacement, **rules, *clock);
     clock->travel += displacement;
-    const double strain = displacement / (*rules)->shortest_edge;  // of an edge in a step, at most
+    const double strain = displacement / (*rules)->shortest_edge;  // edge lengths per step, at most
     if (looked) {
       interval = std::clamp<std::int64_t>(
           static_cast<std::int64_t>(max_strain_between_looks / std::max(strain, 1e-6)), 1,
           max_steps_between_looks);
     }
-    // As deep as the surfaces are, or can be at the next look.
+    // For the current depth of the surfaces, or the possible depth at the next evaluation.
     clock->stiffening =
         kernels::stiffening(totals->penetration + static_cast<double>(interval) * strain);
   }

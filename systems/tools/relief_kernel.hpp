@@ -1,6 +1,6 @@
-// Area between four tools of which the bottom may have grooves: what relative density refers to.
+// Area between four tools, of which the bottom one may have grooves: reference of the relative density.
 //
-// Law      width times height, less the integral of the bottom's surface over the width (exact: straight
+// Law      width times height, minus the integral of the bottom surface over the width (exact: straight
 //          pieces)
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace pulvis::kernels {
 
-// Integral of the surface's height from its first x to `x`, m^2.
+// Integral of the surface height from its first x to `x`, m^2.
 inline double relief_volume(const Relief& relief, double x) {
   const std::size_t last = relief.x.size() - 1;
   if (x <= relief.x.front()) return (x - relief.x.front()) * relief.y.front();
@@ -25,7 +25,7 @@ inline double relief_volume(const Relief& relief, double x) {
 
 struct DieSides {  // m
   double left, right, top;
-  double bottom_x, bottom_y;  // of the bottom tool's position
+  double bottom_x, bottom_y;  // position of the bottom tool
 };
 
 inline double die_area(const DieSides& at, const Relief& bottom) {

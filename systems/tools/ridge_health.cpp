@@ -1,10 +1,10 @@
-// ridge_health: stops a run in which a ridge or a corner of a polyline goes through a particle, where the contact
-// would not feel it: contacts are felt at the Gauss points of outlines, and pushed out by the nearest flank.
+// ridge_health: stops a run in which a ridge or corner of a polyline passes through a particle where the contact
+// does not detect it: contact is evaluated at Gauss points of outlines, and directed by the nearest flank.
 //
 // Law      A point that is deeper in a ridge than a share of its thickness is about to leave it on the other
 //          side. A corner of the tool that is inside an outline by more than `limits.penetration` of an edge has
-//          gone in between its Gauss points.
-// Runs     after the narrow phase; corners when the rows are made anew, which is before surfaces have moved
+//          entered between its Gauss points.
+// Runs     after the narrow phase; corners when the rows are rebuilt, which is before surfaces have moved
 //          by more than the skin
 // Active   when a tool is a polyline
 #include <fmt/format.h>
@@ -24,8 +24,8 @@
 namespace pulvis {
 namespace {
 
-// Half of it is as deep as a point can be. In a step it goes by less than a quarter (advance_clock), so that
-// none can pass the middle between two steps.
+// A point can be at most half the thickness deep. It moves by less than a quarter per step (advance_clock),
+// so that none can cross the middle between two steps.
 constexpr double deepest_share = 0.3;
 
 // ---- flanks -----------------------------------------------------------------------------------------
@@ -37,7 +37,7 @@ Point curve_point(const double* control, double u) {
   return p;
 }
 
-// Of the points of a row.
+// Over the points of a row.
 double deepest_in(const ToolSurface& surface, const Point& at, const double* control, double length,
                   int first, int last) {
   double deepest = 0;
@@ -51,14 +51,14 @@ double deepest_in(const ToolSurface& surface, const Point& at, const double* con
 }
 
 // ---- corners ----------------------------------------------------------------------------------------
-// Where a corner stands out farthest, in the tool's frame.
+// Outermost point of a corner, in the tool's frame.
 Point tip_of(const ToolSurface::Piece& p) {
   const double nx = -p.ty - p.next_ty, ny = p.tx + p.next_tx, length = portable::hypot(nx, ny);
   return {p.corner_x + p.radius * nx / length, p.corner_y + p.radius * ny / length};
 }
 
-// How deep a point is in an outline, over the length of the edge that is nearest; 0 outside. Chords instead of
-// curves: exact enough for what is deeper than contacts get.
+// Depth of a point in an outline, over the length of the nearest edge; 0 outside. Chords instead of curves:
+// accurate enough for anything deeper than contacts get.
 struct Depth {
   double distance = 0, share = 0;
 };
@@ -89,7 +89,7 @@ Box in_frame_of(Box box, const Point& tool) {
   return box;
 }
 
-// ---- what goes wrong -----------------------------------------------------------------------------------
+// ---- failures ------------------------------------------------------------------------------------------
 struct Scenery {
   const Bodies& bodies;
   const Clock& clock;

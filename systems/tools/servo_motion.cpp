@@ -25,7 +25,7 @@ void set_along(const auto& column, Row<Tool> tool, const Point3& direction, doub
   for (int k = 0; k < tool_axes; ++k) column(tool, k) = value * entry(direction, k);
 }
 
-// What the tool bears against the way it pushes.
+// The force on the tool against its pushing direction.
 double borne(const Servo& servo, const Read<ToolForce>& force) {
   return -along(force, Row<Tool>(servo.tool), servo.direction);
 }
@@ -48,7 +48,7 @@ void check_held(const Servo& servo, const ToolProgram& program, const Clock& clo
                   servo.tolerance));
 }
 
-// Asked for now: smoothly from what the tool bore when the stage began.
+// Current target: ramped smoothly from the tool's force at the start of the stage.
 double asked_for(const Servo& servo, double at_begin, double since) {
   const double rise = servo.rate > 0 ? std::abs(servo.force - at_begin) / servo.rate : servo.rise;
   const double share = since < rise ? kernels::ramp_speed(since / rise) : 1;
@@ -65,7 +65,7 @@ double end_speed(const ToolProgram& program, const Servo& servo, double from, do
          (until - from);
 }
 
-// The next step of a tool behind a spring; the velocity that is kept is the one relative to the drive's far end.
+// The next step of a tool behind a spring; the stored velocity is relative to the drive's far end.
 void follow(const Servo& servo, Row<Tool> tool, const Clock& clock, const ToolProgram& program,
             const Servos::Drive& drive, double bears) {
   const double before = end_speed(program, servo, clock.time - clock.dt_before, clock.time);
@@ -93,7 +93,7 @@ void drive_tools(const Servos& s, const Touching& touching) {
   const auto& [clock, program, ends, force, rules, servos, drive] = s;
   const std::size_t stage = program->stage_at(clock->time);
   const bool new_stage = stage != servos->stage;
-  // A stage that [stage.until] ended did so before all of the force was asked for.
+  // A stage cut short by [stage.until] ended before the full force was requested.
   const bool ended_early = ends && (*ends)->has_ended_early(servos->stage);
   for (int t = 0; t < force.rows(); ++t) {
     const Row<Tool> tool(t);
@@ -104,7 +104,7 @@ void drive_tools(const Servos& s, const Touching& touching) {
       check_held(*last, *program, *clock, borne(*last, force));
     if (servo == nullptr) {
       set_along(drive.velocity, tool, {}, 0), set_along(drive.dragged, tool, {}, 0);
-      // It asks for nothing any more; at the very end of the run it still does.
+      // It has no target any more; at the very end of the run it still does.
       if (last != nullptr && stage < program->stages.size()) drive.asked(tool, 0) = 0;
       continue;
     }

@@ -1,5 +1,5 @@
-// How fast tools that hold a force, or follow behind a spring, move in the next step. What touches them is found by the
-// systems of each dimension.
+// Speed in the next step of tools that hold a force, or follow behind a spring. The systems of each dimension find what
+// touches them.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace pulvis {
 
-// Springs and dashpots of what presses on a tool now.
+// Springs and dashpots of what currently presses on a tool.
 using Touching = std::function<kernels::TouchSums(int tool)>;
 
 // Over all rows of all ranks.

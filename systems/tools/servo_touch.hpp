@@ -1,4 +1,4 @@
-// What touches that a servo drives: springs and dashpots of a row's points, as if all pointed in its direction.
+// Contacts of a servo-driven part: springs and dashpots of a row's points, as if all pointed in its direction.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// Of the points that press now. `bonds`: their stiffness over that of a contact spring.
+// For the points currently under pressure. `bonds`: their stiffness over that of a contact spring.
 template <class At>
 kernels::TouchSums touching_of(Row<At> row, const TouchingRows<At>& rows,
                                const Read<ContactLaw<At>>& law, double bonds) {

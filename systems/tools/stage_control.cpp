@@ -1,9 +1,9 @@
-// stage_control: ends a stage when what its `until` asks for is reached. Its tools, or strains, come to rest smoothly, in
-// as long as they took to start, and all that follows begins earlier.
+// stage_control: ends a stage when the condition of its `until` is met. Its tools, or strains, come to rest smoothly, in
+// the time they took to start, and all that follows begins earlier.
 //
 // Runs     after tool_reaction, before tool_servo
 // Active   when a stage of the scene has an `until`
-// Watches  that it is reached before the stage's time is over
+// Watches  that it is met before the stage's time is over
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,8 +35,8 @@ double relative_density(const StageEnds::Cell& cell, const Read<ToolPosition>& a
   return cell.particle_area / kernels::die_area(sides, cell.relief);
 }
 
-// Of the area: how much is still to come of the strains that are driven, if they begin to come to rest now. Half of a ramp at
-// the speed of now.
+// Area strain still to come from the driven strains if they begin to come to rest now: half a ramp at the current
+// speed.
 double strain_to_rest(const MixedControl& control, const ToolProgram& program, int stage,
                       const Clock& clock) {
   const MixedControl::Stage& asked = entry(control.stages, stage);
@@ -70,14 +70,14 @@ double value_now(const End& end, const stage_control& s) {
                      borne[2] * end.direction[2]);
 }
 
-// A displacement may be the whole of a move, which ends there but for rounding.
+// A displacement may be the whole of a move, which ends there except for round-off.
 bool is_reached(const End& end, double value) {
   constexpr double rounding = 1e-12;
   const bool moved = end.kind == StageEnds::Kind::displacement;
   return value >= (moved ? (1 - rounding) * end.value : end.value);
 }
 
-// How long its tools, or strains, take to come to rest; 0 where none is on its way.
+// How long its tools, or strains, take to come to rest; 0 if none is moving.
 double time_to_rest(const ToolProgram& program, const MixedControl* control, int stage) {
   double longest = 0;
   if (control != nullptr) {
@@ -95,7 +95,7 @@ void end_early(const End& end, double time, MixedControl* control, ToolProgram& 
                double& run_end) {
   ToolProgram::Stage& stage = entry(program.stages, end.stage);
   const double saved = stage.end - (time + time_to_rest(program, control, end.stage));
-  if (saved <= 0) return;  // its time is all but over
+  if (saved <= 0) return;  // its time is almost over
   if (control != nullptr) control->cut = time;
   stage.end -= saved;
   run_end -= saved;

@@ -1,5 +1,5 @@
-// Systems of the tools, and of the clock. What a system reads and writes is what it declares here, once;
-// systems/step.cpp puts them in order, and each is described at the top of its own file.
+// Systems of the tools, and of the clock. What a system reads and writes is declared here and
+// nowhere else; systems/step.cpp sets their order, and each is described at the top of its own file.
 #pragma once
 
 #include "components/bundles.hpp"
@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-// ---- how tools move -------------------------------------------------------------------------------
+// ---- tool motion ----------------------------------------------------------------------------------
 struct tool_motion {
   Read<Clock> clock;
   Read<ToolProgram> program;
@@ -33,7 +33,7 @@ struct stage_control {
   void operator()() const;
 };
 
-// What servos know and set, whatever the dimension.
+// Inputs and outputs of the servos, in any dimension.
 struct Servos {
   Read<Clock> clock;
   Read<ToolProgram> program;
@@ -58,10 +58,10 @@ struct tool_servo {
   void operator()() const;
 };
 
-// Where the programme puts a tool at `time`, m. Used outside the step, too.
+// Programmed position of a tool at `time`, m. Also used outside the step.
 Point3 tool_position_at(const ToolProgram& program, int tool, double time);
 
-// ---- what they bear -------------------------------------------------------------------------------
+// ---- tool forces ----------------------------------------------------------------------------------
 struct tool_contact {
   Read<Bodies> bodies;
   Read<Clock> clock;
@@ -74,7 +74,7 @@ struct tool_contact {
   void operator()(SmallTasks) const;
 };
 
-// ---- bonds with them ------------------------------------------------------------------------------
+// ---- tool bonds ------------------------------------------------------------------------------------
 struct ToolBondPlaces {
   Read<CurvePosition> control;
   ToolSurfaces tools;
@@ -173,7 +173,7 @@ struct ridge_health {
 };
 
 // ---- the clock --------------------------------------------------------------------------------------
-// How fast surfaces are; nothing where nothing can touch.
+// Speeds of the surfaces; empty if no contact is possible.
 struct SurfaceSpeeds {
   Optional<Read<MaximumSpeed>> outlines;
   Optional<Read<ToolProgram>> program;

@@ -1,8 +1,8 @@
-// initial_tool_bonds, pressed_tool_bonds, tool_bond_forces: points that hold on to tools: glued grips, powder that
-// sticks to a punch.
+// initial_tool_bonds, pressed_tool_bonds, tool_bond_forces: points bonded to tools: glued grips, powder that sticks
+// to a punch.
 //
 // Law      as between particles (systems/contact/initial_bonds.cpp, pressed_bonds.cpp, bond_points.hpp); tools do not
-//          turn, and the anchor and its normal move with the tool
+//          rotate, and the anchor and its normal move with the tool
 // Runs     once, at the start; after tool_contact, before contact_force
 // Active   when the scene has bonds with tools
 #include "systems/contact/active_pairs.hpp"
@@ -32,7 +32,7 @@ RowStand stand_of(const Bodies& bodies, const ToolBondPlaces& places,
           {places.tools.position(tool, 0), places.tools.position(tool, 1)}};
 }
 
-// On the tool's surface, where it is nearest.
+// At the nearest point on the tool's surface.
 void set_anchor(const RowStand& stand, Row<ToolContact> row, int g,
                 const Write<ToolAnchor>& anchor) {
   const double nx = stand.motion.nx[g], ny = stand.motion.ny[g], gap = stand.motion.gap[g];

@@ -50,7 +50,7 @@ struct ToolPass {
   PointMotion project(Row<ToolContact> row, const PointLanes& at, double farthest) const {
     return stand_against(s.tools, s.range, row, s.columns.pair(row, 2), at, farthest);
   }
-  // The candidates of the two that touch (bit 0, bit 1); the others are set apart.
+  // Those of the two candidates that touch (bit 0, bit 1); the others are set to apart.
   unsigned find_touching(const Two& two, const PointMotion& m) const {
     unsigned touching = 0;
     const Lane range = range_of(s.columns, two);

@@ -1,7 +1,7 @@
-// Smooth prescribed motion: the share of a displacement travelled at the share tau of its duration.
+// Smooth prescribed motion: the share of a displacement covered at the share tau of its duration.
 //
 // The speed rises from zero over the first `ramp` of the duration as u^3 (10 - 15 u + 6 u^2) (so that
-// acceleration and its rate start at zero: no stress wave is sent), stays constant, and falls likewise.
+// acceleration and jerk start at zero: no stress wave is sent), stays constant, and falls likewise.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace pulvis::kernels {
 // Integral of u^3 (10 - 15 u + 6 u^2) from 0 to u in [0, 1]; 1/2 at u = 1.
 inline double ramp_integral(double u) { return u * u * u * u * (2.5 + u * (-3.0 + u)); }
 
-// Of the speed's rise from 0 at u = 0 to 1 at u = 1.
+// The rise of the speed from 0 at u = 0 to 1 at u = 1.
 inline double ramp_speed(double u) { return u * u * u * (10 + u * (-15 + 6 * u)); }
 
 inline double smooth_travel(double tau, double ramp) {
@@ -30,7 +30,7 @@ inline double smooth_speed(double tau, double ramp) {
   return (u < 1 ? ramp_speed(u) : 1) / (1 - ramp);
 }
 
-// The same, but from `cut` on the speed falls to zero within another `ramp`, in the shape it rose.
+// The same, but from `cut` on the speed falls to zero within another `ramp`, mirroring its rise.
 inline double cut_travel(double tau, double ramp, double cut) {
   if (tau <= cut) return smooth_travel(tau, ramp);
   const double u = std::min((tau - cut) / ramp, 1.0);

@@ -1,5 +1,5 @@
-// tool_motion: where the tools' programmes put them at t_n, and their mean velocity over the last step.
-// tool_reaction: what the particles do to each tool, and the work that the tools have done.
+// tool_motion: programmed tool positions at t_n, and their mean velocity over the last step.
+// tool_reaction: forces of the particles on each tool, and the work done by the tools.
 #include <algorithm>
 #include <cmath>
 
@@ -57,8 +57,8 @@ void add_contacts(const TouchingRows<ToolContact>& rows, Forces& forces) {
   }
 }
 
-// A radial constraint moves by x alone and has the sum of the radial forces as x: work is force times displacement
-// for every constraint alike.
+// A radial constraint moves in x only and stores the sum of the radial forces as x: work is force times
+// displacement for every constraint.
 void add_constraints(const Bodies& bodies, const tool_reaction::Constraints& constraints,
                      Forces& forces) {
   const std::vector<std::int32_t>& begin = constraints.index->begin;
@@ -73,8 +73,8 @@ void add_constraints(const Bodies& bodies, const tool_reaction::Constraints& con
 
 }  // namespace
 
-// Work by the trapezoidal rule: forces at both ends of the step, which is what keeps the energy balance
-// of the leapfrog to second order.
+// Work by the trapezoidal rule: forces at both ends of the step, which keeps the energy balance of the
+// leapfrog second-order accurate.
 void tool_reaction::operator()() const {
   const auto power = [&] {
     double sum = 0;

@@ -1,4 +1,4 @@
-// Projection on tools: where the Gauss points of two candidates stand against planes and polylines.
+// Projection on tools: positions of the Gauss points of two candidates relative to planes and polylines.
 //
 // Source   systems/tools/surface_kernel.hpp
 #pragma once
@@ -19,7 +19,7 @@ inline PointMotion project_on_plane(const Point& point, const Point& normal, con
   return m;
 }
 
-// On the pieces of a polyline whose origin stands at `point`; points farther than `farthest` are that far, without a
+// On the pieces of a polyline with its origin at `point`; points farther than `farthest` get that distance and no
 // normal.
 inline PointMotion project_on_polyline(const Point& point, const ToolSurface& surface, int first,
                                        int last, const PointLanes& at, double farthest) {
@@ -32,7 +32,7 @@ inline PointMotion project_on_polyline(const Point& point, const ToolSurface& su
   return m;
 }
 
-// The points of the one from `a`, those of the other from `b`.
+// The points of one from `a`, those of the other from `b`.
 inline PointMotion halves_of(const PointMotion& a, const PointMotion& b) {
   const LaneMask low = LaneMask::of(lanes_of_halves[1]);
   PointMotion m;
@@ -42,7 +42,7 @@ inline PointMotion halves_of(const PointMotion& a, const PointMotion& b) {
   return m;
 }
 
-// How the points move against tools that do not turn.
+// Velocities of the points relative to tools that do not rotate.
 inline void set_rates(const PointLanes& velocity, const Lane& tool_x, const Lane& tool_y,
                       PointMotion& m) {
   const Lane wx = velocity.x - tool_x, wy = velocity.y - tool_y;

@@ -1,4 +1,4 @@
-// How the Gauss points of tool candidates stand against their tools: what the narrow phase and the bonds look at.
+// Positions of the Gauss points of tool candidates relative to their tools: for the narrow phase and the bonds.
 #pragma once
 
 #include "engine/entry.hpp"
@@ -28,13 +28,13 @@ struct SampledEdges {
   }
 };
 
-// Of all points, as if the candidate's tool were that of both.
+// For all points, as if both candidates had this candidate's tool.
 inline PointMotion stand_against(const ToolSurfaces& tools,
                                  const Optional<Read<SurfaceRange>>& range, Row<ToolContact> row,
                                  int number, const PointLanes& at, double farthest) {
   const Row<Tool> tool(number);
   const Point stands{tools.position(tool, 0), tools.position(tool, 1)};
-  // Farther than an edge the range of pieces tells nothing; see bin_tool_edges.
+  // Beyond one edge length the range of pieces says nothing; see bin_tool_edges.
   if (range && (*tools.shapes)->is(number, ToolShapes::Kind::polyline))
     return project_on_polyline(stands, (*tools.shapes)->surface_of(number), (*range)(row, 0),
                                (*range)(row, 1), at, farthest);

@@ -1,9 +1,9 @@
-// tool_servo: how fast tools that hold a force move in the next step, from the force that they bear now.
+// tool_servo: speed in the next step of tools that hold a force, from the force they currently carry.
 //
 // Source   systems/tools/servo_kernel.hpp
 // Runs     after tool_reaction; tool_motion adds the displacement in the next step
-// Active   when a stage of the scene has a servo, or a drive that gives
-// Watches  that the force is held when its stage ends; that the mass on a spring is large enough for the time step
+// Active   when a stage of the scene has a servo, or an elastic drive
+// Watches  that the force is reached when its stage ends; that the mass on a spring suffices for the time step
 #include "components/contact.hpp"
 #include "engine/access.hpp"
 #include "systems/tools/servo_motion.hpp"

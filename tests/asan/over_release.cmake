@@ -1,7 +1,7 @@
-# Memory and undefined behaviour: the core library and the readers that take bytes apart are built with the address
-# and undefined-behaviour sanitizers, everything else comes from the other build. Whatever memory the programs hand to
-# the library is watched too, since the sanitizer gives it out.
-# (Not the tests that run Python, whose own leaks would be reported, nor one that asks for an exit code: leave.cpp.)
+# Memory errors and undefined behaviour: the core library and the byte-level readers are built with the address
+# and undefined-behaviour sanitizers, everything else comes from the other build. Memory passed from the programs to
+# the library is checked too, since the sanitizer allocates it.
+# (Excluded: tests that run Python, whose own leaks would be reported, and one that checks an exit code: leave.cpp.)
 add_borrowed_tests(memory asan engine ${PULVIS_PROGRAMS_OF}/tests/test_engine
                    --gtest_filter=-RecorderTest.WritesAnXdmf*:RunMeshTest.Shows*:RecorderTest.TurnsAFullDisk*)
 add_borrowed_tests(memory asan systems ${PULVIS_PROGRAMS_OF}/tests/test_systems
@@ -9,7 +9,7 @@ add_borrowed_tests(memory asan systems ${PULVIS_PROGRAMS_OF}/tests/test_systems
 
 include(${CMAKE_SOURCE_DIR}/scenes/readers.cmake)
 list(TRANSFORM readers PREPEND "${CMAKE_SOURCE_DIR}/")
-# These objects come before the archive, which then gives only the rest.
+# These objects precede the archive, which then provides only the rest.
 add_executable(replay_over_release fuzz/replay.cpp fuzz/targets.cpp ${readers})
 target_link_libraries(replay_over_release PRIVATE ${PULVIS_PROGRAMS_OF}/scenes/libpulvis_scenes.a pulvis_core
                       PkgConfig::tomlplusplus fcl nlohmann_json::nlohmann_json pugixml::pugixml ${UDUNITS2} ${RE2})
@@ -17,7 +17,7 @@ precompile(replay_over_release)
 add_test(NAME memory.readers COMMAND replay_over_release ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus)
 set_tests_properties(memory.readers PROPERTIES LABELS memory TIMEOUT ${PULVIS_TEST_TIMEOUT})
 
-# That a report fails a test, in such a mixture too.
+# Checks that a sanitizer report fails a test in this mixed build, too.
 add_library(told SHARED asan/told_library.cpp)
 target_link_libraries(told PRIVATE pulvis_rules)
 add_executable(test_told asan/told_test.cpp)

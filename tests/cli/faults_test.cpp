@@ -145,7 +145,7 @@ TEST_F(Faults, TooLittleMemoryIsRefusedBeforeTheFolderIsMade) {
   EXPECT_EQ(end.code, 4) << end.err;
   EXPECT_THAT(end.err,
               ContainsRegex("hexagonal-1683.toml: cannot run it: it needs about [0-9.]+ MB "
-                            "of memory, [0-9.]+ MB are available"));
+                            "of memory, but only [0-9.]+ MB are available"));
   EXPECT_FALSE(fs::exists(place / "run"));
   // A million particles of 204 quads: no machine of today's has it; refused at once.
   const Outcome huge = pulvis({"run", scene("compaction/hexagonal-1683.toml"), "-o", "run", "--set",

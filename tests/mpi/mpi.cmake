@@ -1,8 +1,8 @@
-# Ranks by MPI, each call under mpirun with 1 to 4 processes; what pulvis run --ranks does with its ranks.
+# Ranks with MPI, each test under mpirun with 1 to 4 processes; how pulvis run --ranks handles its ranks.
 find_program(PULVIS_MPIRUN mpirun REQUIRED)
 set(mpirun ${PULVIS_MPIRUN} --quiet --oversubscribe --bind-to none --allow-run-as-root)
 
-# Over the sources of libpulvis_mpi, for short parts of messages; --joined over the library itself.
+# Built with the sources of libpulvis_mpi, for short message parts; with --joined the library itself is used.
 add_executable(test_ranks ${CMAKE_CURRENT_LIST_DIR}/ranks_test.cpp ${CMAKE_SOURCE_DIR}/cli/mpi/mpi_ranks.cpp)
 target_link_libraries(test_ranks PRIVATE pulvis_cli MPI::MPI_C GTest::gmock)
 target_compile_definitions(test_ranks PRIVATE OMPI_SKIP_MPICXX)
@@ -15,7 +15,7 @@ foreach(count RANGE 2 3)
   add_test(NAME mpi.ranks_joined_${count} COMMAND ${mpirun} -np ${count} $<TARGET_FILE:test_ranks> --joined)
 endforeach()
 
-# How a rank leaves the others, and the exit code of all.
+# How a rank ends prematurely, and the common exit code.
 foreach(how abort=4 exit=3 throw=4 wrong=4 killed=137)
   string(REPLACE "=" ";" how ${how})
   list(GET how 0 way)
@@ -29,7 +29,7 @@ target_link_libraries(test_launch PRIVATE pulvis_cli GTest::gmock_main)
 optimise(test_launch 1)
 gtest_discover_tests(test_launch TEST_PREFIX mpi. PROPERTIES TIMEOUT ${PULVIS_TEST_TIMEOUT} LABELS mpi)
 
-# The same bits on any number of ranks, some with chunks that migrate. The long round by hand, of every case:
+# Bitwise identical results on any number of ranks, some with migrating chunks. For a long manual run of every case:
 # tests/mpi/ranks_runs.py PROGRAM . --case NAME, --kills 50
 foreach(case die damped-servo shear bonds tool-bonds constraints space-round space-mixture)
   set(quick --quick)
@@ -59,4 +59,4 @@ add_test(NAME mpi.ranks_run_full
 
 get_property(tests DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} PROPERTY TESTS)
 list(FILTER tests INCLUDE REGEX "^mpi\\.ranks_")
-set_tests_properties(${tests} PROPERTIES TIMEOUT 300 LABELS mpi PROCESSORS 2)  # they wait by asking
+set_tests_properties(${tests} PROPERTIES TIMEOUT 300 LABELS mpi PROCESSORS 2)  # ranks busy-wait

@@ -1,4 +1,4 @@
-# What threads share: the library is built with the thread sanitizer, the programs are not.
+# Data races: the library is built with the thread sanitizer, the programs are not.
 add_borrowed_tests(threads tsan systems ${PULVIS_PROGRAMS_OF}/tests/test_systems --gtest_filter=BroadPhase.*:Contact.*)
 foreach(test TwoRunsAgreeInEveryBit ThreadsDoNotChangeABit ObservingDoesNotChangeTheRun)
   add_borrowed_tests(threads tsan ${test} ${PULVIS_PROGRAMS_OF}/tests/test_cli --gtest_filter=Determinism.${test})

@@ -1,4 +1,4 @@
-// Levers of an atomic force microscope: calibration, friction loops, force curves.
+// AFM levers: calibration, friction loops, force curves.
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
 #include <pybind11/numpy.h>
@@ -25,7 +25,7 @@ namespace pulvis::python {
 namespace py = pybind11;
 namespace {
 
-// A lever's run, with a look after every increment.
+// The run of a lever, observable after every increment.
 class PythonLever {
  public:
   // Calibrates.
@@ -40,11 +40,11 @@ class PythonLever {
     });
     if (!session_->end().failure.empty()) throw RunFailure(session_->end().failure);
   }
-  // Files that nobody completed are left as an interrupted run leaves them.
+  // If the files were not completed, they are left as after an interruption.
   ~PythonLever() {
     try {
       if (lock_ != nullptr && !is_finished_) close();
-    } catch (const std::exception&) {  // the disk is full: what was written before is whole
+    } catch (const std::exception&) {  // disk full: the data written before is complete
     }
   }
   PythonLever(const PythonLever&) = delete;
@@ -65,7 +65,7 @@ class PythonLever {
     save_scene(folder, session_->loaded());
     session_->write_to(folder, {});
   }
-  // Until its target is reached, it is stopped, or the programme is over.
+  // Runs until its target is reached, it is stopped, or the programme ends.
   void go(const AfmSession::Target& target) {
     if (is_going_) throw NotNow("the lever is running; allowed: after the call has returned");
     if (is_finished_)
@@ -99,7 +99,7 @@ class PythonLever {
   bool is_finished() const { return is_finished_; }
 
  private:
-  // Without the GIL, and until somebody presses Ctrl-C.
+  // Runs without the GIL, until Ctrl-C is pressed.
   template <class Work>
   void whole(const Work& work) {
     Interruptible interruptible;
@@ -111,14 +111,14 @@ class PythonLever {
       py::gil_scoped_release others_may_run;
       work();
     } catch (const Interrupted&) {
-    } catch (...) {  // of the disk
+    } catch (...) {  // such as a disk error
       is_going_ = false;
       if (session_) session_->hooks = {};
       throw;
     }
     is_going_ = false;
     if (session_) session_->hooks = {};
-    // What is in a folder can be resumed; nothing else can be lost.
+    // A run with a folder can be resumed; without one there are no files to lose.
     if ((thrown || interruptible.asked()) && lock_ != nullptr) finish();
     if (thrown) std::rethrow_exception(thrown);
     interruptible.raise_if_asked();
@@ -132,7 +132,7 @@ class PythonLever {
       py::gil_scoped_acquire gil;
       try {
         call();
-      } catch (...) {  // the increment is whole: the run stops behind it
+      } catch (...) {  // the increment is complete: the run stops after it
         thrown = std::current_exception();
       }
     };

@@ -1,8 +1,8 @@
 // Columns as numpy arrays that share their memory.
 //
-// Rows of particles stand eight particles to a chunk, a lane each: [chunk][row][number][lane]. What belongs to one
-// particle is a strided view of it; chunks of particles with one mesh lie one behind the other and make a block. Rows that
-// come and go (contacts) are copied, since their memory does.
+// Particle rows are stored in chunks of eight particles, one per lane: [chunk][row][number][lane]. The data of one
+// particle is a strided view of it; chunks of particles with the same mesh are contiguous and form a block. Rows that
+// come and go (contacts) are copied, since their memory does not persist.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -20,8 +20,8 @@ namespace pulvis::python {
 namespace py = pybind11;
 namespace {
 
-// What may be changed between two steps, and is kept by nothing else: stored energies, contacts and the stable time step
-// follow from what is written, or do not depend on it.
+// Columns that may be modified between two steps, because nothing caches them: stored energies, contacts and the stable
+// time step are recomputed from them, or do not depend on them.
 const std::set<std::string>& writable_columns() {
   static const std::set<std::string> names{"node.velocity", "particle.yield_stress",
                                            "particle.hardening_modulus", "particle.mass_damping"};
@@ -33,7 +33,7 @@ bool is_laned(const ColumnBase& column) {
                                               Particle::name};
   return entities.contains(column.entity);
 }
-// Their number changes as the run goes on.
+// Their number changes during the run.
 bool comes_and_goes(const ColumnBase& column) {
   return column.entity == Contact::name || column.entity == ToolContact::name;
 }
@@ -55,7 +55,7 @@ py::dtype type_of_values(const ColumnBase& column) {
 
 World& world_of(PythonRun& run) { return run.session().simulation().world(); }
 
-// By its full name, "tool.velocity", or by its own: of particles first.
+// By full name, "tool.velocity", or by short name: particle columns first.
 const ColumnBase& find_column(PythonRun& run, const std::string& name) {
   const ColumnBase* found = nullptr;
   std::vector<std::string> known;
@@ -114,7 +114,7 @@ py::ssize_t rows_of_chunk(const ColumnBase& column, int chunk) {
   return static_cast<py::ssize_t>(column.of_chunk(chunk).size() / column.row_bytes);
 }
 
-// [rows, numbers] of the particle of that number in the scene.
+// [rows, numbers] of the particle with this number in the scene.
 py::array of_particle(const std::shared_ptr<PythonRun>& run, const std::string& name, int number,
                       bool writable) {
   const ColumnBase& column = readable_column(*run, name);
@@ -143,7 +143,7 @@ py::array_t<std::int32_t> numbers_in(const Bodies& bodies, int chunk, int chunks
   return numbers;
 }
 
-// Pairs (numbers [chunks, lanes], values [chunks, lanes, rows, numbers]) of neighbouring chunks with the same mesh.
+// Pairs (numbers [chunks, lanes], values [chunks, lanes, rows, numbers]) of consecutive chunks with the same mesh.
 py::list blocks_of(const std::shared_ptr<PythonRun>& run, const std::string& name, bool writable) {
   const ColumnBase& column = readable_column(*run, name);
   const Bodies& bodies = world_of(*run).resource<Bodies>();
@@ -168,7 +168,7 @@ py::list blocks_of(const std::shared_ptr<PythonRun>& run, const std::string& nam
   return blocks;
 }
 
-// [rows, numbers] of what is no particle's: a view, or a copy of rows that come and go.
+// [rows, numbers] of columns not of particles: a view, or a copy for rows that come and go.
 py::array rows_of_column(const std::shared_ptr<PythonRun>& run, const std::string& name) {
   const ColumnBase& column = readable_column(*run, name);
   const auto rows = static_cast<py::ssize_t>(column.bytes() / column.row_bytes);

@@ -1,4 +1,4 @@
-// Errors of the program as those of the package: pulvis.errors.
+// Translates the errors of the program into those of the package: pulvis.errors.
 #include <string>
 
 #include "cli/checkpoints.hpp"
@@ -19,7 +19,7 @@ void raise(const char* type, const std::string& message, const py::dict& where =
   PyErr_SetObject(error.ptr(), made.ptr());
 }
 
-// The first of its problems says where; `problems` has them all.
+// The location is that of the first problem; `problems` has all of them.
 void raise_scene_error(const SceneError& error) {
   py::list problems;
   for (const SceneProblem& problem : error.errors()) {
@@ -40,7 +40,7 @@ void raise_scene_error(const SceneError& error) {
   raise("SceneError", error.what(), where);
 }
 
-// What the command line calls --overwrite is an argument here.
+// The command-line option --overwrite is an argument in Python.
 std::string in_words_of_python(std::string text) {
   const std::string option = "--overwrite";
   const std::size_t at = text.find(option);

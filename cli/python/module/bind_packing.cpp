@@ -1,4 +1,4 @@
-// Packings and meshes alone, without a run.
+// Packings and meshes on their own, without a run.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -40,7 +40,7 @@ py::array_t<Number> table_of(std::size_t rows, std::size_t columns) {
 }
 py::ssize_t array_index(std::size_t i) { return static_cast<py::ssize_t>(i); }
 
-// m, names, and of every particle in the order of its number the quaternion w, x, y, z that turns it from its own frame.
+// m, names, and by particle number the quaternion w, x, y, z of the rotation from the body frame.
 py::dict packing_in_space(const Scene& scene) {
   std::vector<space::BodySpec> bodies;
   {
@@ -99,7 +99,7 @@ py::dict mesh_in_space(const Scene& scene, int number) {
   return all;
 }
 
-// m, rad, names: every particle in the order of its number.
+// m, rad, names: all particles in order of their numbers.
 py::dict packing_of(const LoadedScene& loaded) {
   require_particles(loaded);
   if (loaded.scene.space) return packing_in_space(loaded.scene);
@@ -131,7 +131,7 @@ py::dict packing_of(const LoadedScene& loaded) {
   return all;
 }
 
-// The undeformed mesh of a class of particles, in its own frame: m.
+// The undeformed mesh of a particle class, in its body frame: m.
 py::dict mesh_of_class(const LoadedScene& loaded, int number) {
   require_particles(loaded);
   const Scene& scene = loaded.scene;

@@ -1,4 +1,4 @@
-// Simulations of particles: their course, series and tools.
+// Particle simulations: run control, series and tools.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -37,7 +37,7 @@ bool take_steps(PythonRun& run, std::int64_t count) {
   return run.go({.step = run.session().clock().step + count});
 }
 
-// Name, unit and meaning of every series, the time apart.
+// Name, unit and meaning of every series except time.
 py::list series_of(PythonRun& run) {
   py::list all;
   for (const SeriesInfo& one : run.session().results().series())
@@ -75,7 +75,7 @@ py::list verdicts_of(PythonRun& run) {
   return all;
 }
 
-// [nodes or elements in the order of the frames' fields]: what a picture needs.
+// [nodes or elements, ordered as in the frame fields]: the mesh data for plots.
 py::dict mesh_of_run(PythonRun& run) {
   const RunMesh mesh = run.session().results().mesh();
   py::dict all;
@@ -153,7 +153,7 @@ void bind_state(RunClass& run) {
           "hash", [](PythonRun& r) { return state_hash_text(r.session().simulation().world()); });
 }
 
-// Where something is asked for at a moment, or of a thing, that does not allow it.
+// For requests that are not allowed at this time or for this object.
 void translate_refusal(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);

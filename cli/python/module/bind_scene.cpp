@@ -1,4 +1,4 @@
-// Scenes: read by the same reader as those of the command line.
+// Scenes, read by the same parser as on the command line.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 using SharedScene = std::shared_ptr<LoadedScene>;
 
-// Random packings may take long.
+// Random packings may take a long time.
 template <class Read>
 SharedScene loaded_by(const Read& read) {
   Interruptible interruptible;
@@ -52,13 +52,13 @@ std::vector<std::string> warnings(const LoadedScene& loaded) {
   return setup_warnings(loaded.scene, place_bodies(loaded.scene));
 }
 
-// Into `folder`, with copies of the files that it names.
+// Writes into `folder`, with copies of the files it refers to.
 void save(const LoadedScene& loaded, const std::string& folder) {
   std::filesystem::create_directories(folder);
   save_scene(folder, loaded);
 }
 
-// The language as plain data: dataclasses are made from it.
+// The scene language as plain data, from which the dataclasses are generated.
 py::list declarations() {
   py::list tables;
   for (const schema::TableView& table : schema::scene_language()) {

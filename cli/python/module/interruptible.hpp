@@ -1,10 +1,10 @@
-// Ctrl-C during long work of the program, while Python's own handler has no turn.
+// Ctrl-C during long-running C++ code, while Python's signal handler cannot run.
 #pragma once
 
 namespace pulvis::python {
 
-// On Python's main thread SIGINT is a wish to stop (engine/interruption.hpp) while one of these lives, and Python is told
-// of it, too. On others signals do not arrive, and it does nothing. The GIL is held when it is made and ends.
+// RAII guard: on Python's main thread it turns SIGINT into a stop request (engine/interruption.hpp) and also forwards it
+// to Python. Other threads receive no signals, so there it does nothing. Construct and destroy it with the GIL held.
 class Interruptible {
  public:
   Interruptible();
@@ -13,7 +13,7 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
 
   bool asked() const;
-  // With the GIL: KeyboardInterrupt, or what the handler in Python raises. Without such the wish is withdrawn.
+  // Requires the GIL. Throws KeyboardInterrupt, or what the Python handler raises; else withdraws the request.
   void raise_if_asked();
 
  private:

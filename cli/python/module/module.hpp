@@ -1,5 +1,5 @@
-// The compiled part of the Python package, pulvis._core. Each file binds one subject; cli/python/pulvis makes of it what
-// its users see.
+// The compiled part of the Python package, pulvis._core. Each file binds one topic; cli/python/pulvis wraps it in the
+// public interface.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -46,13 +46,13 @@ PythonRun::PythonRun(const std::string& folder, const Options& options)
   listen();
 }
 
-// Files that nobody completed are left as an interrupted run leaves them.
+// If the files were not completed, they are left as after an interruption.
 PythonRun::~PythonRun() {
   try {
     py::gil_scoped_release others_may_run;
     if (!is_closed_ && open_.session) leave_whole();
     open_ = {};
-  } catch (const std::exception&) {  // the disk is full: what was written before is whole
+  } catch (const std::exception&) {  // disk full: the data written before is complete
   }
 }
 
@@ -125,7 +125,7 @@ Session& PythonRun::session() {
 
 Session& PythonRun::session_between_steps(const char* what) {
   Session& run = session();
-  if (!is_going_) run.move();  // a callback's error left it at a sample
+  if (!is_going_) run.move();  // an exception in a callback left it at a sample
   if (run.observed())
     throw NotNow(
         fmt::format("{} cannot be changed at a sample, in the middle of a step; allowed: "
@@ -177,7 +177,7 @@ void PythonRun::fail(const std::string& message, const Interruptible& interrupti
   if (!expected) throw RunFailure(message);
 }
 
-// A checkpoint, and files as an interrupted run has them. It may go on after all.
+// Writes a checkpoint and leaves the files as after an interruption. The run may still continue.
 void PythonRun::leave_whole() {
   Session& run = *open_.session;
   if (!outcome_.empty() || !run.open()) return;
@@ -209,7 +209,7 @@ bool PythonRun::go(const Session::Target& target) {
   return !outcome_.empty();
 }
 
-// Which may hold the simulation in turn: nobody would ever take it away.
+// Callbacks may reference the simulation; that cycle would never be freed.
 void PythonRun::forget_calls() {
   sample_calls_.clear();
   frame_calls_.clear();

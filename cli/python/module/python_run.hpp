@@ -1,4 +1,4 @@
-// A simulation of particles as Python holds it: a session, its folder, and who may touch it when.
+// A particle simulation as seen from Python: a session, its folder, and the rules for access to it.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,7 +15,7 @@
 
 namespace pulvis::python {
 
-// Asked for something at a moment, or of a thing, that does not allow it: pulvis.RunError.
+// A request that is not allowed at this time or for this object: pulvis.RunError.
 class NotNow : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,7 +27,7 @@ class PythonRun {
     std::string folder;  // empty: nothing is written
     int threads = 0;     // 0: all processors
     bool overwrite = false;
-    double checkpoint_every = 60;  // s, of the clock on the wall
+    double checkpoint_every = 60;  // s, wall-clock time
     std::int64_t checkpoint_steps = 0;
   };
   PythonRun(const LoadedScene& scene, const Options& options);
@@ -36,20 +36,20 @@ class PythonRun {
   PythonRun(const PythonRun&) = delete;
   PythonRun& operator=(const PythonRun&) = delete;
 
-  // With the GIL, which is released while steps are taken. True when the run has ended.
+  // Requires the GIL and releases it during steps. Returns true when the run has ended.
   bool go(const Session::Target& target);
-  void stop() { stop_ = true; }  // from a callback or another thread: after this step
+  void stop() { stop_ = true; }  // from a callback or another thread: stops after this step
   void checkpoint();
   void close();
 
   void on_sample(const pybind11::function& call);
   void on_frame(const pybind11::function& call);
   void every(std::int64_t steps, const pybind11::function& call);
-  void on_tick(const pybind11::object& call);  // None: none any more
+  void on_tick(const pybind11::object& call);  // None: removes it
 
-  // Refuses while another thread takes steps.
+  // Throws NotNow while another thread takes steps.
   Session& session();
-  // Where state may be changed: between two steps, in `every` or outside of all calls.
+  // For changes of state: between two steps, in `every` or outside all callbacks.
   Session& session_between_steps(const char* what);
   const std::string& outcome() const { return outcome_; }
   const std::vector<double>& times() const { return times_; }

@@ -15,7 +15,7 @@
 namespace pulvis::python {
 namespace {
 
-constexpr double seen_in_a_step = 0.25;  // -, of the thinnest part, as advance_clock has it
+constexpr double seen_in_a_step = 0.25;  // -, of the thinnest part, as in advance_clock
 
 void require_free(const World& world, int tool, const std::string& name) {
   if (!world.has<ToolServos>()) return;
@@ -31,7 +31,7 @@ void require_free(const World& world, int tool, const std::string& name) {
 
 void require_seen(const World& world, const std::string& name, const Point3& velocity) {
   const double speed = std::hypot(velocity[0], velocity[1], velocity[2]);
-  // hypot may pass over what is no number.
+  // hypot may hide a NaN.
   if (!std::ranges::all_of(velocity, [](double v) { return std::isfinite(v); }))
     throw NotNow(fmt::format("tool {}: the velocity is not finite", name));
   if (!world.has<ContactRules>()) return;
@@ -53,7 +53,7 @@ int index_of(Simulation& simulation, const std::string& name) {
   return static_cast<int>(found - names.begin());
 }
 
-// That of the present stage, else the first one; nullptr where no stage has one that holds a force.
+// The servo of the current stage, else the first one; nullptr if no stage has a force servo.
 const ToolServos::Servo* servo_of_tool(const World& world, int tool, std::size_t stage) {
   if (!world.has<ToolServos>()) return nullptr;
   const ToolServos::Servo* found = nullptr;
@@ -93,9 +93,9 @@ void drive_tool(Simulation& simulation, const std::string& name, const Point3& v
   const Point3 now = tool_position_at(program, tool, clock.time);
   const Point3 before = tool_position_at(program, tool, clock.time - clock.dt_before);
   std::erase_if(program.segments, [&](const auto& segment) { return segment.tool == tool; });
-  constexpr int no_stage = -1;  // none that ends early cuts it
+  constexpr int no_stage = -1;  // not cut short by a stage that ends early
   program.start[static_cast<std::size_t>(tool)] = before;
-  // Within a step nobody asks but for its two ends.
+  // Only the two ends of a step are ever evaluated.
   if (clock.dt_before > 0)
     program.segments.push_back(
         {.tool = tool,
@@ -103,7 +103,7 @@ void drive_tool(Simulation& simulation, const std::string& name, const Point3& v
          .duration = clock.dt_before,
          .displacement = {now[0] - before[0], now[1] - before[1], now[2] - before[2]},
          .stage = no_stage});
-  // Beyond the end: the last steps are longer than the time that is left.
+  // Extends past the end: the last step may be longer than the remaining time.
   const double duration = 2 * (clock.end - clock.time);
   program.segments.push_back(
       {.tool = tool,

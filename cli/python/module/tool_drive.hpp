@@ -1,5 +1,5 @@
-// Tools driven from outside, instead of what their stages say: from the present step on with a set velocity, or, where a
-// servo moves them, with a set force.
+// Tools driven from outside instead of by their stages: from the current step on at a given velocity or, if a servo
+// moves them, with a given force.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@
 namespace pulvis::python {
 
 std::vector<std::string> tool_names(Simulation& simulation);
-// Between two steps. The tool's programme of motion is replaced from t_n on; where it stood, and how fast it came there,
-// stays. Throws NotNow for a tool that holds a force or gives, and for a velocity beyond what a step can see.
+// Between two steps. Replaces the tool's prescribed motion from t_n on; its position and velocity up to then stay.
+// Throws NotNow for a tool with a servo or compliant drive, and for a velocity too high for contact detection.
 void drive_tool(Simulation& simulation, const std::string& name, const Point3& velocity);
 
-// Tools that hold a force in some stage.
+// Tools with a force servo in at least one stage.
 std::vector<std::string> servo_names(Simulation& simulation);
 struct ServoView {
   double asked = 0;    // N, 0 in stages without it: series force_asked
-  Point3 direction{};  // in which it pushes: of the present stage, else of its first one
-  bool holds = false;  // in the present stage
+  Point3 direction{};  // pushing direction: of the current stage, else of its first one
+  bool holds = false;  // in the current stage
 };
 ServoView servo_view(Simulation& simulation, const std::string& name);
-// Between two steps: from the end of the next step on the servo asks for `force`, in N, in every stage that has it, without
-// a ramp. Throws NotNow for a tool without servo, and for a force that none can push with.
+// Between two steps: from the end of the next step on, the target force is `force`, in N, in every stage that has the
+// servo, without a ramp. Throws NotNow for a tool without a servo, and for a force that no servo can apply.
 void drive_servo(Simulation& simulation, const std::string& name, double force);
 
 }  // namespace pulvis::python

@@ -1,13 +1,13 @@
 """Pulvis from Python: the combined discrete/finite element method for powders.
 
-Scenes and simulations are those of the command line: the same compiled systems, the same scene language, the
-same bits. What reads results (`pulvis.open`, `pulvis.open_study`) and draws them needs no compiled module.
+Scenes and simulations are the same as on the command line: same compiled systems, same scene language, bitwise
+identical results. Reading results (`pulvis.open`, `pulvis.open_study`) and plotting need no compiled module.
 """
 
 import importlib
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # what the lazy names are, for checkers of types and editors
+if TYPE_CHECKING:  # resolves the lazy names for type checkers and editors
     from pulvis.afm import Lever as Lever
     from pulvis.columns import Column as Column
     from pulvis.errors import PulvisError as PulvisError, RunError as RunError, SceneError as SceneError
@@ -18,8 +18,8 @@ if TYPE_CHECKING:  # what the lazy names are, for checkers of types and editors
     from pulvis.simulation import Simulation as Simulation, resume as resume
     from pulvis.study import Study as Study, open_study as open_study
 
-# Where each public name lives. A name is imported when it is first used: results are read and drawn without the
-# compiled module, and without pandas where no table is asked for.
+# The module of each public name. A name is imported on first use: reading and plotting results need no compiled
+# module, and no pandas unless a table is requested.
 _HOMES = {
     "open": "pulvis.results",
     "Run": "pulvis.results",

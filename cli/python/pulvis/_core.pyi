@@ -1,4 +1,4 @@
-"""The compiled module, as the package uses it: its own names, SI units, checks and errors of the program."""
+"""The compiled module, for use by the package only: SI units, checks and errors of the program."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Levers of an atomic force microscope: calibration, friction loops, force curves."""
+"""Cantilevers (levers) of an atomic force microscope: calibration, friction loops, force curves."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 
 class Lever:
-    """A lever of a scene of the family "afm", calibrated when it is made; `Scene.simulation` makes it.
+    """The lever of a scene of the family "afm". `Scene.simulation` creates and calibrates it.
 
-    `run` goes through its programme, an equilibrium after the other. A lever has no time: what `history` calls
-    ``actions`` counts the actions done. However the programme is cut into parts, its increments are those of
-    ``pulvis run``, and its final state has the same bits.
+    `run` steps through the programme, one equilibrium after another. A lever has no time: ``actions`` in `history`
+    counts the completed actions instead. However the programme is split into parts, its increments are those of
+    ``pulvis run``, and its final state is bitwise identical.
 
-    An error in a callback or Ctrl-C ends a lever with a folder, whose files are whole then; `pulvis.resume` goes on.
-    Without a folder it goes on itself.
+    An error in a callback or Ctrl-C ends a lever with a folder. Its files are complete, and `pulvis.resume` continues
+    it. A lever without a folder can simply be run on.
     """
 
     def __init__(self, scene: Scene, threads: int = 0, folder: str | os.PathLike[str] | None = None,
@@ -42,21 +42,21 @@ class Lever:
         core = _core.resume_lever(os.fspath(folder), threads)
         return cls(Scene(Path(folder) / "scene.toml"), folder=folder, core=core)
 
-    # ---- course -------------------------------------------------------------------------------------------------
+    # ---- running ------------------------------------------------------------------------------------------------
     def run(self, progress: bool | None = None) -> Lever:
-        """Runs the programme to its end, or only writes what the calibration found. Returns the lever."""
-        del progress  # increments take too different times for a bar
+        """Runs the programme to its end; without a programme, only writes the calibration. Returns the lever."""
+        del progress  # increments differ too much in duration for a progress bar
         return self._go(self._core.run)
 
     def run_until(self, actions: float) -> Lever:
-        """Goes on until so many actions of the programme are over: 2 for the first two, 2.5 for half of the third, too.
+        """Runs until this many actions of the programme are complete: 2, or 2.5 for half of the third as well.
 
-        A scan with its retrace is one action; the trace is over at its half. Returns the lever.
+        A scan with trace and retrace is one action; the trace ends halfway. Returns the lever.
         """
         return self._go(lambda: self._core.run_until(float(actions)))
 
     def step(self, count: int = 1) -> Lever:
-        """Makes `count` increments, fewer where the programme ends. Returns the lever."""
+        """Takes `count` increments, or fewer if the programme ends first. Returns the lever."""
         return self._go(lambda: self._core.step(count))
 
     def _go(self, part):
@@ -65,11 +65,11 @@ class Lever:
         return self
 
     def stop(self) -> None:
-        """From a callback or another thread: `run` comes back when the present increment is made."""
+        """Makes `run` return after the current increment. Call it from a callback or another thread."""
         self._core.stop()
 
     def close(self) -> None:
-        """Completes the files of a programme that has not ended, with a checkpoint; `pulvis.resume` goes on then."""
+        """Writes a checkpoint and closes the files of an unfinished programme; `pulvis.resume` can continue it."""
         self._core.close()
 
     def __enter__(self) -> Lever:
@@ -80,13 +80,13 @@ class Lever:
 
     # ---- callbacks ----------------------------------------------------------------------------------------------
     def on_sample(self, call: Callable[[float, dict[str, float]], Any]) -> Callable[[float, dict[str, float]], Any]:
-        """Calls ``call(actions, row)`` after every increment: row is a dict of the series. Returns `call`."""
+        """Calls ``call(actions, row)`` after every increment; row is a dict of the series. Returns `call`."""
         names = [name for name, _, _ in _core.afm_series()]
         self._core.on_sample(lambda time, row: call(time, dict(zip(names, row))))
         return call
 
     def on_frame(self, call: Callable[[Lever], Any]) -> Callable[[Lever], Any]:
-        """Calls ``call(lever)`` when a frame has been written."""
+        """Calls ``call(lever)`` after each frame is written."""
         self._core.on_frame(self._bound(call))
         return call
 
@@ -98,7 +98,7 @@ class Lever:
         return call
 
     def _bound(self, call):
-        this = weakref.ref(self)  # the compiled lever must not keep what keeps it
+        this = weakref.ref(self)  # avoids a reference cycle with the compiled lever
         return lambda: call(this())
 
     # ---- results ------------------------------------------------------------------------------------------------
@@ -117,18 +117,18 @@ class Lever:
 
     @property
     def actions(self) -> float:
-        """Actions done so far, the part of the present one included."""
+        """Actions completed so far, including the fraction of the current one."""
         times = self._core.sample_times
         return times[-1] if times else 0.0
 
     @property
     def finished(self) -> bool:
-        """Whether the whole programme was run."""
+        """Whether the whole programme has been run."""
         return self.outcome == "done"
 
     @property
     def history(self) -> dict[str, np.ndarray]:
-        """Arrays [increments] by series, SI units: dict; ``actions`` counts the actions done."""
+        """Arrays [increments] by series name, SI units: dict; ``actions`` counts the completed actions."""
         rows = self._core.samples
         series = {"actions": np.asarray(self._core.sample_times)}
         series.update({name: rows[:, i] for i, (name, _, _) in enumerate(_core.afm_series())})

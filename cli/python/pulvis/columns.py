@@ -12,10 +12,10 @@ from pulvis import _core
 
 @dataclass(frozen=True)
 class ColumnInfo:
-    """What a column is.
+    """Description of a column.
 
-    ``numbers`` is how many numbers a row has, ``rows`` how many rows there are now (lanes without a particle
-    included), ``only_at_samples`` says that it holds in `on_sample` and `on_frame` callbacks alone.
+    ``numbers`` is the number of values per row, ``rows`` the current number of rows (including SIMD lanes without a
+    particle), ``only_at_samples`` means that it is valid only in `on_sample` and `on_frame` callbacks.
     """
 
     name: str
@@ -32,13 +32,13 @@ class ColumnInfo:
 
 
 class Column:
-    """A column: by particle where it has rows of particles, and as one array.
+    """A column, accessed per particle (if it belongs to particles) or as one array.
 
-    ``column[i]`` is the array [rows, numbers] of the particle of number i, without a copy: its nodes, elements, or one
-    row. ``column.blocks`` has all particles of one mesh in one array, without a copy. ``numpy.asarray(column)`` is a
-    copy of all rows, particle after particle, as fields of frames are ordered. Of tools and of contacts ``column[i]``
-    is row i, and ``column.rows`` has all of them. Arrays keep the simulation alive; they show the present step,
-    whenever they are looked at.
+    ``column[i]`` is the array [rows, numbers] of particle i, without a copy: its nodes, its elements, or a single
+    row. ``column.blocks`` has all particles with the same mesh in one array, without a copy. ``numpy.asarray(column)``
+    copies all rows, particle by particle, in the order of frame fields. For tools and contacts, ``column[i]`` is
+    row i, and ``column.rows`` has all rows. Arrays keep the simulation alive; they always show the current step,
+    whenever they are read.
     """
 
     def __init__(self, run: _core.Run, name: str, writable: bool = False) -> None:
@@ -62,7 +62,7 @@ class Column:
 
     @property
     def rows(self) -> np.ndarray:
-        """All rows [rows, numbers] of a column that is not of particles; a copy where ``info.shares_memory`` is
+        """All rows [rows, numbers] of a column that does not belong to particles; a copy if ``info.shares_memory`` is
         False."""
         return self._run.column_rows(self.name)
 
@@ -70,7 +70,7 @@ class Column:
     def blocks(self) -> list[tuple[np.ndarray, np.ndarray]]:
         """Pairs of ``numbers`` [chunks, 8] and ``values`` [chunks, 8, rows, numbers]: particles that share a mesh.
 
-        A number of -1 is a lane without a particle. ``values`` shares the memory.
+        A number of -1 marks a lane without a particle. ``values`` shares the simulation's memory.
         """
         return [(numbers, self._kept(values))
                 for numbers, values in self._run.column_blocks(self.name, self._writable)]
@@ -93,7 +93,7 @@ class Column:
     def __enter__(self) -> Column:
         if not self._writable:
             raise TypeError("allowed: with sim.writable(name) as column")
-        self._run.column_blocks(self.name, True)  # refuses at once what may not be written
+        self._run.column_blocks(self.name, True)  # raises at once if it is not writable
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -1,4 +1,4 @@
-"""What goes wrong: every error of the package is a PulvisError."""
+"""Exceptions: every error of the package is a PulvisError."""
 
 
 class PulvisError(Exception):
@@ -7,13 +7,13 @@ class PulvisError(Exception):
     Attributes
     ----------
     file : str or None
-        The file that is to blame, where there is one.
+        The file that caused the error, if any.
     line, column : int or None
-        Where in the file, from 1.
+        Position in the file, counted from 1.
     key : str or None
-        The key of the scene language, as ``material[0].yield_stress``.
+        The key in the scene, such as ``material[0].yield_stress``.
     problems : list of dict
-        All that was found at once, each with ``file``, ``line``, ``column``, ``key``, ``override`` and ``message``.
+        All problems found, each with ``file``, ``line``, ``column``, ``key``, ``override`` and ``message``.
     """
 
     def __init__(self, message, file=None, *, line=None, column=None, key=None, problems=()):
@@ -27,8 +27,8 @@ class PulvisError(Exception):
 
 
 class SceneError(PulvisError):
-    """A scene, or a value in it, was refused before anything ran."""
+    """A scene, or a value in it, is invalid; nothing was run."""
 
 
 class RunError(PulvisError):
-    """A run failed, or was asked for what it cannot give."""
+    """A run failed, or the request does not apply to it."""

@@ -1,4 +1,4 @@
-"""What a lever's run holds beside series and frames: friction loops, force curves, images of rasters."""
+"""Lever results besides series and frames: friction loops, force curves, raster images."""
 from collections import namedtuple
 
 import numpy as np
@@ -36,7 +36,7 @@ def loops_of(run):
 
 
 def vertical_moves(run):
-    """Of each row: +1 where the sample went up to it and nowhere else, -1 where it went down, 0 otherwise."""
+    """For each row: +1 if the sample only moved up to reach it, -1 if it only moved down, 0 otherwise."""
     moves = {axis: np.diff(run.series(f"scanner/{axis}"), prepend=np.nan) if run.has(f"scanner/{axis}") else np.array(0.0)
              for axis in "xyz"}
     still = (moves["x"] == 0) & (moves["y"] == 0)
@@ -53,7 +53,7 @@ def force_curves_of(run):
         while end < len(moves) and moves[end] < 0:
             end += 1
         last = begin
-        while last > 0 and moves[last - 1] == 0:  # what was held between
+        while last > 0 and moves[last - 1] == 0:  # hold between approach and retract
             last -= 1
         first = last
         while first > 0 and moves[first - 1] > 0:

@@ -1,4 +1,4 @@
-"""Meshes of particles alone, without a run."""
+"""Particle meshes on their own, without a run."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Mesh:
-    """The undeformed mesh of a class of particles, about the centre of its outline.
+    """The undeformed mesh of a particle class, relative to the centroid of its outline.
 
-    ``nodes`` [nodes, 2] m, of which the first ``boundary_nodes`` are the outline, counter-clockwise; ``quads``
+    ``nodes`` [nodes, 2] m, of which the first ``boundary_nodes`` form the outline, counter-clockwise; ``quads``
     [elements, 4]; ``area`` m^2 of the true outline; ``min_corner_sine`` of the worst element, 1 for a rectangle;
     ``shortest_edge`` m.
     """
@@ -38,10 +38,10 @@ class Mesh:
 
 @dataclass(frozen=True)
 class SolidMesh:
-    """The undeformed mesh of a class of particles in three dimensions, about the centre of its volume.
+    """The undeformed mesh of a particle class in three dimensions, relative to its centre of volume.
 
     ``nodes`` [nodes, 3] m, of which the first ``surface_nodes`` are on the surface; ``hexahedra`` [elements, 8] in the order of
-    VTK; ``faces`` [faces, 4] nodes of the elements' sides on the surface, counter-clockwise from outside; ``volume`` m^3 of the
+    VTK; ``faces`` [faces, 4] nodes of the element faces on the surface, counter-clockwise from outside; ``volume`` m^3 of the
     true shape; ``area`` m^2 of the surface.
     """
 
@@ -59,7 +59,7 @@ def made(found: dict[str, Any]) -> Mesh | SolidMesh:
 
 
 def mesh(scene: Scene, particle: str | int = 0) -> Mesh | SolidMesh:
-    """The mesh of a class of a scene, by name or position: `Mesh`, in three dimensions `SolidMesh`."""
+    """The mesh of a particle class of a scene, by name or index: `Mesh`, or `SolidMesh` in three dimensions."""
     if isinstance(particle, str):
         number = 0
         names: list[str] = []

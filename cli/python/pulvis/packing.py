@@ -1,4 +1,4 @@
-"""Packings alone, without a run."""
+"""Packings on their own, without a run."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Packing:
-    """Particles as they are placed, in the order of their numbers.
+    """The placed particles, in order of their numbers.
 
-    ``centres`` [particles, 2] m, ``angles`` [particles] rad, ``classes`` [particles] positions in ``names``,
-    ``areas`` [particles] m^2, ``radii`` [particles] m of discs of that area, ``table`` the CSV text that
+    ``centres`` [particles, 2] m, ``angles`` [particles] rad, ``classes`` [particles] indices into ``names``,
+    ``areas`` [particles] m^2, ``radii`` [particles] m of discs of equal area, ``table`` the CSV text that
     ``kind = "csv"`` reads back bit for bit.
     """
 
@@ -33,7 +33,7 @@ class Packing:
 
     @property
     def radii(self) -> np.ndarray:
-        """Of discs of the particles' areas, m [particles]."""
+        """Radii of discs of equal area, m [particles]."""
         return np.sqrt(self.areas / np.pi)
 
     def __len__(self) -> int:
@@ -54,10 +54,10 @@ class Packing:
 
 @dataclass(frozen=True)
 class SolidPacking:
-    """Particles as they are placed in three dimensions, in the order of their numbers.
+    """The placed particles in three dimensions, in order of their numbers.
 
-    ``centres`` [particles, 3] m, ``rotations`` [particles, 4] quaternions w, x, y, z from a particle's own frame to the scene's,
-    ``classes`` [particles] positions in ``names``, ``volumes`` [particles] m^3, ``radii`` [particles] m of balls of that volume,
+    ``centres`` [particles, 3] m, ``rotations`` [particles, 4] quaternions w, x, y, z from a particle's body frame to the scene,
+    ``classes`` [particles] indices into ``names``, ``volumes`` [particles] m^3, ``radii`` [particles] m of equal-volume spheres,
     ``table`` the CSV text that ``kind = "csv"`` reads back bit for bit.
     """
 
@@ -71,14 +71,14 @@ class SolidPacking:
 
     @property
     def radii(self) -> np.ndarray:
-        """Of balls of the particles' volumes, m [particles]."""
+        """Radii of spheres of equal volume, m [particles]."""
         return np.cbrt(self.volumes * 3 / (4 * np.pi))
 
     def __len__(self) -> int:
         return len(self.centres)
 
     def surface(self, number: int) -> np.ndarray:
-        """Nodes of a particle's surface, m [nodes, 3]; their faces are those of `pulvis.mesh`."""
+        """Surface nodes of a particle, m [nodes, 3]; for their faces see `pulvis.mesh`."""
         mesh = self._meshes[self.classes[number]]
         w, axis = self.rotations[number][0], self.rotations[number][1:]
         points = mesh["nodes"][: mesh["surface_nodes"]]
@@ -92,7 +92,7 @@ class SolidPacking:
 
 
 def pack(scene: Scene) -> Packing | SolidPacking:
-    """The packing of a scene: `Packing`, in three dimensions `SolidPacking`."""
+    """The packing of a scene: `Packing`, or `SolidPacking` in three dimensions."""
     made = _core.packing(scene._core)
     meshes = {c: _core.mesh_of_class(scene._core, int(c)) for c in np.unique(made["classes"])}
     if "rotations" in made:

@@ -1,11 +1,11 @@
-"""Pictures of a run, those of `pulvis figure`: run.plot.forces(), run.plot.field("effective_stress", frame=-1) ...
+"""Figures of a run, the same as from `pulvis figure`: run.plot.forces(), run.plot.field("effective_stress", frame=-1) ...
 
-Each returns (Figure, Axes). Each takes `ax`, axes of your own to draw into, and what `pulvis figure` takes:
+Each returns (Figure, Axes). Each accepts `ax`, existing axes to draw into, and the options of `pulvis figure`:
 
     width, height   "85mm", "3.3 in", or a number of inches
-    title           False: none
-    cmap            a colour map of matplotlib
-    limits          ends of the colours: "0:400 MPa", ("0 MPa", None), or numbers in SI
+    title           False: no title
+    cmap            a matplotlib colormap
+    limits          limits of the colour scale: "0:400 MPa", ("0 MPa", None), or numbers in SI
     dpi             dots per inch
 """
 
@@ -40,7 +40,7 @@ DPI = 150
 
 
 def options_of(given: dict[str, Any], **more: Any) -> Options:
-    """Options of what was given by name."""
+    """Options from keyword arguments."""
     known = {"width", "height", "title", "cmap", "limits", "dpi"}
     if wrong := set(given) - known:
         raise TypeError(f"unknown: {', '.join(sorted(wrong))}; allowed: {', '.join(sorted(known))}")
@@ -50,7 +50,7 @@ def options_of(given: dict[str, Any], **more: Any) -> Options:
 
 
 class Plot:
-    """Pictures of a run."""
+    """Figures of a run."""
 
     def __init__(self, run: Run) -> None:
         self._run = run
@@ -67,53 +67,53 @@ class Plot:
         return figure, ax if ax is not None else figure.axes[0]
 
     def forces(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Forces on the tools over time; those that pull down turned over, small ones left out."""
+        """Forces on the tools over time; downward forces with reversed sign, small ones omitted."""
         return self._drawn(curves.forces, "forces", options_of(look), ax)
 
     def stress_ratio(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Axial and lateral stress over the yield stress, against the relative density."""
+        """Axial and lateral stress, normalised by the yield stress, against relative density."""
         return self._drawn(curves.stress_ratio, "stress over yield stress", options_of(look), ax)
 
     def energies(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """All energies over time: what the tools did, and where it went."""
+        """Energy balance over time: work of the tools and all energy terms."""
         return self._drawn(curves.energies, "energies", options_of(look), ax)
 
     def series(self, *names: str, against: str = "time", ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Series of the history, of one unit, over time or another series."""
+        """History series that share a unit, over time or against another series."""
         return self._drawn(curves.chosen_series, "series", options_of(look, series=list(names), against=against), ax)
 
     def curve(self, x: str, y: str, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """One series against another, as curve("relative_density", "stress_ratio/axial")."""
+        """One series against another, for example curve("relative_density", "stress_ratio/axial")."""
         return self.series(y, against=x, ax=ax, **look)
 
     def field(self, name: str = fields.DEFAULT_FIELD, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """A field of elements or particles; "stress:2" is the second component. In three dimensions all particles from a
-        corner."""
+        """An element or particle field; "stress:2" is the second component. In three dimensions, a view of all particles
+        from a corner."""
         draw = space.space_picture if self._run.in_space else fields.field_picture
         return self._drawn(draw, "frames", options_of(look, field=name, frame=frame), ax)
 
     def section(self, name: str = fields.DEFAULT_FIELD, frame: int = -1, across: str = "y", at: float | None = None,
                 ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """In three dimensions: the elements that a plane across an axis cuts, near the middle or `at` a place (m)."""
+        """3D only: the elements cut by a plane normal to an axis, near the middle or `at` a coordinate (m)."""
         if across not in ("x", "y", "z"):
             raise RunError(f"across {across}: allowed: x, y, z", self._run.folder, key="across")
         draw = space.section_picture if self._run.in_space else lambda *_: None
         return self._drawn(draw, "sections, which only 3D runs have", options_of(look, field=name, frame=frame, across=across, at=at), ax)
 
     def network(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Normal forces of the contacts, and force chains."""
+        """Normal contact forces and force chains."""
         draw = space.space_network if self._run.in_space else network.contact_network
         return self._drawn(draw, "network", options_of(look, frame=frame), ax)
 
     def rose(self, frame: int = -1, **look: Any) -> tuple[Figure, Axes]:
-        """Directions of the contacts' normals, in two dimensions."""
+        """Rose diagram of the contact normals; 2D only."""
         draw = (lambda *_: None) if self._run.in_space else network.rose
         return self._drawn(draw, "network in two dimensions" if self._run.in_space else "network", options_of(look, frame=frame))
 
     def density(self, frame: int | None = -1, across: str = "y", at: float | None = None, ax: Axes | None = None,
                 **look: Any) -> tuple[Figure, Axes]:
-        """Local densities of a frame; of several frames from the first to the last with frame=None. In three dimensions a layer
-        of cells across an axis, in the middle or `at` a place (m)."""
+        """Local relative densities in a frame; frame=None shows several frames from first to last. In three dimensions, one
+        layer of cells normal to an axis, in the middle or `at` a coordinate (m)."""
         if not self._run.in_space:
             return self._drawn(densities.local_density, "density", options_of(look, frame=frame), ax)
         if across not in ("x", "y", "z"):
@@ -121,48 +121,48 @@ class Plot:
         return self._drawn(space_density.density_slice, "density", options_of(look, frame=frame, across=across, at=at), ax)
 
     def density_profile(self, frame: int | None = None, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Relative density along the height, at several times or in one frame."""
+        """Relative density over the height, at several times or in one frame."""
         draw = space.space_profile if self._run.in_space else densities.density_profile
         return self._drawn(draw, "density", options_of(look, frame=frame), ax)
 
     def cracks(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Fragments, bonds, and cracks by their mode."""
+        """Fragments, bonds, and cracks by mode."""
         return self._drawn(bonds.cracks, "cracks", options_of(look, frame=frame), ax)
 
     def fragment_sizes(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Sizes of the fragments."""
+        """Fragment size distribution."""
         return self._drawn(bonds.fragment_sizes, "cracks", options_of(look, frame=frame), ax)
 
     def animate(self, name: str, path: str | os.PathLike[str], ax: Axes | None = None, per_second: int | None = None,
                 **look: Any) -> Any:
-        """Writes all frames as .mp4 (needs ffmpeg) or .gif, `per_second` of them a second: 12, of levers 3.
+        """Writes all frames as .mp4 (needs ffmpeg) or .gif at `per_second` frames per second; default 12, levers 3.
 
-        `name` is a field; of a lever "solid", its parts, or "plastic_strain", above the forces on its tip.
-        Displacements of a lever that could not be seen are drawn larger; the title says how many times.
+        `name` is a field; for a lever "solid" (its parts) or "plastic_strain", shown above the forces on its tip.
+        Lever displacements too small to be seen are magnified; the title gives the factor.
         """
         options = options_of(look, field=name)
         with plt.rc_context(options.context(ax)):
             return animate(self._run, path, options, ax, per_second)
 
     def solid(self, frame: int = -1, **look: Any) -> tuple[Figure, Axes]:
-        """A lever: its solid in a frame."""
+        """Lever: its mesh in one frame."""
         return self._drawn(afm.solid, "frames", options_of(look, frame=frame))
 
     def force_curve(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """A lever: vertical force over the travel of the scanner, approach and retract apart."""
+        """Lever: vertical force against scanner travel, approach and retract as separate curves."""
         return self._drawn(afm.force_curve, "force curves", options_of(look), ax)
 
     def friction_loop(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """A lever: lateral force, trace and retrace apart."""
+        """Lever: lateral force, trace and retrace as separate curves."""
         return self._drawn(afm.friction_loop, "friction loops", options_of(look), ax)
 
     def images(self, level: str = "none", **look: Any) -> tuple[Figure, Axes]:
-        """A raster: all channels, trace and retrace. level: "none", "plane" or "lines"."""
+        """Raster scan: all channels, trace and retrace. level: "none", "plane" or "lines"."""
         return self._drawn(afm.images, "images", options_of(look, level=level))
 
 
 def facts_of(run: Run) -> list[tuple[str, str]]:
-    """[(words, text)] of what a run came to."""
+    """[(label, text)]: the main results of a run."""
     mesh, facts = run.mesh, [("outcome", run.outcome)]
     if run.is_solid:
         facts += [(name_of(key).words, with_unit(run.calibration[key], "N/m")) for key in ("k_n", "k_l") if run.calibration]
@@ -188,7 +188,7 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
 
 
 def picture_of(run: Run) -> Figure | None:
-    """The figure that shows a run best, or None."""
+    """The most informative figure of a run, or None."""
     plot = Plot(run)
     if not run.is_solid:
         makers = [lambda: plot.field(title=False, width=4.6), lambda: plot.forces(title=False, width=4.6)]
@@ -204,7 +204,7 @@ def picture_of(run: Run) -> Figure | None:
 
 
 def png_of(run: Run) -> bytes | None:
-    """Bytes of its picture, for notebooks; None without any."""
+    """PNG bytes of that figure, for notebooks; None if there is none."""
     with plt.ioff():
         figure = picture_of(run)
     if figure is None:
@@ -216,7 +216,7 @@ def png_of(run: Run) -> bytes | None:
 
 
 def html_of(run: Run) -> str:
-    """A small table and the picture, for notebooks."""
+    """A small table and the figure, for notebooks."""
     rows = "".join(f"<tr><th style='text-align:left'>{html.escape(capital(words))}</th><td style='text-align:left'>"
                    f"{html.escape(text)}</td></tr>" for words, text in facts_of(run))
     png = png_of(run)

@@ -1,12 +1,12 @@
-"""A progress bar for runs: tqdm's, in a terminal or a notebook."""
+"""A tqdm progress bar for runs, in a terminal or a notebook."""
 
 import sys
 from contextlib import contextmanager
 
 
 def in_notebook():
-    """Whether a Jupyter kernel runs this."""
-    if "IPython" not in sys.modules:  # a kernel has it; to import it takes as long as a short run
+    """Whether this is running in a Jupyter kernel."""
+    if "IPython" not in sys.modules:  # a kernel has it; importing it is as slow as a short run
         return False
     from IPython import get_ipython
 

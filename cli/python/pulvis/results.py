@@ -1,11 +1,11 @@
-"""Runs as they lie in their folders: finished, broken off, or still being written. Everything is in SI units.
+"""Runs read from their folders: finished, aborted, or still being written. Everything is in SI units.
 
     run = pulvis.open("runs/mine")
     run.history["tool/top/force_y"]            # a column of a pandas DataFrame over time
-    run.frame(-1).field("effective_stress")    # a numpy array, a number for each element
+    run.frame(-1).field("effective_stress")    # a numpy array, one value per element
     run.plot.field("effective_stress")
 
-Reading needs numpy and h5py; pandas only where a DataFrame is asked for, matplotlib only for pictures.
+Reading needs numpy and h5py; pandas is needed only for DataFrames, matplotlib only for plots.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ Densities.__doc__ = """Relative densities of the cells of a grid: `values` [alon
 cells along each axis, m."""
 
 
-_TICK = 0.01  # s; what the time of a file's last change is exact to
-_PATIENCE = 10.0  # s, for a file that changes while it is read
+_TICK = 0.01  # s; resolution of a file's modification time
+_PATIENCE = 10.0  # s; timeout for a file that changes while it is read
 
 
 def open(folder: str | os.PathLike[str]) -> Run:  # noqa: A001  (pulvis.open)
@@ -48,7 +48,7 @@ def open(folder: str | os.PathLike[str]) -> Run:  # noqa: A001  (pulvis.open)
 
 
 def table(columns: dict[str, tuple[Any, str]], index: Any = None, name: str | None = None) -> DataFrame:
-    """DataFrame of columns {name: (values, unit)}; `attrs["units"]` has their units."""
+    """DataFrame from columns {name: (values, unit)}; `attrs["units"]` holds the units."""
     try:
         import pandas
     except ImportError as error:
@@ -61,14 +61,14 @@ def table(columns: dict[str, tuple[Any, str]], index: Any = None, name: str | No
 
 
 def names_in(dataset: h5py.Dataset) -> list[str]:
-    """Names that the numbers of a dataset are positions of, or nothing."""
+    """The names that the integers of a dataset index, or an empty list."""
     text = dataset.attrs.get("names", "")
     text = text.decode() if isinstance(text, bytes) else text
     return text.split("\n") if text else []
 
 
 class Frame:
-    """The state at one time: `time` in s (of a lever: actions done), `step`, and fields."""
+    """The state at one time: `time` in s (for a lever: completed actions), `step`, and fields."""
 
     def __init__(self, run, name, number):
         self._run, self.group, self.name, self.number = run, run.file["frames"][name], name, number
@@ -90,11 +90,11 @@ class Frame:
 
     @property
     def fields(self) -> list[str]:
-        """Names of the fields of nodes, cells and particles."""
+        """Names of the node, cell and particle fields."""
         return [name for name, item in self.group.items() if item.attrs.get("place") in ("node", "cell", "particle")]
 
     def dataset(self, name: str) -> h5py.Dataset:
-        """A field's dataset, of this frame or, of what does not change, of the run."""
+        """The dataset of a field: from this frame, or from the run for constant fields."""
         for place in (self.group, self._run.file.get("particles", {})):
             if name in place and isinstance(place[name], h5py.Dataset):
                 return place[name]
@@ -102,7 +102,7 @@ class Frame:
         raise RunError(f"no field {name}; there are: {', '.join(known) or 'none'}", self._run.folder)
 
     def field(self, name: str) -> np.ndarray:
-        """Values of a field, SI: [places], or [places, components]. `fields` lists them."""
+        """Values of a field in SI units: [count], or [count, components]. `fields` lists the names."""
         data = self.dataset(name)
         count = int(data.attrs.get("components", 1))
         values = data[()]
@@ -114,12 +114,12 @@ class Frame:
 
     @property
     def nodes(self) -> np.ndarray:
-        """Positions of the nodes, m: [nodes, 2 or 3]."""
+        """Node positions, m: [nodes, 2 or 3]."""
         return self.group["position"][()]
 
     @property
     def particles(self) -> DataFrame:
-        """DataFrame of all fields of particles; components are columns of their own, name:1, name:2 ..."""
+        """DataFrame of all particle fields; components become separate columns, name:1, name:2 ..."""
         columns, kept = {}, self._run.file.get("particles", {})
         for name in [*kept, *(n for n in self.fields if self.group[n].attrs["place"] == "particle")]:
             data, unit = self.dataset(name)[()], self.unit(name)
@@ -132,8 +132,8 @@ class Frame:
         return table(columns, np.arange(count), "particle")
 
     def density(self) -> Densities:
-        """Relative densities in the cells of the grid: `values` [along x, y (, z)], NaN where a cell has no room, and `lines`,
-        the places between the cells along each axis, m."""
+        """Relative densities of the grid cells: `values` [along x, y (, z)], NaN where a cell has no free space, and `lines`,
+        the coordinates of the grid lines along each axis, m."""
         if "local_density" not in self.group:
             raise RunError(f"frame {self.number} has no local densities: the scene needs output.density_cells",
                            self._run.folder, key="output.density_cells")
@@ -142,8 +142,8 @@ class Frame:
         return Densities(cells.T, lines)
 
     def network(self, tools: bool = False) -> DataFrame:
-        """DataFrame of the contacts between particles, or of particles and tools: `first`, `second` (numbers of
-        particles, or the tool's position in the scene), `x`, `y`, `normal_x`, `normal_y`, `normal_force` ...; in three
+        """DataFrame of the contacts between particles, or between particles and tools: `first`, `second` (particle
+        numbers, or the tool's index in the scene), `x`, `y`, `normal_x`, `normal_y`, `normal_force` ...; in three
         dimensions `z`, `normal_z`, and `area` instead of `length`."""
         group = "tool_contacts" if tools else "contacts"
         if group not in self.group:
@@ -162,7 +162,7 @@ class Frame:
 
 
 class Run:
-    """A run in its folder. What is read is what was written when it was opened; `refresh()` reads anew."""
+    """A run folder. Data is as written at the time of opening; `refresh()` reads it again."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
@@ -172,9 +172,9 @@ class Run:
         return f"<Run {self.title!r} in {self.folder}: {self.outcome}, {len(self.frames)} frames>"
 
     def refresh(self) -> Run:
-        """Opens the files anew: of a run that is still being written there is more."""
-        # HDF5 follows addresses that the writer may give to something else meanwhile: what was read counts only if
-        # nothing was written before it had all been read.
+        """Reopens the files, to see new data of a run that is still being written."""
+        # HDF5 follows file addresses that the writer may reuse in the meantime: data is valid only if the file did not
+        # change until all of it had been read.
         deadline = time.monotonic() + _PATIENCE
         while True:
             before, error = self._last_change(), None
@@ -213,7 +213,7 @@ class Run:
         self.frames = [Frame(self, name, number) for number, name in enumerate(whole)]
         self._series: dict[str, h5py.Dataset] = {}
         self._units: dict[str, str] = {}
-        self._values: dict[str, np.ndarray] = {}  # of a run that goes on: its history moves within the file
+        self._values: dict[str, np.ndarray] = {}  # for a run in progress: its history moves within the file
         self._mesh: Mesh | None = None
         if "history" in self.file:
             self.file["history"].visititems(self._keep_series)
@@ -233,11 +233,11 @@ class Run:
             raise RunError(f"{self.folder}: not a run: there is no run.h5 in it"
                            + (" (it is a study: pulvis.open_study)" if study else ""), self.folder)
         if not path.is_file():
-            raise RunError(f"{path}: not a regular file", path)  # a named pipe would wait for a writer
+            raise RunError(f"{path}: not a regular file", path)  # opening a named pipe would block until a writer appears
         try:
             if self.summary.get("outcome") != "done":
-                # HDF5 shares what it remembers of a file among all in a process who have it open by its name: of a run
-                # that goes on, or may be resumed, each has his own view.
+                # HDF5 shares cached metadata between all handles of a process that open the same file name. For a run
+                # in progress or resumable, each reader needs an independent view.
                 self._stream = path.open("rb", buffering=0)
             file = h5py.File(self._stream or path, "r")
         except OSError as error:
@@ -270,22 +270,22 @@ class Run:
 
     @property
     def outcome(self) -> str:
-        """"done", "interrupted" or what went wrong; "running" as long as nothing says so."""
+        """"done", "interrupted" or an error description; "running" until one of these is written."""
         return self.summary.get("outcome") or self.file.attrs.get("outcome") or "running"
 
     @property
     def hash(self) -> str | None:
-        """Of the final state: the same bits have the same hash. None before the end."""
+        """Hash of the final state: bitwise identical states have equal hashes. None before the end."""
         return self.summary.get("state_hash")
 
     @property
     def scene_hash(self) -> str:
-        """Of the scene as it was run: scenes that say the same have the same."""
+        """Hash of the scene as it was run: equivalent scenes have equal hashes."""
         return str(self.file.attrs["scene_hash"])
 
     @property
     def scene_text(self) -> str:
-        """The scene as it was run, overrides included (TOML)."""
+        """The scene as it was run, including overrides (TOML)."""
         path = self.folder / "scene.toml"
         if not path.is_file():
             raise RunError(f"{self.folder}: there is no scene.toml", path)
@@ -300,7 +300,7 @@ class Run:
 
     @property
     def mesh(self) -> Mesh:
-        """The mesh, whose nodes and cells the fields are of."""
+        """The mesh on whose nodes and cells the fields are defined."""
         if self._mesh is None:
             of = self.file["mesh"]
             cells = of["hexahedra" if "hexahedra" in of else "quads"][()]
@@ -309,7 +309,7 @@ class Run:
 
     @property
     def names(self) -> list[str]:
-        """Names of the series of the history."""
+        """Names of the history series."""
         return list(self._series)
 
     @property
@@ -318,7 +318,7 @@ class Run:
         return dict(self._units)
 
     def has(self, name: str) -> bool:
-        """Whether there is a series of that name."""
+        """Whether a series of this name exists."""
         return name in self._series
 
     def dataset(self, name: str) -> h5py.Dataset:
@@ -328,26 +328,26 @@ class Run:
         return self._series[name]
 
     def series(self, name: str) -> np.ndarray:
-        """Values of a series of the history, SI: [samples]."""
+        """Values of a history series in SI units: [samples]."""
         values = self._values[name] if name in self._values else self.dataset(name)[()]
         times = self._values.get("time", self._series.get("time", []))
         return values[:len(times)]
 
     def unit(self, name: str) -> str:
         """Unit of a series."""
-        self.dataset(name)  # refuses what is not there
+        self.dataset(name)  # raises if there is no such series
         return self._units[name]
 
     @property
     def history(self) -> DataFrame:
-        """DataFrame of all series over time (s; of a lever the actions done); `attrs["units"]` has the units."""
+        """DataFrame of all series over time (s; for a lever: completed actions); `attrs["units"]` holds the units."""
         columns = {name: (self.series(name), self.unit(name)) for name in self._series if name != "time"}
         frame = table(columns, self.series("time") if self.has("time") else None, "time")
         frame.attrs["units"]["time"] = self.unit("time") if self.has("time") else "s"
         return frame
 
     def frame(self, number: int | None = None) -> Frame:
-        """The frame of that number, from 0, negative ones from the end; the last without one."""
+        """A frame by number, counted from 0; negative numbers count from the end. Default: the last."""
         count = len(self.frames)
         number = -1 if number is None else number
         if not -count <= number < count:
@@ -365,33 +365,33 @@ class Run:
 
     @property
     def calibration(self) -> dict[str, Any] | None:
-        """Of a lever: stiffnesses, sensitivities, closed forms. None of other runs."""
+        """Lever only: stiffnesses, sensitivities, closed-form values. None for other runs."""
         return self.summary.get("calibration")
 
     @property
     def loops(self) -> list[Loop]:
-        """Of a lever: friction loops (lever_results.Loop)."""
+        """Lever only: friction loops (lever_results.Loop)."""
         from pulvis.lever_results import loops_of
 
         return loops_of(self)
 
     @property
     def force_curves(self) -> list[ForceCurve]:
-        """Of a lever: force curves (lever_results.ForceCurve)."""
+        """Lever only: force curves (lever_results.ForceCurve)."""
         from pulvis.lever_results import force_curves_of
 
         return force_curves_of(self)
 
     @property
     def images(self) -> dict[str, dict[str, Image]]:
-        """Of a raster: {action: {"topography_trace": lever_results.Image, ...}}."""
+        """Raster scans: {action: {"topography_trace": lever_results.Image, ...}}."""
         from pulvis.lever_results import images_of
 
         return images_of(self)
 
     @property
     def plot(self) -> Plot:
-        """Pictures: run.plot.forces(), .field("effective_stress") ... (pulvis.plot.Plot)."""
+        """Plots: run.plot.forces(), .field("effective_stress") ... (pulvis.plot.Plot)."""
         from pulvis.plot import Plot
 
         return Plot(self)

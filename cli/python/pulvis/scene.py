@@ -1,4 +1,4 @@
-"""Scenes: from files, dictionaries or dataclasses, all by the reader of the command line."""
+"""Scenes from files, dictionaries or dataclasses, all read by the same parser as on the command line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from pulvis import _core
 from pulvis.toml_text import toml_text, toml_value
 
-# The name of a scene that has no file; its paths lead from the working directory.
+# File name of a scene without a file; its paths are relative to the working directory.
 NO_FILE = "<python>"
 
 
@@ -20,17 +20,17 @@ class Scene:
     Parameters
     ----------
     source : str, Path, dict or dataclass
-        A scene file; or the same tables and keys as a dictionary; or a `pulvis.declarations.Document`. Quantities are
-        strings with their unit, ``"10 um"``, or pint quantities.
+        A scene file, a dictionary with the same tables and keys, or a `pulvis.declarations.Document`. Quantities are
+        strings with a unit, ``"10 um"``, or pint quantities.
     overrides : dict, optional
         ``{"contact.friction": 0.2, "material.316L.yield_stress": "100 MPa"}``: paths as in ``--set``.
     **keys
-        The same with a double underscore for the dot: ``contact__friction=0.2``.
+        The same, with double underscores in place of dots: ``contact__friction=0.2``.
 
     Raises
     ------
     SceneError
-        With the file, line and key of what is wrong.
+        With the file, line and key of the error.
     """
 
     def __init__(self, source: Any, overrides: dict[str, Any] | None = None, **keys: Any) -> None:
@@ -49,60 +49,60 @@ class Scene:
 
     @property
     def text(self) -> str:
-        """The whole scene as TOML: what it extends, overrides and defaults put in."""
+        """The complete scene as TOML, with base scenes, overrides and defaults resolved."""
         return self._core.text_in_place
 
     @property
     def hash(self) -> str:
-        """16 hexadecimal digits, the same for every scene that says the same."""
+        """16 hexadecimal digits, equal for all equivalent scenes."""
         return self._core.hash
 
     @property
     def title(self) -> str:
-        """As the scene says."""
+        """Title of the scene."""
         return self._core.title
 
     @property
     def is_afm(self) -> bool:
-        """Whether this is a lever of a microscope; otherwise it is powder."""
+        """Whether this is an AFM lever; otherwise it is a powder."""
         return self._core.is_afm
 
     @property
     def file(self) -> Path | None:
-        """Path of the scene's file, or None."""
+        """Path of the scene file, or None."""
         return None if self._core.file == NO_FILE else Path(self._core.file)
 
     def warnings(self) -> list[str]:
-        """What may be wrong with the scene though each of its values is allowed: a list of str."""
+        """Possible problems of the scene, although each value is valid: list of str."""
         return self._core.warnings()
 
     def with_(self, overrides: dict[str, Any] | None = None, **keys: Any) -> Scene:
-        """The same scene with other values: arguments as of `Scene`."""
+        """The same scene with other values; arguments as for `Scene`."""
         given = {**self._given, **(overrides or {})}
         given.update({key.replace("__", "."): value for key, value in keys.items()})
         return Scene(self._source, given)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Writes ``scene.toml`` and copies of the files that it names into `folder`; returns the path."""
+        """Writes ``scene.toml`` and copies of the files it refers to into `folder`; returns the path."""
         self._core.save(os.fspath(folder))
         return Path(folder) / "scene.toml"
 
     def simulation(self, threads: int = 0, folder: str | os.PathLike[str] | None = None, overwrite: bool = False,
                    checkpoint_every: float = 60.0, checkpoint_steps: int = 0) -> Any:
-        """A simulation of the scene at its beginning.
+        """Creates a simulation of the scene, at its start.
 
         Parameters
         ----------
         threads : int
-            Worker threads; 0: all processors. The results have the same bits whatever their number.
+            Worker threads; 0: all processors. Results are bitwise identical for any number.
         folder : str or Path, optional
-            Where the run's files go (README, "What a run leaves"). Without one nothing is written.
+            Where the run's files go (README, "What a run leaves"). Without it, nothing is written.
         overwrite : bool
             Replace a run that is already in the folder.
         checkpoint_every : float
-            Seconds between checkpoints, as the clock on the wall has them.
+            Wall-clock seconds between checkpoints.
         checkpoint_steps : int
-            And every so many steps; 0: no.
+            Also write one every this many steps; 0: off.
 
         Returns
         -------
@@ -127,7 +127,7 @@ class Scene:
 
 
 def as_tables(source: Any) -> Any:
-    """Plain dictionaries and lists from dataclasses among them; what is None is not given."""
+    """Converts nested dataclasses to plain dictionaries and lists; None values are omitted."""
     if dataclasses.is_dataclass(source) and not isinstance(source, type):
         pairs = ((field.metadata.get("key", field.name), getattr(source, field.name))
                  for field in dataclasses.fields(source))

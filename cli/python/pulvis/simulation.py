@@ -1,4 +1,4 @@
-"""Simulations of particles: the steps of the command line, taken from Python."""
+"""Particle simulations: the same time steps as the command line, driven from Python."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 
 
 class Simulation:
-    """A run of a scene, made by `Scene.simulation` or `pulvis.resume`.
+    """A run of a scene, created by `Scene.simulation` or `pulvis.resume`.
 
-    However a run is cut into parts, and whatever is looked at on its way, its steps are those of ``pulvis run``, and
-    its final state has the same bits. Between two steps positions belong to t_n and velocities to t_(n-1/2); at a
-    sample forces, stresses and energies belong to t_n, too.
+    However a run is split into parts, and whatever is read in between, its steps are those of ``pulvis run`` and
+    its final state is bitwise identical. Between two steps, positions are at t_n and velocities at t_(n-1/2); at a
+    sample, forces, stresses and energies are at t_n, too.
 
-    Python's lock is released while steps are taken, so simulations run side by side in threads. Ctrl-C raises
-    KeyboardInterrupt when the step is done and, where the simulation has a folder, a checkpoint is written.
+    The GIL is released during steps, so simulations can run in parallel threads. Ctrl-C raises KeyboardInterrupt
+    after the current step; if the simulation has a folder, a checkpoint is written first.
     """
 
     def __init__(self, run: _core.Run, scene: Scene, folder: str | os.PathLike[str] | None) -> None:
@@ -37,45 +37,45 @@ class Simulation:
         self.scene = scene
         self.folder = None if folder is None else Path(folder)
 
-    # ---- course -------------------------------------------------------------------------------------------------
+    # ---- running ------------------------------------------------------------------------------------------------
     def run(self, progress: bool | None = None) -> Simulation:
-        """Goes on to the end, or to `stop()`. Returns the simulation.
+        """Runs to the end, or until `stop()` is called. Returns the simulation.
 
         Parameters
         ----------
         progress : bool, optional
-            Show a progress bar (tqdm); None: in a notebook only.
+            Show a progress bar (tqdm). None: only in a notebook.
 
         Raises
         ------
         RunError
-            Where the run fails its checks (docs/stability.md). Its files are whole then.
+            If the run fails its checks (docs/stability.md). Its files are complete even then.
         """
         with progress_bar(self, progress):
             self._run.run()
         return self
 
     def run_until(self, time: Any, progress: bool | None = None) -> Simulation:
-        """Goes on to the first step at or after `time` (seconds, or ``"1 ms"``). Returns the simulation."""
+        """Runs to the first step at or after `time` (seconds, or ``"1 ms"``). Returns the simulation."""
         with progress_bar(self, progress):
             self._run.run_until(_core.quantity(time, "s") if isinstance(time, str) else _seconds(time))
         return self
 
     def step(self, count: int = 1) -> Simulation:
-        """Takes `count` steps, fewer where the run ends. Returns the simulation."""
+        """Takes `count` steps, or fewer if the run ends first. Returns the simulation."""
         self._run.step(count)
         return self
 
     def stop(self) -> None:
-        """From a callback or another thread: `run` comes back when the present step is done."""
+        """Makes `run` return after the current step. Call it from a callback or another thread."""
         self._run.stop()
 
     def checkpoint(self) -> None:
-        """Writes a checkpoint into the folder, from which `pulvis.resume` goes on."""
+        """Writes a checkpoint into the folder, from which `pulvis.resume` can continue."""
         self._run.checkpoint()
 
     def close(self) -> None:
-        """Completes the files of a run that has not ended, with a checkpoint; the folder is free then."""
+        """Writes a checkpoint and closes the files of an unfinished run; this releases the folder."""
         self._run.close()
 
     def __enter__(self) -> Simulation:
@@ -86,19 +86,19 @@ class Simulation:
 
     # ---- callbacks ----------------------------------------------------------------------------------------------
     def on_sample(self, call: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
-        """Calls ``call(simulation)`` at every sample (``output.samples``). Returns `call`: good as a decorator."""
+        """Calls ``call(simulation)`` at every sample (``output.samples``). Returns `call`: usable as a decorator."""
         self._run.on_sample(self._bound(call))
         return call
 
     def on_frame(self, call: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
-        """Calls ``call(simulation)`` when a frame has been written (``output.frames``)."""
+        """Calls ``call(simulation)`` after each frame is written (``output.frames``)."""
         self._run.on_frame(self._bound(call))
         return call
 
     def every(self, steps: int, call: Callable[[Simulation], Any] | None = None) -> Callable[..., Any]:
-        """Calls ``call(simulation)`` between two steps, where their number is a multiple of `steps`.
+        """Calls ``call(simulation)`` between two steps, whenever the step number is a multiple of `steps`.
 
-        Here, and outside of all calls, columns may be changed and tools be driven.
+        Here, and outside all callbacks, columns may be modified and tools driven.
         """
         if call is None:
             return lambda call: self.every(steps, call)
@@ -106,7 +106,7 @@ class Simulation:
         return call
 
     def _bound(self, call):
-        this = weakref.ref(self)  # the run must not keep what keeps it
+        this = weakref.ref(self)  # avoids a reference cycle with the run
         return lambda: call(this())
 
     # ---- state --------------------------------------------------------------------------------------------------
@@ -117,22 +117,22 @@ class Simulation:
 
     @property
     def end(self) -> float:
-        """Time in seconds at which the last stage is over."""
+        """Time in seconds at which the last stage ends."""
         return self._run.end
 
     @property
     def dt(self) -> float:
-        """The next step in seconds."""
+        """The next time step in seconds."""
         return self._run.dt
 
     @property
     def steps(self) -> int:
-        """Steps taken so far, before a resumption too."""
+        """Steps taken so far, including those before a restart."""
         return self._run.steps
 
     @property
     def finished(self) -> bool:
-        """Whether the run has ended; `outcome` says how."""
+        """Whether the run has ended; `outcome` tells how."""
         return self._run.outcome != ""
 
     @property
@@ -142,7 +142,7 @@ class Simulation:
 
     @property
     def hash(self) -> str:
-        """16 hexadecimal digits of the state: ``state_hash`` of summary.json at the end."""
+        """Hash of the state, 16 hexadecimal digits; at the end, ``state_hash`` in summary.json."""
         return self._run.hash
 
     @property
@@ -162,22 +162,22 @@ class Simulation:
 
     @property
     def warnings(self) -> list[str]:
-        """What its user should know of the run's figures: list of str."""
+        """Warnings about the results of the run: list of str."""
         return self._run.warnings
 
     @property
     def verdicts(self) -> list[dict[str, Any]]:
-        """What came of the scene's ``[[expect]]`` tables: dicts of ``what``, ``measured``, ``allowed``, ``met``."""
+        """Results of the scene's ``[[expect]]`` checks: dicts with ``what``, ``measured``, ``allowed``, ``met``."""
         return self._run.verdicts
 
     @property
     def driven(self) -> set[str]:
-        """What has been changed from Python: set of str. `pulvis resume` refuses such a run."""
+        """What was changed from Python: set of str. `pulvis resume` refuses to continue such a run."""
         return self._run.driven
 
     @property
     def history(self) -> History:
-        """The samples taken by this object: a mapping from the series' names to arrays [samples], in SI units."""
+        """The samples taken by this object: a mapping from series names to arrays [samples], in SI units."""
         return History(self._run)
 
     @property
@@ -196,20 +196,20 @@ class Simulation:
         return [ColumnInfo(**one) for one in self._run.columns]
 
     def column(self, name: str) -> Column:
-        """A column, its memory shared and read-only: `Column`.
+        """A column, sharing the simulation's memory, read-only: `Column`.
 
-        `name` as in `columns`; ``"position"`` is short for ``"node.position"``, tools have ``"tool.position"``.
+        `name` as in `columns`; ``"position"`` is short for ``"node.position"``; for tools it is ``"tool.position"``.
         """
         return Column(self._run, name)
 
     def writable(self, name: str) -> Column:
-        """A column whose arrays may be changed, within a ``with`` statement:
+        """A column whose arrays may be modified, within a ``with`` statement:
 
         ``with sim.writable("velocity") as velocity: velocity[3][:, 1] -= 2.0``
 
-        Only between two steps: in `every` callbacks and outside of all calls. Velocities may be changed, and of
-        particles ``yield_stress``, ``hardening_modulus`` and ``mass_damping``. The energy balance of the run counts
-        none of it.
+        Only between two steps: in `every` callbacks and outside all callbacks. Velocities may be modified, and of
+        particles ``yield_stress``, ``hardening_modulus`` and ``mass_damping``. The energy balance of the run does
+        not include these changes.
         """
         return Column(self._run, name, writable=True)
 
@@ -220,7 +220,7 @@ class Simulation:
 
     @property
     def servos(self) -> dict[str, Servo]:
-        """The servos, by the names of the tools whose force they hold: mapping to `Servo`."""
+        """The servos, by the names of the tools whose force they control: mapping to `Servo`."""
         return {name: Servo(self._run, name) for name in self._run.servos}
 
     @property
@@ -235,14 +235,14 @@ class Simulation:
 
 
 class Tool:
-    """A tool of a simulation. Arrays have as many components as its scene has dimensions."""
+    """A tool of a simulation. Vectors have two components in 2D and three in 3D."""
 
     def __init__(self, run: _core.Run, name: str, row: int) -> None:
         self._run, self.name, self._row = run, name, row
 
     @property
     def position(self) -> np.ndarray:
-        """A point of its surface, m [dimension]."""
+        """A point on its surface, m [dimension]."""
         return self._run.column_rows("tool.position")[self._row][:self._run.dimension]
 
     @property
@@ -252,17 +252,17 @@ class Tool:
 
     @property
     def force(self) -> np.ndarray:
-        """Of the particles on the tool, N [dimension]."""
+        """Force exerted by the particles on the tool, N [dimension]."""
         return self._run.column_rows("tool.force")[self._row][:self._run.dimension]
 
     def drive(self, velocity: Any) -> None:
-        """From now on the tool moves with `velocity`: (x, y), or (x, y, z) in three dimensions, in m/s, or
+        """Moves the tool at `velocity` from now on: (x, y), or (x, y, z) in three dimensions, in m/s, or
         strings with units.
 
-        It replaces what the scene's stages say of this tool, until the run ends or it is driven anew; other tools go
-        on as they do. Checkpoints keep the drive, and `pulvis.resume` goes on with it; the program's ``resume``
-        refuses a driven run, since nobody drives it there. Allowed between two steps; of tools with a servo the force
-        is driven: `Simulation.servos`.
+        This overrides the motion of this tool in the scene's stages until the run ends or it is driven again; other
+        tools are not affected. Checkpoints save the velocity, and `pulvis.resume` keeps it; the command ``resume``
+        refuses such a run, since no script drives it there. Allowed only between two steps. For a tool with a servo,
+        drive the force instead: `Simulation.servos`.
         """
         parts = [_core.quantity(v, "m/s") if isinstance(v, str) else float(v) for v in velocity]
         if len(parts) != self._run.dimension:
@@ -274,38 +274,38 @@ class Tool:
 
 
 class Servo:
-    """A servo of a simulation: it moves its tool so that this bears a force (``[[stage.servo]]``)."""
+    """A servo of a simulation: it moves its tool to apply a prescribed force (``[[stage.servo]]``)."""
 
     def __init__(self, run: _core.Run, tool: str) -> None:
         self._run, self.tool = run, tool
 
     @property
     def asked(self) -> float:
-        """Force in N that it asks for now: its ramp, or what it was driven to; 0 in stages that do not have it."""
+        """Current target force in N: from its ramp or from `drive`; 0 in stages without this servo."""
         return self._run.servo(self.tool)[0]
 
     @property
     def direction(self) -> np.ndarray:
-        """Unit vector in which it pushes, - [dimension]."""
+        """Unit vector along which it pushes, - [dimension]."""
         return np.asarray(self._run.servo(self.tool)[1])[:self._run.dimension]
 
     @property
     def holds(self) -> bool:
-        """Whether the present stage has it."""
+        """Whether it is active in the current stage."""
         return self._run.servo(self.tool)[2]
 
     @property
     def bears(self) -> float:
-        """Force in N that the tool bears against its direction."""
+        """Force in N on the tool, opposite to the servo's direction."""
         row = self._run.tools.index(self.tool)
         return -float(self._run.column_rows("tool.force")[row][:self._run.dimension] @ self.direction)
 
     def drive(self, force: Any) -> None:
-        """From now on it asks for `force`, in N or a string with unit, at once and without a ramp.
+        """Sets the target to `force`, in N or a string with a unit, at once and without a ramp.
 
-        It replaces the force of every stage that has this servo, until it is driven anew, and what the scene's
-        ``tolerance`` says of a stage's end; ``response`` and ``max_speed`` stay. Allowed between two steps, and kept
-        in checkpoints as drives of tools are.
+        This overrides the force in every stage that has this servo, until it is driven again, and the stage-end
+        criterion ``tolerance``; ``response`` and ``max_speed`` stay. Allowed only between two steps. Checkpoints
+        save the target, as they do for driven tools.
         """
         newton = _core.quantity(force, "N") if isinstance(force, str) else float(force)
         self._run.drive_servo(self.tool, newton)
@@ -315,7 +315,7 @@ class Servo:
 
 
 class History(Mapping[str, np.ndarray]):
-    """Series of samples by name; ``"time"`` is among them. `units` and `meanings` have the same names."""
+    """Sampled series by name, including ``"time"``. `units` and `meanings` have the same names."""
 
     def __init__(self, run: _core.Run) -> None:
         self.units = {"time": "s"}
@@ -337,7 +337,7 @@ class History(Mapping[str, np.ndarray]):
         return len(self._arrays)
 
     def frame(self) -> DataFrame:
-        """The same as a pandas DataFrame; its ``attrs["units"]`` has the units."""
+        """The same as a pandas DataFrame; ``attrs["units"]`` holds the units."""
         import pandas
 
         frame = pandas.DataFrame({name: np.asarray(values) for name, values in self._arrays.items()})
@@ -346,7 +346,7 @@ class History(Mapping[str, np.ndarray]):
 
 
 def resume(folder: str | os.PathLike[str], threads: int = 0, checkpoint_every: float = 60.0) -> Any:
-    """The run of a folder that was stopped, at its newest checkpoint: a `Simulation`, or a finished `Lever`."""
+    """Restarts a stopped run from its latest checkpoint: a `Simulation`, or a finished `Lever`."""
     from pulvis.scene import Scene
 
     folder = Path(folder)

@@ -1,4 +1,4 @@
-"""Studies as they lie in their folders: what was varied, what came of it, and their runs. Everything is in SI units.
+"""Studies read from their folders: varied parameters, results and runs. Everything is in SI units.
 
     study = pulvis.open_study("runs/mine-study")
     study.runs[["contact.friction", "peak/top_force"]]
@@ -33,7 +33,7 @@ def open_study(folder: str | os.PathLike[str]) -> Study:
 
 
 def quantity_of(text: object) -> tuple[float, str] | None:
-    """(number in SI, unit) of "0.5 ms"; None of what is none."""
+    """(number in SI, unit) of "0.5 ms"; None if it is not a quantity."""
     from pulvis.figures.quantities import NUMBER, factor_of
 
     match = re.fullmatch(rf"({NUMBER})\s*(\S*)", str(text).strip())
@@ -48,7 +48,7 @@ def quantity_of(text: object) -> tuple[float, str] | None:
 
 
 def column_of(texts: list[Any]) -> tuple[np.ndarray, str]:
-    """Values of a varied key: numbers in SI with their unit where all are quantities of one unit, else as they are."""
+    """Values of a varied key: SI numbers and their unit if all are quantities of one unit, otherwise unchanged."""
     found = [one for one in map(quantity_of, texts) if one]
     if found and len(found) == len(texts) and len({unit for _, unit in found}) == 1:
         return np.array([value for value, _ in found]), found[0][1]
@@ -56,14 +56,14 @@ def column_of(texts: list[Any]) -> tuple[np.ndarray, str]:
 
 
 def numbers(values: list[Any]) -> np.ndarray:
-    """As numbers, where all are some; what is missing is NaN."""
+    """A numeric array if all values are numbers or None; None becomes NaN."""
     if all(value is None or isinstance(value, (int, float)) for value in values):
         return np.array([np.nan if value is None else value for value in values])
     return np.array(values, object)
 
 
 class Study:
-    """A study in its folder, with `title`, `summary` (what summary.json holds), `names` of its runs."""
+    """A study folder, with `title`, `summary` (the contents of summary.json) and `names` of its runs."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
@@ -92,12 +92,12 @@ class Study:
 
     @property
     def keys(self) -> list[str]:
-        """What was varied."""
+        """The varied keys."""
         return list(dict.fromkeys(key for run in self.summary["runs"] for key in run["varied"]))
 
     @property
     def runs(self) -> DataFrame:
-        """DataFrame of all runs: varied keys and values; `attrs["units"]` has their units."""
+        """DataFrame of all runs: varied keys and results; `attrs["units"]` holds their units."""
         runs = self.summary["runs"]
         columns = {name: (numbers([run.get(name) for run in runs]), "") for name in ("variation", "scene", "seed")}
         for key in self.keys:
@@ -120,17 +120,17 @@ class Study:
 
     @property
     def values(self) -> DataFrame:
-        """DataFrame of the variations: varied keys, number of runs, and means over the seeds."""
+        """DataFrame of all variations: varied keys, number of runs, and results averaged over the seeds."""
         return self._of_variations("mean")
 
     @property
     def deviations(self) -> DataFrame:
-        """The same with standard deviations over the seeds."""
+        """The same, with standard deviations over the seeds."""
         return self._of_variations("standard_deviation")
 
     @property
     def curves(self) -> list[dict[str, Any]]:
-        """Charts of the report, as dicts: title, x, y, units, and lines with numpy arrays x, y, low, high."""
+        """Charts of the report as dicts: title, x, y, units, and lines with numpy arrays x, y, low, high."""
         curves = self._read("curves.json")
         for curve in curves:
             curve["lines"] = [{key: np.array(value, float) if isinstance(value, list) else value
@@ -139,11 +139,11 @@ class Study:
 
     @property
     def fits(self) -> list[dict[str, Any]]:
-        """Fitted laws."""
+        """Fitted laws, as in summary.json."""
         return self.summary.get("fits", [])
 
     def run(self, which: int | str) -> Run:
-        """A run by its position or its name."""
+        """A run by its index or name."""
         if isinstance(which, str) and which not in self.names:
             raise RunError(f"{self.folder}: no run {which}; there are: {', '.join(self.names)}", self.folder)
         if not isinstance(which, str) and not -len(self.names) <= which < len(self.names):
@@ -151,7 +151,7 @@ class Study:
         return Run(self.folder / (which if isinstance(which, str) else self.names[which]))
 
     def chart(self, number: int = 0, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """(Figure, Axes) of a chart of the report, as `pulvis figure` draws it; look as of run.plot."""
+        """(Figure, Axes) of a chart of the report, as `pulvis figure` draws it; `look` as in run.plot."""
         from matplotlib import pyplot as plt
 
         from pulvis.figures.study import draw

@@ -1,4 +1,4 @@
-"""Python values as TOML, which the scene reader reads."""
+"""Converts Python values to TOML for the scene reader."""
 
 import json
 import math
@@ -9,14 +9,14 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def toml_text(tables):
-    """A document from nested dictionaries and lists of dictionaries."""
+    """A TOML document from nested dictionaries and lists of dictionaries."""
     lines: list[str] = []
     _write(lines, tables, ())
     return "\n".join(lines) + "\n"
 
 
 def toml_value(value):
-    """A value in one line: numbers, strings, lists, dictionaries, numpy numbers and arrays, pint quantities."""
+    """A value on one line: numbers, strings, lists, dictionaries, numpy numbers and arrays, pint quantities."""
     if hasattr(value, "magnitude") and hasattr(value, "units"):
         return _quantity(value)
     if hasattr(value, "tolist"):  # numpy
@@ -38,7 +38,7 @@ def toml_value(value):
 
 
 def _quantity(value):
-    """A pint quantity, an array of them as a list."""
+    """A pint quantity as a string; an array becomes a list."""
     magnitude = value.magnitude
     if hasattr(magnitude, "tolist"):
         magnitude = magnitude.tolist()

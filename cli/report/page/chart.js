@@ -1,7 +1,7 @@
-// The curves. A chart is {title, x, y, lines}: x and each line are {label, unit, values}, values in SI; y is
-// what stands at the axis. A line may have x values of its own (x), and a band around it (low, high), and bars
-// of its standard deviation (deviation) at some samples. Lines that hardly differ from zero are off at first. One that isMarks is drawn as marks with bars from low to
-// high, and over them the line that was fitted (fit: x, values).
+// Line charts. A chart is {title, x, y, lines}: x and each line are {label, unit, values}, values in SI; y is
+// the axis label. A line may have separate x values (x), a band around it (low, high), and standard-deviation
+// bars (deviation) at some samples. Lines close to zero are hidden at first. A line with isMarks is drawn as
+// markers with bars from low to high, with the fitted line (fit: x, values) on top.
 "use strict";
 
 const LIGHT = {ink: "#1d2733", soft: "#56616f", grid: "#e8ecf1", edge: "#c4cdd8", paper: "#ffffff",
@@ -35,14 +35,14 @@ const bounds = lists => lists.reduce((range, list) => {
   return range;
 }, [Infinity, -Infinity]);
 
-// An end that is zero stays: force curves start on the axis.
+// A limit of zero is kept: force curves start on the axis.
 function withMargin([low, high], share) {
   if (!(low <= high) || (low === 0 && high === 0)) return [0, 1];
   const margin = (high - low) * share || Math.abs(high) * 0.1;
   return [low === 0 ? 0 : low - margin, high === 0 ? 0 : high + margin];
 }
 
-// The chart in numbers of the shown units: what is drawn, what the cursor reads.
+// The chart data in display units, for drawing and for the cursor readout.
 function shownChart(spec, hidden) {
   const xsOf = line => line.x || spec.x.values;
   const most = lists => Math.max(0, ...lists.map(largest));
@@ -57,7 +57,7 @@ function shownChart(spec, hidden) {
                                         ...fits.map(fit => fit.values)]), 0.05).map(v => v * y.factor)}};
 }
 
-// Where a chart's rectangle lies on its picture, and how numbers get there.
+// The plot rectangle within the figure, and the mapping from values to it.
 function chartPlace({x: [x0, x1], y: [y0, y1]}, width, height) {
   const left = 62, right = width - 12, top = 10, bottom = height - 44;
   const sx = (right - left) / (x1 - x0), sy = (bottom - top) / (y1 - y0);
@@ -81,7 +81,7 @@ function bandOf(xs, line, kx, ky, place) {
   return pathOf([...there, ...back], [...line.low, ...Array.from(line.high).reverse()], kx, ky, place) + "Z";
 }
 
-// Where a line has bars of its standard deviation: a dozen samples, one line's beside the other's.
+// Samples with standard-deviation bars: about a dozen, shifted between lines so that bars do not overlap.
 function barSamples(line, shift = 0) {
   const count = line.values.length, step = Math.max(1, Math.floor(count / 12));
   return Array.from({length: Math.ceil(count / step)}, (_, k) => Math.min(count - 1, k * step + (step >> 1) + shift % step));
@@ -95,7 +95,7 @@ function barsOf(xs, line, kx, ky, {px, py}, stroke, shift) {
   return `<path class="error-bar" d="${barSamples(line, shift).map(bar).join("")}" stroke="${stroke}" stroke-width="1.2"/>`;
 }
 
-// Circles, and bars where an error is known.
+// Circles, with error bars where the error is known.
 function marksOf(xs, line, kx, ky, {px, py}, stroke) {
   return Array.from(line.values, (value, i) => {
     const x = px(xs[i] * kx).toFixed(1), y = v => py(v * ky).toFixed(1);
@@ -104,17 +104,17 @@ function marksOf(xs, line, kx, ky, {px, py}, stroke) {
   }).join("");
 }
 
-// An abscissa may count things that have names.
+// The x axis may be categorical.
 const abscissaTicks = ({names}, [low, high], count) => names ? names.map((_, i) => i).filter(i => i >= low && i <= high)
   : niceTicks(low, high, Math.max(3, count));
 const abscissaText = ({names}, value) => names ? names[Math.round(value)] ?? "" : digits(value);
 
-// How a line looks, for the legend.
+// The line sample for the legend.
 const keySvg = ({dash, isMarks}, stroke) => `<svg width="26" height="8" viewBox="0 0 26 8">` + (isMarks
   ? `<circle cx="13" cy="4" r="3.5" fill="${stroke}"/>`
   : `<path d="M0 4H26" stroke="${stroke}" stroke-width="2.4"${dash ? ` stroke-dasharray="${dash.join(" ")}"` : ""}/>`) + "</svg>";
 
-// The picture as text: the page shows it, the buttons save it.
+// The chart as SVG text: shown on the page and saved by the buttons.
 function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
   const shown = shownChart(spec, hidden), range = view || shown.whole, told = spec.lines.map((_, i) => i).filter(i => !hidden.has(i));
   const rows = legend ? told.length * 16 : 0;
@@ -173,8 +173,8 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
   return out.join("") + "</svg>";
 }
 
-// Three lines of each pattern: nine are told apart by colour, and by pattern and lightness where colours are not seen
-// or not printed. tests/line_colours.py holds that of the palettes above. More lines take their dashes longer.
+// Three lines per dash pattern: nine can be told apart by colour, and by pattern and lightness for colour-blind readers
+// or in greyscale. tests/line_colours.py checks this for the palettes above. Further lines use longer dashes.
 const DASHES = [undefined, [8, 4], [2, 3]];
 
 function dashOf(i) {
@@ -185,16 +185,16 @@ function dashOf(i) {
 const distinct = spec => ({...spec, lines: spec.lines.map((line, i) =>
   line.dash || line.colour || line.isMarks ? line : {...line, dash: dashOf(i)})});
 
-const NEAR_ZERO = 0.01;  // of the largest line
+const NEAR_ZERO = 0.01;  // fraction of the largest line
 
-// Those of a chart's lines that show nothing beside the largest: the positions of them.
+// Indices of the lines that are negligible compared with the largest.
 function nearZero(lines) {
   const most = Math.max(0, ...lines.map(line => largest(line.values)));
   return new Set(lines.flatMap((line, i) => line.isMarks || largest(line.values) >= NEAR_ZERO * most ? [] : [i]));
 }
 
 class Chart {
-  // onCursor(sample): the reader points at this sample of the lines.
+  // onCursor(sample): called when the pointer is at this sample.
   constructor(host, spec, {height = 300, onCursor = null} = {}) {
     Object.assign(this, {host, spec: distinct(spec), height, onCursor, hidden: nearZero(spec.lines), view: null, marked: null});
     host.classList.add("chart");
@@ -254,7 +254,7 @@ class Chart {
     return [this.place.px(xs[sample] * this.shown.x.factor), this.place.py(line.values[sample] * this.shown.y.factor)];
   }
 
-  // What moves: the cursor, the sample of the frame, the box that is dragged.
+  // Moving parts: the cursor, the sample of the current frame, the zoom box.
   drawOver() {
     const ratio = devicePixelRatio || 1, {place, over, width, height} = this, colours = theme();
     over.width = width * ratio;
@@ -301,18 +301,18 @@ class Chart {
     this.readout.textContent = (xs.length ? `${spec.x.label} ${spec.x.names ? abscissaText(spec.x, xs[sample]) : value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
   }
 
-  // The frame that is shown elsewhere belongs to this sample.
+  // Marks the sample of the frame shown elsewhere.
   mark(sample) {
     this.marked = sample;
     if (this.at === undefined) this.drawOver();
   }
 
-  // The sample nearest to a place on the picture, over all lines that are shown.
+  // The sample nearest to a point in the chart, over all visible lines.
   sampleNear(x, y) {
     let best = null, least = Infinity;
     this.spec.lines.forEach((line, i) => {
       if (this.hidden.has(i)) return;
-      const turns = !isSorted(line.x || this.spec.x.values);  // then what is near across counts, too
+      const turns = !isSorted(line.x || this.spec.x.values);  // then the vertical distance counts, too
       for (let k = 0; k < line.values.length; ++k) {
         const [px, py] = this.pointOf(line, k), far = (px - x) ** 2 + (turns ? (py - y) ** 2 : 0);
         if (far < least) { least = far; best = k; }
@@ -368,7 +368,7 @@ class Chart {
     picture.addEventListener("pointercancel", release);
     picture.addEventListener("dblclick", () => { this.view = null; this.draw(); });
     picture.addEventListener("wheel", event => {
-      if (!event.ctrlKey && !event.shiftKey) return;  // the page scrolls
+      if (!event.ctrlKey && !event.shiftKey) return;  // let the page scroll
       event.preventDefault();
       const [x, y] = at(event), turn = event.deltaY || event.deltaX;
       this.zoom(Math.exp(0.002 * turn), this.place.xAt(x), this.place.yAt(y));
@@ -401,13 +401,13 @@ class Chart {
   }
 }
 
-// A framed place for one figure, under its title and, where given, its controls.
+// A card for one figure, with its title and optional controls.
 function card(title, ...controls) {
   const box = element("section", {className: "card"}), host = element("div", {});
   const head = element("div", {className: "card-head"}, element("h2", {textContent: title}));
   box.append(head, ...controls, host);
   const all = document.getElementById("curves");
-  all.insertBefore(box, all.querySelector(":scope > section[id]"));  // those that the page has in any case come last
+  all.insertBefore(box, all.querySelector(":scope > section[id]"));  // the fixed sections of the page come last
   return host;
 }
 

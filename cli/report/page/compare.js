@@ -1,8 +1,8 @@
-// Several runs side by side: one time, one scale, one range of colours; curves over each other.
-// <body> tells how it went: data-ready, data-views, data-lines, data-panels, or data-error.
+// Several runs side by side: common time, scale and colour range; curves overlaid.
+// Status on <body>: data-ready, data-views, data-lines, data-panels, or data-error.
 "use strict";
 
-// Names that tell the runs apart: titles, or folders where titles are alike.
+// Names that distinguish the runs: titles, or folders where titles are equal.
 function namesOf(runs) {
   const titles = runs.map(run => run.head.title), same = new Set(titles).size < titles.length;
   return runs.map((run, i) => same ? run.head.folder : titles[i]);
@@ -11,7 +11,7 @@ function namesOf(runs) {
 const keyOf = line => line.name || line.label;
 const groupOf = (run, title) => curvesOf(run).find(one => one.title === title);
 
-// A run's part of a curve.
+// The contribution of one run to a curve.
 function partOf(run, title, model, x) {
   const group = groupOf(run, title), axis = group && group.xs.find(one => one.label === x);
   if (!axis) return null;
@@ -19,7 +19,7 @@ function partOf(run, title, model, x) {
   return own && {...own, x: axis.values, axis, y: group.y, dash: undefined};
 }
 
-// A curve that at least two runs have, each with its own abscissa.
+// A curve that at least two runs have, each with its own x values.
 function overlaid(runs, names, title, model, x) {
   const parts = runs.map((run, i) => {
     const part = partOf(run, title, model, x);
@@ -29,7 +29,7 @@ function overlaid(runs, names, title, model, x) {
     : {title: `${title}: ${model.label}`, x: {...parts[0].axis, values: []}, y: `${model.label}, ${parts[0].y}`, lines: parts};
 }
 
-// What any of the runs shows, each once, but for what is near zero in all of them: [title, the line as the first run has it, the labels of its abscissas].
+// All curves of the runs, each once, except those near zero in all of them: [title, the line of the first run, labels of its x axes].
 function curvesOfAll(runs) {
   const found = new Map();
   for (const run of runs) {
@@ -85,7 +85,7 @@ function fillRuns(runs, names) {
   }
 }
 
-// What each run's own report has in cards, run beside run, a row for each kind of card.
+// The cards of the individual reports, runs side by side, one row per kind of card.
 function placePanels(runs, names, timeline) {
   const reports = runs.map(run => new Report(run, timeline, runs)), last = document.getElementById("runs-section");
   let count = 0;
@@ -103,7 +103,7 @@ function placePanels(runs, names, timeline) {
   document.body.dataset.panels = count;
 }
 
-// The views of the runs that have frames; particles have the largest of them as everybody's scale.
+// The views of the runs that have frames; particle views share the scale of the largest.
 async function placeViews(runs, names) {
   const host = document.getElementById("pictures"), drawn = runs.filter(run => run.frames.length && run.head.mesh);
   const shown = drawn.filter(run => !run.inSpace), radius = Math.max(...drawn.filter(run => run.inSpace).map(SpaceView.radiusOf));
@@ -120,7 +120,7 @@ async function placeViews(runs, names) {
   return views;
 }
 
-// Of all views of a kind at once: what they show, and contact forces and bonds where there are some.
+// Controls for all views of one kind: field, contact forces and bonds where available.
 async function placeControls(views, wanted, {id, name}) {
   if (!views.length) return;
   const controls = document.getElementById("controls"), field = element("select", {id});
@@ -140,7 +140,7 @@ async function placeControls(views, wanted, {id, name}) {
   await show({shown: field.value});
 }
 
-// One range for all: of every run, or of the frames that are shown.
+// A common colour range: over all frames of all runs, or over the frames shown.
 function shareRanges(views, hasColours) {
   const alone = view => Object.assign(Object.create(Object.getPrototypeOf(view)), view, {ranges: null}).range();
   const common = () => bounds([views.filter(hasColours).flatMap(alone)]);

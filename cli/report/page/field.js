@@ -1,12 +1,12 @@
-// The moving picture of a plane run: cells filled by value, outlines, tools, contact forces, density cells.
+// Animated view of a 2D run: cells coloured by value, outlines, tools, contact forces, density cells.
 "use strict";
 
-const MOST_STROKED = 12000;  // edges that are drawn as lines; more are drawn pixel by pixel
-const MOST_SEARCHED = 100000;  // cells whose edges are looked through for outlines
+const MOST_STROKED = 12000;  // edges drawn as lines; more are drawn pixel by pixel
+const MOST_SEARCHED = 100000;  // maximum number of cells searched for outline edges
 const LEGEND_WIDTH = 84, MOST_LEGEND_WIDTH = 180;
-const MARGIN = 0.07;  // around the powder, of its size
+const MARGIN = 0.07;  // around the powder, as a fraction of its size
 
-// Edges that one cell alone has: the outlines of the particles. [a0, b0, a1, b1, ...]
+// Edges that belong to only one cell: the outlines of the particles. [a0, b0, a1, b1, ...]
 function outlineEdges(cells, nodes) {
   const once = new Map();
   for (let i = 0; i < cells.length; ++i) {
@@ -19,7 +19,7 @@ function outlineEdges(cells, nodes) {
 }
 
 class FieldView {
-  // whole: {width, height} in metres that the view shows at first, where views are to have one scale.
+  // whole: initial {width, height} of the view in metres, for views with a common scale.
   constructor(host, run, {whole = null, most = 560} = {}) {
     Object.assign(this, {
       run,
@@ -55,7 +55,7 @@ class FieldView {
     this.outline = edges.length / 2 <= MOST_STROKED ? edges : [];
   }
 
-  // What can be shown: [value, label].
+  // The available fields: [value, label].
   get choices() {
     const fields = this.run.head.fields.map(field => [field.name, titled(nameOf(field.name).words)]);
     if (this.run.densities.length) fields.push(["density", "Local density"]);
@@ -63,14 +63,14 @@ class FieldView {
     return [...fields, ["number", "Particle number"], ["", "Outlines only"]];
   }
 
-  // Of all frames: the shape of the picture, which keeps its place on the page.
+  // Bounds over all frames, so that the canvas keeps its shape on the page.
   wholeSize() {
     const {low, high} = this.run.head, {width, height} = this.whole || {width: high[0] - low[0], height: high[1] - low[1]};
     const margin = 2 * MARGIN * Math.max(width, height);
     return {width: width + margin, height: height + margin};
   }
 
-  // The powder as it is in this frame, and the faces of the tools around it.
+  // Bounds of the powder in this frame, with the adjacent tool faces.
   frameView() {
     const {low} = this.run.head, step = this.width / 65534, {whole} = this;
     const box = [0, 1].map(k => {
@@ -110,7 +110,7 @@ class FieldView {
     Object.assign(this, {position, codes, corners, lines, bondLines, tag, field: run.head.fields[field]});
   }
 
-  // Asked for faster than it can be unpacked: the last request wins.
+  // Requests may come faster than frames can be unpacked: the last one wins.
   async show(change) {
     Object.assign(this, change);
     if (this.busy) { this.again = true; return this.busy; }
@@ -128,7 +128,7 @@ class FieldView {
 
   layout() {
     const ratio = Math.min(devicePixelRatio || 1, 2), whole = this.wholeSize(), {canvas} = this;
-    const view = this.view || this.frameView();  // a view that nobody has chosen follows the powder
+    const view = this.view || this.frameView();  // without a user-chosen view, follow the powder
     const width = this.drawnWidth = canvas.parentElement.clientWidth, room = width - this.legendWidth();
     const height = Math.round(Math.min(Math.max(room * whole.height / whole.width, 200), this.most));
     canvas.style.height = height + "px";
@@ -147,7 +147,7 @@ class FieldView {
     return Math.min(MOST_LEGEND_WIDTH, Math.max(LEGEND_WIDTH, Math.ceil(widest) + 38));
   }
 
-  // Places on the canvas of every node of the frame, x and y interleaved.
+  // Canvas coordinates of all nodes of the frame, x and y interleaved.
   nodesOnCanvas() {
     const {scale, x, y} = this.place, step = this.width / 65534, [lowX, lowY] = this.run.head.low;
     const at = new Float32Array(this.position.length);
@@ -158,7 +158,7 @@ class FieldView {
     return at;
   }
 
-  // The two ends of the colours, in SI.
+  // The colour limits, in SI.
   range() {
     if (this.ranges) return this.ranges(this.shown);
     const density = this.shown === "density", {run, field, sameRange} = this;
@@ -206,7 +206,7 @@ class FieldView {
     this.canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }
 
-  // One packed colour a cell.
+  // One packed colour per cell.
   cellColours() {
     const none = theme().none.match(/\w\w/g).map(two => parseInt(two, 16)), plain = packed(...none);
     const count = this.run.particleOf.length, colours = new Uint32Array(count).fill(plain);
@@ -236,7 +236,7 @@ class FieldView {
     return colours;
   }
 
-  // One for each of its names; runs side by side have one for a name.
+  // One colour per name; runs shown side by side use the same colour for the same name.
   tagColours() {
     const {tag} = this, all = this.allNames ? this.allNames(tag.name) : tag.names;
     return tag.names.map(name => tagColour(all.indexOf(name), all.length));
@@ -246,7 +246,7 @@ class FieldView {
     return this.codes && this.field.name === 'fragment';
   }
 
-  // Thin lines along the bonds; cracks by the mode in which they broke.
+  // Thin lines along the bonds; cracks coloured by fracture mode.
   drawBonds(ctx) {
     const {bonds, cracks} = this.bondLines, {scale, x, y} = this.place;
     const line = (lines, i) => {
@@ -273,7 +273,7 @@ class FieldView {
     raster.fill(run.cells, ratio === 1 ? this.at : this.at.map(v => v * ratio));
     const size = Math.sqrt(this.place.scale ** 2 * (run.head.high[0] - run.head.low[0]) *
       (run.head.high[1] - run.head.low[1]) / run.head.mesh.particles);
-    const edged = !this.outline.length && size > 7;  // smaller ones would be outline alone
+    const edged = !this.outline.length && size > 7;  // smaller particles would consist of outline only
     const line = packed(...(isDark() ? [12, 16, 21] : [29, 39, 51]));
     ctx.drawImage(raster.paint(this.cellColours(), edged ? run.particleOf : null, line), 0, 0, room, height);
   }
@@ -289,7 +289,7 @@ class FieldView {
     ctx.stroke(path);
   }
 
-  // The periodic cell, and pale outlines of the powder's images around it.
+  // The periodic cell, with pale outlines of the periodic images around it.
   drawCell(ctx) {
     const {cell} = this.run.frames[this.frame], {scale, x, y} = this.place;
     if (!cell) return;
@@ -336,7 +336,7 @@ class FieldView {
     });
   }
 
-  // Lines between centres, as wide as their force; five numbers each: both ends, force.
+  // Lines between centres with width proportional to force; five numbers each: both ends, force.
   drawContacts(ctx) {
     const {lines, run} = this, {scale, x, y} = this.place;
     const most = this.mostForce = largest(lines.filter((_, i) => i % 5 === 4)) || 1;
@@ -371,7 +371,7 @@ class FieldView {
     if (tag && tag.names.length) { drawTagLegend(ctx, room + 14, 16, tag, this.tagColours(), width - room - 14); return; }
     if (!density && !tag && (!this.codes || this.showsFragments)) return;
     const [low, high] = this.range();
-    if (!(low <= high)) return;  // of no cell
+    if (!(low <= high)) return;  // no cell has a value
     drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density || tag ? "-" : this.field.unit});
   }
 
@@ -402,7 +402,7 @@ class FieldView {
     for (const side of ["y0", "y1"]) view[side] += py / scale;
     this.draw();
   }
-  // The reader's own view, which stays where it is.
+  // A view chosen by the user, which stays fixed.
   own() { return this.view = this.view || {...this.place.view}; }
   showAll() { this.view = null; this.draw(); }
 

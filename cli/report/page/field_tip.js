@@ -1,5 +1,5 @@
-// What is under the pointer in the picture of a plane run: particle, place and value. It follows the picture when that
-// moves under a pointer that stands still.
+// Tooltip in the view of a 2D run: particle, position and value under the pointer. It is updated when the view changes
+// under a pointer at rest.
 "use strict";
 
 Object.assign(FieldView.prototype, {

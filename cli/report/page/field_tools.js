@@ -1,8 +1,8 @@
-// The tools in the picture of a plane run: bodies with an end, as run.h5 has their outlines.
+// The tools in the view of a 2D run: finite bodies, with their outlines from run.h5.
 "use strict";
 
 Object.assign(FieldView.prototype, {
-  // Of every tool: its name and its corners in this frame, m; the last two lie behind its face.
+  // For every tool: its name and its corners in this frame, m; the last two are behind its face.
   tools() {
     if (!this.corners) return [];
     return this.run.head.tools.map(({name, first, count}) =>
@@ -31,14 +31,14 @@ Object.assign(FieldView.prototype, {
     }
   },
 
-  // The tool whose body is at this place, m.
+  // The tool whose body covers this point, m.
   toolAt(px, py) {
     const crosses = ([ax, ay], [bx, by]) => (ay > py) !== (by > py) && px < ax + (bx - ax) * (py - ay) / (by - ay);
     return this.tools().find(({points}) =>
       points.filter((point, i) => crosses(point, points[(i + 1) % points.length])).length % 2);
   },
 
-  // Where the face of a tool comes closest to a place.
+  // The point on the face of a tool closest to a given point.
   closestOnFace({points}, [px, py]) {
     let best = points[0], least = Infinity;
     for (let i = 0; i + 3 < points.length; ++i) {

@@ -1,5 +1,5 @@
-// What a compaction adds to the report: laws fitted to its density curve, and the force that reaches the
-// bottom punch beside what theory says.
+// Report parts for compaction: laws fitted to its density curve, and the force transmitted to the
+// bottom punch compared with theory.
 "use strict";
 
 const LAWS = {heckel: ["Heckel", "ln[1/(1 − D)] = K P + A"],

@@ -1,6 +1,6 @@
-// The page of records that are reduced to tables and curves: what stands on it is told by its head, as charts
-// (those of chart.js) and tables. A cell is text, a number, or {value, error, unit}.
-// <body> tells how it went: data-ready, data-charts, or data-error.
+// The page of lab records that are reduced to tables and curves: its head lists the contents, as charts
+// (see chart.js) and tables. A cell is text, a number, or {value, error, unit}.
+// Status on <body>: data-ready, data-charts, or data-error.
 "use strict";
 
 const forPeople = cell => cell.unit !== "1/Pa" ? cell

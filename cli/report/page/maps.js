@@ -1,4 +1,4 @@
-// Colour maps that the colour-blind can read and a grey printer keeps in order.
+// Colormaps that are colour-blind safe and stay monotonic in greyscale.
 "use strict";
 
 const MAPS = {
@@ -25,8 +25,8 @@ function mapColour(share) {
 
 const colour = share => `rgb(${mapColour(share).join(",")})`;
 
-// A pale colour for every fragment, of its number alone: it keeps it from frame to frame. Hues and saturations follow
-// a sequence that fills the plane evenly (Roberts' R2).
+// A pale colour for every fragment, from its number only, so that it is the same in all frames. Hues and saturations
+// follow a low-discrepancy sequence (Roberts' R2).
 function fragmentColour(number) {
   const hue = number * 0.7548776662 % 1 * 6, pale = 0.2 + 0.3 * (number * 0.5698402910 % 1),
         value = 0.95;
@@ -47,13 +47,13 @@ function modeColour(share) {
           .join(',')})`;
 }
 
-// Dark or light letters on a cell of that colour.
+// Dark or light text on a cell of this colour.
 function inkOn(share) {
   const [red, green, blue] = mapColour(share);
   return 0.299 * red + 0.587 * green + 0.114 * blue > 140 ? "#1d2733" : "#ffffff";
 }
 
-// The legend of a map as a strip from low to high, with its ticks.
+// The colour bar of a map as a strip from low to high, with ticks.
 function drawScale(ctx, left, top, tall, {low, high, unit}) {
   const shown = unitFor(unit, Math.max(Math.abs(low), Math.abs(high))), colours = theme(), wide = 14;
   for (let i = 0; i < tall; ++i) {

@@ -1,10 +1,10 @@
-// What stands in pages instead of a key: words and a symbol, by the table that figures use
-// (cli/python/pulvis/figures/name_table.py), put into the page as NAMES.
+// Names shown in pages instead of keys: words and a symbol, from the same table as for figures
+// (cli/python/pulvis/figures/name_table.py), embedded in the page as NAMES.
 "use strict";
 
 const PATTERNS = NAMES.patterns.map(([pattern, ...name]) => [new RegExp(`^(?:${pattern})$`), ...name]);
 
-// {words, symbol}; a key that the table does not know is told as it is.
+// {words, symbol}; a key that is not in the table is shown unchanged.
 function nameOf(key) {
   if (Object.hasOwn(NAMES.keys, key)) {
     const [words, symbol] = NAMES.keys[key];
@@ -27,14 +27,14 @@ function nameOf(key) {
   return {words: words(key).replaceAll("/", ", "), symbol: ""};
 }
 
-// A symbol as text: its mathtext read aloud.
+// A symbol as plain text, converted from mathtext.
 const plainSymbol = symbol => Object.entries(NAMES.letters)
   .reduce((text, [tex, letter]) => text.replaceAll(tex, letter), symbol).replace(/[{}$_]/g, "");
 const toldName = key => {
   const {words, symbol} = nameOf(key);
   return symbol ? `${words} ${plainSymbol(symbol)}` : words;
 };
-// What a scene expects: a key, then what of it ("tool/top/force_y, smallest").
+// A quantity in an expectation: a key, then its statistic ("tool/top/force_y, smallest").
 function toldExpectation(what) {
   const [, key, rest] = /^([^\s,]*)(.*)$/s.exec(what);
   return toldName(key) + rest;

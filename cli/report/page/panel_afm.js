@@ -1,4 +1,4 @@
-// A lever of an atomic force microscope: force curve, loop, and its stiffness beside the closed forms.
+// AFM lever: force curve, friction loop, and stiffness compared with closed-form values.
 "use strict";
 
 const meshError = ({mesh_error: of}, name) => of ? `mesh: about ${percent(of[name])} too stiff` : "";
@@ -12,13 +12,13 @@ addFigures(({summary: {calibration, loops, force_curves: curves}}) => [
     ["pull-off work", withUnit(curve.work, "J"), "over the travel of the scanner"],
     curve.work_of_adhesion ? ["work of adhesion", `${digits(1e3 * curve.work_of_adhesion)} mJ/m²`, "from pull-off and radius"] : null])]);
 
-// A series where `kept(sample)` holds, with the samples beside those: a line of its own over the axis of all.
+// A series restricted to samples with `kept(sample)` and their neighbours: a separate line on the common axis.
 function partOf(series, label, kept, more = {}) {
   const values = Array.from(series.values, (v, i) => kept(i) || (i + 1 < series.values.length && kept(i + 1)) ? v : NaN);
   return {...series, label, values, ...more};
 }
 
-// Which samples are of an approach, of a retract: the scanner goes up or down and nowhere else.
+// Samples of approach and retract: the scanner moves only up or only down.
 function verticalMotion(run) {
   const [x, y, z] = ["x", "y", "z"].map(axis => run.values(`scanner/${axis}`));
   const still = (values, i) => !values.length || values[i] === values[i - 1];
@@ -26,7 +26,7 @@ function verticalMotion(run) {
   return z.length ? {approach: i => moves(i, 1), retract: i => moves(i, -1)} : null;
 }
 
-// Of every loop that the program took: its samples, the axis it goes along.
+// For every friction loop: its samples and the axis of its motion.
 function loopParts(run) {
   const {times} = run, loops = run.summary.loops || [];
   const extent = (name, from, to) => {
@@ -40,7 +40,7 @@ function loopParts(run) {
   });
 }
 
-const RETURN = [6, 4];  // dashes of what goes back: a retract, a retrace
+const RETURN = [6, 4];  // dashes for the return motion: retract, retrace
 
 function curveLines(run, name, label) {
   const motion = run.has(name) && verticalMotion(run), colours = LIGHT.lines;
@@ -77,7 +77,7 @@ addCurves(run => {
           group("Detector, whole programme", "y", "signal", whole(["detector/lateral", "detector/normal"]))];
 });
 
-// A table that scrolls inside its card, drawn anew where the reader chooses a unit.
+// A table that scrolls inside its card and is redrawn when the user changes a unit.
 function placeColumns(host, columns) {
   const table = element("table", {className: "figures"});
   const fill = () => fillColumns(table, columns);

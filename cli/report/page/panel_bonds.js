@@ -1,4 +1,4 @@
-// Bonds that break: energies, cracks, fragments over time, and the sizes of the fragments of the frame that is shown.
+// Breaking bonds: energies, cracks and fragments over time, and the fragment sizes in the current frame.
 'use strict';
 
 const hasBondSeries = run => run.has('bonds/crack_length') && run.times.length > 1;
@@ -57,7 +57,7 @@ bondPanel('Bonds: damage and largest fragment', 23, 'share', {
   'bonds/largest_fragment': 'area of the largest fragment'
 });
 
-// Shares up to a diameter, as steps; of number and area.
+// Cumulative fractions up to a diameter, as steps; by number and by area.
 function drawSizes(ctx, width, height, {diameter, number, area}, most) {
   const unit = unitFor('m', most), left = 52, base = height - 40, top = 22, right = width - 14;
   const px = value => left + value / most * (right - left),
@@ -102,7 +102,7 @@ addPanel({
   order: 24,
   when: run => run.frames.some(frame => frame.fragments && frame.fragments.count > 1),
   draw(report, host) {
-    // Over all frames, and the runs beside it: one axis.
+    // A common axis over all frames and over the runs shown side by side.
     const most = frames =>
         1.02 *
         largest(

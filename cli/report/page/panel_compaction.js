@@ -1,4 +1,4 @@
-// A compaction: its figures, and the laws fitted to its density curve.
+// Compaction: its key figures, and the laws fitted to its density curve.
 "use strict";
 
 addFigures(run => {

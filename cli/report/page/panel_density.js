@@ -1,14 +1,14 @@
-// Local densities and directions of the contacts, of the frame that is shown.
+// Local densities and contact directions of the current frame.
 "use strict";
 
-// From metres to the canvas, as large as it fits, in the middle: (x, y) => [px, py].
+// Maps metres to the canvas, centred and as large as fits: (x, y) => [px, py].
 function fitting([x0, x1], [y0, y1], width, height, margin) {
   const scale = Math.min((width - 2 * margin) / (x1 - x0), (height - 2 * margin) / (y1 - y0));
   const left = (width - scale * (x1 - x0)) / 2, top = (height - scale * (y1 - y0)) / 2;
   return (x, y) => [left + scale * (x - x0), height - top - scale * (y - y0)];
 }
 
-// Between the punches of a die that a compact has left: no cell has any room.
+// After ejection of the compact, no cell between the punches has any space.
 function sayEmpty(ctx, width, height) {
   ctx.fillStyle = theme().soft;
   ctx.textAlign = "center";
@@ -35,7 +35,7 @@ function drawCells(ctx, width, height, {cells, x, y}, [low, high]) {
   return `${low} ${high}`;
 }
 
-// Steps, one a row of cells; at least a hundredth wide, so that round-off does not look like a profile.
+// Steps, one per row of cells; range at least 0.01, so that round-off does not look like a profile.
 function drawProfile(ctx, width, height, {profile, y}, [least, most]) {
   if (!(least <= most)) return sayEmpty(ctx, width, height);
   const middle = (least + most) / 2, half = Math.max(0.005, 0.55 * (most - least));
@@ -79,13 +79,13 @@ function drawProfile(ctx, width, height, {profile, y}, [least, most]) {
   ctx.stroke();
 }
 
-// Shares of sectors of half a turn, drawn on both sides.
+// Fractions per sector over half a turn, mirrored to the other half.
 function drawRose(ctx, width, height, {number, force}, most) {
   const sectors = number.length, step = Math.PI / sectors, radius = Math.min(width, height) / 2 - 22;
   ctx.translate(width / 2, height / 2);
   const petals = (shares, fill, stroke) => shares.forEach((share, k) => {
     for (const turn of [0, Math.PI]) {
-      const middle = -(k * step + turn);  // the canvas looks down
+      const middle = -(k * step + turn);  // the y axis of the canvas points down
       ctx.beginPath();
       ctx.moveTo(0, 0);
       ctx.arc(0, 0, radius * share / most, middle - step / 2, middle + step / 2);

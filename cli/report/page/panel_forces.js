@@ -1,7 +1,7 @@
-// Curves that every run with tools has: forces, stress ratio, and each recorded series alone.
+// Curves of every run with tools: forces, stress ratio, and each recorded series.
 "use strict";
 
-// Punches that move: how far each has come, as an x axis beside time.
+// Travel of each moving punch, as an alternative x axis to time.
 function travels(run) {
   return run.named(/^tool\/.+\/position_y$/).flatMap(({name}) => {
     const tool = name.split("/")[1], [xs, ys, zs] = [..."xyz"].map(axis => run.values(`tool/${tool}/position_${axis}`));
@@ -11,8 +11,8 @@ function travels(run) {
   });
 }
 
-// Out of the face of a tool, into the powder: a plane's own; of a polyline, out of the side that most of it faces. None:
-// a constraint, which only pulls at a particle.
+// The normal of a tool's face, into the powder: given for a plane; for a polyline, that of its dominant direction. Null
+// for a constraint, which has no face.
 function faceNormal(tool) {
   if (Array.isArray(tool.normal)) return tool.normal;
   if (!Array.isArray(tool.points) || tool.points.length < 2) return null;
@@ -37,7 +37,7 @@ function spaceForces({normal, shape}, axes, line) {
 
 const bySize = (a, b) => largest(b.values) - largest(a.values);
 
-// One convention for all tools, whichever way they face.
+// One sign convention for all tools, whatever their orientation.
 function forceLines(run) {
   return run.named(/^tool\/.+\/force_x$/).flatMap(series => {
     const name = series.name.split("/")[1], fx = series.values, fy = run.values(`tool/${name}/force_y`);

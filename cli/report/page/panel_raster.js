@@ -1,7 +1,7 @@
-// Images of a raster: trace and retrace side by side, levelled as microscopists do, over the sample in micrometres.
+// Raster images: trace and retrace side by side, levelled as usual in microscopy, with axes in micrometres.
 "use strict";
 
-// Least-squares plane subtracted: values line by line.
+// Subtracts the least-squares plane; values are stored line by line.
 function levelledPlane(values, pixels, lines) {
   const n = pixels * lines, mx = (pixels - 1) / 2, my = (lines - 1) / 2;
   let mean = 0, bx = 0, by = 0;
@@ -15,7 +15,7 @@ function levelledPlane(values, pixels, lines) {
   return values.map((v, i) => v - mean - bx * (i % pixels - mx) - by * (Math.floor(i / pixels) - my));
 }
 
-// Every line's median taken off it.
+// Subtracts the median of each line.
 function levelledLines(values, pixels) {
   const levelled = Float32Array.from(values);
   for (let from = 0; from < levelled.length; from += pixels) {
@@ -41,8 +41,8 @@ function rastersOf(run) {
   return [...rasters.values()];
 }
 
-// What is drawn of a channel: trace, retrace, and of friction half of their difference, whose sign does not hang on
-// topography. Each is levelled by itself.
+// The images of a channel: trace, retrace, and for friction half of their difference, whose sign does not depend on
+// topography. Each is levelled separately.
 function mapsOf(channel, {trace, retrace}, level) {
   const levelled = image => LEVELS[level][1](image.values, image.pixels, image.lines);
   const maps = [["trace", levelled(trace)], ...(retrace ? [["retrace", levelled(retrace)]] : [])];
@@ -53,7 +53,7 @@ function mapsOf(channel, {trace, retrace}, level) {
   return maps.map(([title, values]) => ({title, values, range: bounds([values])}));
 }
 
-// One map in a frame with its axes and its own scale; line 0 lies at the bottom.
+// One map in a frame with axes and a separate colour bar; line 0 is at the bottom.
 function drawMap(ctx, {left, top, wide, tall}, image, map) {
   const picture = element("canvas", {width: image.pixels, height: image.lines});
   const [low, high] = map.range, data = new ImageData(image.pixels, image.lines);
@@ -100,13 +100,13 @@ function drawRaster(canvas, image, maps) {
   canvas.dataset.scale = maps.map(map => map.range.join(" ")).join(" ");
 }
 
-// Maps of runs side by side have the same ends.
+// Maps of runs side by side share the same limits.
 function sharedRanges(maps, rasters, channel, level) {
   const all = rasters.filter(({channels}) => channels[channel]?.trace).flatMap(({channels}) => mapsOf(channel, channels[channel], level));
   return maps.map(map => ({...map, range: bounds(all.filter(({title}) => title === map.title).map(({range}) => range))}));
 }
 
-// beside: the same raster of every run that is shown.
+// beside: the same raster of all runs shown.
 function placeRaster({action, channels}, host, beside) {
   const channel = element("select", {className: "channel"}), level = element("select", {className: "level"});
   Object.keys(channels).filter(name => channels[name].trace).forEach(name => channel.add(new Option(name, name)));

@@ -1,4 +1,4 @@
-// Shear over a target: friction, stresses, dilation and work against the travel of the target.
+// Shear over a target: friction, stresses, dilation and work against target travel.
 "use strict";
 
 addFigures(({summary: {shear}}) => shear ? [
@@ -7,7 +7,7 @@ addFigures(({summary: {shear}}) => shear ? [
   ["normal stress", withUnit(shear.normal_stress, "Pa", 3), "on the target"],
   ["dilation", withUnit(shear.dilation, "m", 3), "travel of the punch away from the target"]] : []);
 
-// [title, what stands at the axis, [[series, label], ...]]
+// [title, axis label, [[series, label], ...]]
 const OF_SHEAR = [
   ["Friction of the target", "coefficient", [["friction", "lateral / normal force"]]],
   ["Stresses in shear", "stress", [["normal_stress", "normal, on the target"], ["lateral_stress", "lateral, on the target"],
@@ -17,7 +17,7 @@ const OF_SHEAR = [
   ["Particles moving with the target", "particles", [["locked", "within 10 % of its speed"]]],
   ["Work of the target", "work", [["work", "lateral force times travel"]]]];
 
-// Static and dynamic coefficients as lines across, where the summary has them.
+// Static and dynamic coefficients as horizontal lines, if the summary has them.
 function frictionLevels({summary: {shear}, times}) {
   return [["static_friction", "static"], ["dynamic_friction", "dynamic"]]
     .filter(([key]) => shear && Number.isFinite(shear[key]))

@@ -1,16 +1,16 @@
-// What a family of experiments adds to the report. Each file panel_*.js enters its own parts here when it is
-// read; nothing else has to know them.
+// Report parts per experiment family. Each file panel_*.js registers its parts here when it is
+// loaded; no other file needs to know them.
 "use strict";
 
 const PANELS = [], CURVES = [], FIGURES = [];
 
-// {title, order, when(run), draw(report, host)}: a card of its own. Small orders stand first.
+// {title, order, when(run), draw(report, host)}: a separate card. Cards are sorted by ascending order.
 const addPanel = panel => { PANELS.push({order: 50, ...panel}); };
 const panelsInOrder = () => PANELS.slice().sort((a, b) => a.order - b.order);
-// run => [{title, xs: [x, ...], y, lines}]: choices of the large chart; x and lines as of a Chart. Those that
-// are `first` are what the run was made for.
+// run => [{title, xs: [x, ...], y, lines}]: choices for the large chart; x and lines as in a Chart. Those marked
+// `first` show the main results of the run.
 const addCurves = make => { CURVES.push(make); };
-// run => [[label, value, note], ...]: figures at the top of the page; what is null is left out.
+// run => [[label, value, note], ...]: key figures at the top of the page; null values are omitted.
 const addFigures = make => { FIGURES.push(make); };
 
 const figuresOf = run => FIGURES.flatMap(make => make(run)).filter(figure => figure && figure[1]);
@@ -19,14 +19,14 @@ const curvesOf = run => CURVES.flatMap(make => make(run)).filter(group => group 
 
 const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times, names: run.isCalibration ? LOAD_CASE_NAMES : undefined});
 
-// What a panel works with: the run, links to the page's one time, and the runs that stand beside it.
+// The context of a panel: the run, the common time of the page, and the runs shown beside it.
 class Report {
   constructor(run, timeline, beside = [run]) {
     Object.assign(this, {run, timeline, beside});
     this.endTime = run.frames.length ? run.frames.at(-1).time : run.times.at(-1) || 1;
   }
 
-  // A chart over the samples of the run: pointing at it moves the frame, the frame marks it.
+  // A chart over the samples of the run: pointing at it selects the frame, and the frame is marked in it.
   chart(host, spec, options) {
     const onCursor = sample => this.timeline.seek(this.run.times[sample] / this.endTime);
     const chart = drawChart(host, spec, {...options, onCursor});
@@ -36,10 +36,10 @@ class Report {
     return chart;
   }
 
-  // A canvas that is drawn anew for every frame: draw(ctx, width, height, frame, frames) where the frame has it.
-  // `frames` are those of all runs side by side: what they have in common is drawn to one scale, which draw may
-  // return, for tests. What comes back paints anew what something else than time has changed.
-  // `shape`: height over width; columns(frame): its numbers for a CSV.
+  // A canvas redrawn for every frame: draw(ctx, width, height, frame, frames), if the frame has the data.
+  // `frames` are those of all runs side by side, for a common scale; draw may return that scale, for tests.
+  // Returns a function that repaints after changes other than time.
+  // `shape`: height over width; columns(frame): the data for a CSV file.
   figure(host, {title, shape, draw, columns, note}) {
     const canvas = element("canvas", {className: "figure", role: "img"});
     const told = element("p", {className: "note"});
@@ -59,7 +59,7 @@ class Report {
       told.textContent = frame ? note(frame) : "";
       canvas.setAttribute("aria-label", `${title}. ${told.textContent}`);
     };
-    const name = fileName(host.parentElement.querySelector("h2").textContent);  // of the run, too, beside others
+    const name = fileName(host.parentElement.querySelector("h2").textContent);  // with the run name, if shown beside others
     host.parentElement.querySelector(".card-head").append(saveButtons(title, {
       PNG: () => saveCanvas(name + ".png", canvas),
       CSV: () => saveText(name + ".csv", csvOf(columns(this.frame())), "text/csv")}));
@@ -79,7 +79,7 @@ class Report {
   }
 }
 
-// Which cards go into the second of two columns, so that both are about as long; the first card stays in the first. Bits.
+// Bit mask of the cards in the second of two columns, so that both are about equally long; card 0 stays in the first.
 function evenSplit(heights) {
   const count = Math.min(heights.length, 14), sum = list => list.reduce((total, height) => total + height, 0), whole = sum(heights);
   let best = 0, least = Infinity;
@@ -90,7 +90,7 @@ function evenSplit(heights) {
   return best;
 }
 
-// Cards in two columns without holes: the last of a column is as long as the other column wants it. Wide cards go across.
+// Cards in two columns without gaps: the last card of the shorter column is stretched. Wide cards span both.
 function arrangeCards(host) {
   const cards = [...host.children].filter(one => one.classList.contains("card") && !one.hidden);
   const isWide = one => one.classList.contains("wide");

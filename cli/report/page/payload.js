@@ -1,7 +1,7 @@
-// Reads the numbers the page carries: base64, deflate, planes of bytes, differences of neighbours.
+// Decodes the data embedded in the page: base64, deflate, byte planes, differences of neighbours.
 "use strict";
 
-// What no page survives is told on it.
+// Shows fatal errors on the page.
 function fail(error) {
   const text = String(error && error.message || error);
   document.body.dataset.error = text;
@@ -31,7 +31,7 @@ async function decoded(id, ArrayType, stride) {
     for (let plane = width - 1; plane >= 0; --plane) {
       difference = difference << 8 | bytes[plane * count + i];
     }
-    values[i] = difference + (i < stride ? 0 : values[i - stride]);  // wraps as it was written
+    values[i] = difference + (i < stride ? 0 : values[i - stride]);  // wraps around as when encoded
   }
   return values;
 }

@@ -1,5 +1,5 @@
-// Fills quads into a picture of their numbers: one pass over the cells, whatever their colours. The pixel
-// under the pointer tells its cell, another field is another colour table, and no graphics card is needed.
+// Rasterises quads into an image of cell numbers: one pass over the cells, independent of colours. The pixel
+// under the pointer gives its cell, a new field needs only a new colour table, and no GPU is required.
 "use strict";
 
 class Raster {
@@ -11,7 +11,7 @@ class Raster {
     this.pixels = new Uint32Array(this.image.data.buffer);
   }
 
-  // at: x, y of every node in pixels. Two nodes that are one make a triangle of a quad.
+  // at: x, y of every node in pixels. A quad with two equal nodes is a triangle.
   fill(quads, at) {
     this.cells.fill(-1);
     for (let c = 0; 4 * c < quads.length; ++c) {
@@ -21,7 +21,7 @@ class Raster {
     }
   }
 
-  // A pixel belongs to a triangle that holds its middle: neighbours leave no seam and never overlap.
+  // A pixel belongs to the triangle that contains its centre: neighbours have no gaps and never overlap.
   triangle(cell, x0, y0, x1, y1, x2, y2) {
     let swap;
     if (y1 < y0) { swap = x0; x0 = x1; x1 = swap; swap = y0; y0 = y1; y1 = swap; }
@@ -38,7 +38,7 @@ class Raster {
     }
   }
 
-  // colours: one packed colour a cell. groups (with `line`): pixels at the edge of a group take that colour.
+  // colours: one packed colour per cell. groups (with `line`): pixels at group edges get the colour `line`.
   paint(colours, groups, line) {
     const {cells, pixels, width} = this, last = cells.length - 1;
     for (let i = 0; i <= last; ++i) {
@@ -54,5 +54,5 @@ class Raster {
   }
 }
 
-// A packed colour for ImageData: bytes red, green, blue, opaque, as the processor keeps them.
+// A packed colour for ImageData: bytes red, green, blue, opaque, in native byte order.
 const packed = (red, green, blue) => new Uint32Array(new Uint8Array([red, green, blue, 255]).buffer)[0];

@@ -1,5 +1,5 @@
-// The page of a reduction: friction curves, forces, clocks and figures of sliding-plate tests.
-// <body> tells how it went: data-ready, data-charts, or data-error.
+// The page of a data reduction: friction curves, forces, clocks and key data of sliding-plate tests.
+// Status on <body>: data-ready, data-charts, or data-error.
 "use strict";
 
 // A table of the page as columns {name, unit, kind, label, values}.

@@ -1,7 +1,7 @@
-// Puts the page together. <body> tells how it went: data-ready, or data-error.
+// Assembles the page. Status on <body>: data-ready, or data-error.
 "use strict";
 
-// The large chart: which curves, against what.
+// The large chart: choice of curves and x axis.
 function placeCurves(report, host) {
   const {run} = report;
   const single = run.head.series.filter(({name}) => name !== "time").map(({name, meaning}) =>

@@ -1,9 +1,9 @@
-// A run as the page carries it: its head, its series, and frames that are unpacked when they are asked for.
+// A run as embedded in the page: its head, its series, and frames that are decoded on demand.
 "use strict";
 
 const NO_NUMBER = 65535, MOST_KEPT_BYTES = 3e8;
 
-// The frames and samples of a calibration, as cli/session/afm_session.cpp writes them.
+// Frames and samples of a calibration, in the order written by cli/session/afm_session.cpp.
 const LOAD_CASES = ["at rest", "under a force normal to the sample", "under a lateral force", "under a force along the lever"];
 const LOAD_CASE_NAMES = ["at rest", "normal", "lateral", "axial"];
 const loadCase = number => LOAD_CASES[Math.round(number)] || `load case ${digits(number)}`;
@@ -29,7 +29,7 @@ class Run {
     return run;
   }
 
-  // Particles in three dimensions: which sides of cells are outside, and the pieces of the tools' surfaces.
+  // Particles in 3D: the outer faces of cells, and the quads of the tool surfaces.
   get inSpace() { return this.head.mesh?.dimension === 3; }
   async loadSpace() {
     this.surface = await integers(this.prefix + "surface", 1);
@@ -37,7 +37,7 @@ class Run {
     this.toolQuads = await integers(this.prefix + "tool-quads", 4);
     this.toolOfQuad = await integers(this.prefix + "tool-of-quad", 1);
   }
-  // Later frames are differences from the first one.
+  // Later frames are stored as differences from the first.
   async spacePositions(key, frame) {
     const codes = await shorts(key, 3), first = frame ? await this.positions(0) : null;
     for (let i = 0; first && i < codes.length; ++i) codes[i] += first[i];
@@ -48,8 +48,8 @@ class Run {
     if (this.summary.family) return this.summary.family;
     return this.history.has("shear/friction") ? "shear" : "compaction";
   }
-  // The programme of a lever is quasi-static: what goes on is the number of its actions that are done. A
-  // calibration has none: it pulls at the tip along one axis after the other.
+  // The programme of a lever is quasi-static: its "time" is the number of completed actions. A
+  // calibration has none: it pulls the tip along one axis after another.
   get isCalibration() { return this.family === "afm" && !this.has("scanner/z"); }
   get timeName() { return this.isCalibration ? "load case" : this.family === "afm" ? "actions completed" : "time"; }
   // A time in words.
@@ -67,7 +67,7 @@ class Run {
   end(name) { return this.values(name).at(-1); }
   frameTime(frame) { return this.frames[frame].time; }
 
-  // The sample at, or just after, a time; the frame nearest to it.
+  // The sample at or just after a time; the frame nearest to it.
   sampleAt(time) {
     let low = 0, high = this.times.length - 1;
     while (low < high) {
@@ -84,7 +84,7 @@ class Run {
     return best;
   }
 
-  // Unpacked once, and forgotten in the order of use when there is too much.
+  // Decoded frames are cached; the least recently used are dropped when the cache is full.
   async kept_(name, read) {
     const key = this.prefix + name, there = this.kept.get(key);
     this.kept.delete(key);

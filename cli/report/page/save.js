@@ -1,4 +1,4 @@
-// Figures and their numbers as files, made in the page.
+// Saves figures and their data as files, generated in the page.
 "use strict";
 
 function saveBlob(name, blob) {
@@ -11,7 +11,7 @@ const saveText = (name, text, type) => saveBlob(name, new Blob([text], {type}));
 const saveCanvas = (name, canvas) => canvas.toBlob(blob => saveBlob(name, blob), "image/png");
 const fileName = title => title.toLowerCase().replace(/[^a-z0-9.]+/g, "-").replace(/^-|-$/g, "");
 
-// An SVG as a picture of four pixels a unit, enough for print.
+// Converts an SVG to an image with four pixels per unit, enough for print.
 function saveAsPng(name, svg, width, height) {
   const image = new Image(), canvas = element("canvas", {width: 4 * width, height: 4 * height});
   image.onload = () => {
@@ -21,8 +21,8 @@ function saveAsPng(name, svg, width, height) {
   image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(svg);
 }
 
-// columns: [{label, unit, values}] in SI, of any lengths. A label that a spreadsheet would take for a formula
-// stands behind an apostrophe, as in study.csv.
+// columns: [{label, unit, values}] in SI; lengths may differ. A label that a spreadsheet would read as a
+// formula is prefixed with an apostrophe, as in study.csv.
 function csvOf(columns) {
   const tame = text => /^[=+@\t\r-]/.test(text) ? "'" + text : text;
   const quoted = text => /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
@@ -35,7 +35,7 @@ function csvOf(columns) {
   return lines.join("\n") + "\n";
 }
 
-// One button a kind of file: {PNG: action, ...}.
+// One button per file type: {PNG: action, ...}.
 function saveButtons(title, kinds) {
   const group = element("span", {className: "save", role: "group", "aria-label": `Save: ${title}`});
   for (const [kind, action] of Object.entries(kinds)) {

@@ -1,4 +1,4 @@
-// What the reader chooses for the whole page: units, colour map, light or dark.
+// User settings for the whole page: units, colormap, light or dark theme.
 "use strict";
 
 const UNIT_CHOICES = {N: ["n", "µ", "m", "", "k", "M"], Pa: ["k", "M", "G"], m: ["", "m", "µ", "n"], s: ["", "m", "µ"], J: ["", "m", "µ", "n", "p", "f"], V: ["", "m", "µ"]};
@@ -11,7 +11,7 @@ function picker(label, options, chosen, action) {
   return element("label", {}, label + " ", select);
 }
 
-// units: those of the page's numbers; hasMap: whether anything is drawn in a colour map.
+// units: those used on the page; hasMap: whether anything uses a colormap.
 function placeSettings(host, units, hasMap = true) {
   const choices = Object.entries(UNIT_CHOICES).filter(([unit]) => units.has(unit)).map(([unit, prefixes]) =>
     picker(unit, [["auto", "auto"], ...prefixes.map(prefix => [prefix, prefix + unit])], "auto",
@@ -33,7 +33,7 @@ function placeSettings(host, units, hasMap = true) {
   host.append(...(choices.length ? [menu] : []), ...(map ? [map] : []), shade);
 }
 
-// On paper everything is dark on white, whatever the reader has chosen.
+// Printing always uses dark on white, whatever the theme.
 addEventListener("beforeprint", () => {
   const root = document.documentElement, chosen = root.dataset.theme;
   root.dataset.theme = "light";

@@ -1,4 +1,4 @@
-// A lever in three dimensions: its surface, coloured by how far it moved, turned by dragging.
+// 3D view of a lever: its surface, coloured by displacement, rotated by dragging.
 "use strict";
 
 const FIRST_VIEW = {turn: -0.9, tilt: 0.42};
@@ -32,7 +32,7 @@ class SolidView {
     this.size = Math.hypot(...this.box.map(([low, high]) => high - low)) || 1;
   }
 
-  // Drawn larger than life so that the most of all frames is an eighth of the size, but never smaller.
+  // Magnified so that the largest displacement over all frames is an eighth of the size; never reduced.
   async findScale() {
     let most = 0;
     for (let i = 0; i < this.run.frames.length; ++i) most = Math.max(most, largest(await this.run.displacements(i)));
@@ -51,7 +51,7 @@ class SolidView {
   }
   showShare(share) { return this.show({frame: this.run.frameAt(share * this.run.frames.at(-1).time)}); }
 
-  // Ends of the colours, of this frame.
+  // Colour limits of this frame.
   range() { return bounds([Float32Array.from({length: this.moved.length / 3}, (_, node) => this.valueOf(node))]); }
 
   valueOf(node) {
@@ -59,7 +59,7 @@ class SolidView {
     return this.shown === "size" ? Math.hypot(moved[at], moved[at + 1], moved[at + 2]) : moved[at + Number(this.shown)];
   }
 
-  // Pixels a metre that show the whole of it as it stands at first, with as much of it that moves; `zoom` is over that.
+  // Pixels per metre that fit the whole lever in the initial view, including its motion; `zoom` multiplies it.
   fit() {
     const [right, up] = [0, 1].map(k => {
       const [low, high] = bounds([this.corners().map(corner => this.seen(corner, FIRST_VIEW)[k])]);
@@ -71,7 +71,7 @@ class SolidView {
     return [0, 1, 2, 3, 4, 5, 6, 7].map(i => [0, 1, 2].map(k => this.box[k][i >> k & 1] - this.middle[k]));
   }
 
-  // How far to the right, up and away.
+  // Coordinates to the right, up and away from the viewer.
   seen([dx, dy, dz], {turn, tilt}) {
     const [ct, st, cu, su] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
     const deep = st * dx + ct * dy;
@@ -115,7 +115,7 @@ class SolidView {
     canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }
 
-  // Far faces first; their light from the angle they are seen at.
+  // Far faces first; shaded by viewing angle.
   drawFaces(ctx, at) {
     const {faces} = this, count = faces.length / 4, far = new Float32Array(count), value = new Float32Array(count);
     for (let f = 0; f < count; ++f) {
@@ -132,7 +132,7 @@ class SolidView {
       const corner = k => 3 * faces[4 * f + k];
       const [a, b, c, d] = [0, 1, 2, 3].map(corner);
       const turned = (at[c] - at[a]) * (at[d + 1] - at[b + 1]) - (at[d] - at[b]) * (at[c + 1] - at[a + 1]);
-      if (turned > 0) continue;  // seen from behind
+      if (turned > 0) continue;  // back face
       ctx.beginPath();
       for (const i of [a, b, c, d]) ctx.lineTo(at[i], at[i + 1]);
       ctx.closePath();

@@ -1,5 +1,5 @@
-// The report of a study: verdicts, curves of all variations over each other, and the table of its runs.
-// <body> tells how it went: data-ready, data-drawn-lines and data-effects with their numbers, or data-error.
+// The report of a study: checks, overlaid curves of all variations, and the table of its runs.
+// Status on <body>: data-ready, data-drawn-lines and data-effects (counts), or data-error.
 "use strict";
 
 function leadText(head) {
@@ -27,7 +27,7 @@ function fillExpectations(list) {
   }
 }
 
-// rows: [[cell, ...]] of texts.
+// rows: [[cell, ...]], each cell a text.
 const fillTexts = (id, titles, rows) =>
   fillTable(id, titles.map((title, k) => ({title, cells: rows.map(row => row[k])})));
 
@@ -140,7 +140,7 @@ function seedsNote(lines) {
   return seeds.length ? `Mean over ${seeds.join(" or ")} seeds; bars: ± standard deviation; band: from min to max.` : "";
 }
 
-// Every curve has an abscissa of its own, and a band over its seeds.
+// Every curve has its own x values, and a band over its seeds.
 function overlay(curve, numbers) {
   const lines = curve.lines.map(line => {
     const {x, y, low, high, deviation} = lineData(line, numbers);
@@ -166,7 +166,7 @@ async function main() {
   fillStrength(head);
   const drawn = [...strengthPlots(head),
                  ...head.curves.filter(curve => curve.lines.length).map(curve => overlay(curve, numbers))];
-  const hosts = drawn.map(chart => card(chart.title));  // first all places: they share the width
+  const hosts = drawn.map(chart => card(chart.title));  // create all cards first: they share the width
   drawn.forEach((chart, i) => drawChart(hosts[i], chart, {height: 340}));
   drawn.forEach((chart, i) => {
     if (chart.seeds) hosts[i].parentElement.append(element("p", {className: "note", textContent: chart.seeds}));

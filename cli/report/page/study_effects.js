@@ -3,7 +3,7 @@
 
 const sampleAt = (level, name) => level.values.find(value => value.name === name);
 
-// Values that differ between levels; those that the table shows stand first, in its order.
+// Values that differ between levels; those shown in the table come first, in its order.
 function effectValues(effects) {
   const units = new Map();
   for (const {levels} of effects) {
@@ -24,7 +24,7 @@ function effectsRange(effects, name) {
   return bounds([ends]);
 }
 
-// One panel a key, side by side over one axis; dashed: the mean over all runs.
+// One panel per key, side by side with a common axis; dashed: the mean over all runs.
 function effectsSvg(effects, {name, unit}, width, colours) {
   const {factor, label} = unitFor(unit, largest(effectsRange(effects, name)));
   const [low, high] = withMargin(effectsRange(effects, name).map(v => v * factor), 0.08);
@@ -75,7 +75,7 @@ function effectColumns(effects, {name, unit}) {
   });
 }
 
-// Returns how many panels it has.
+// Returns the number of panels.
 function drawEffects({effects = []}) {
   const values = effectValues(effects);
   if (!values.length) return 0;

@@ -3,8 +3,8 @@
 
 const fillTable = (id, columns, isBad) => fillColumns(document.getElementById(id), columns, isBad);
 
-// What a study knows of its runs, in the order of the table: [name], and a title where it is short of the name's words
-// (names.js). What none of them has is left out.
+// Result columns of the table of runs, in order: [name], with a title where it is shorter than the words of the name
+// (names.js). Columns without any value are omitted.
 const COLUMNS = [["particles"], ["steps"], ["wall_seconds"], ["peak/relative_density", "peak relative density"],
                  ["peak/top_force"], ["peak/bottom_force"], ["peak/top_pressure"], ["peak/transmission"],
                  ["peak/stress_ratio/axial", "σ axial / σy at peak density"],
@@ -46,7 +46,7 @@ function fillRuns({runs}) {
     ...columns.map(([name]) => ({title: titleOf(name), unit: unit(name), cells: of(name)}))], i => Boolean(runs[i].failure));
 }
 
-// Where some variation was run with several seeds: mean and standard deviation of each.
+// If any variation has several seeds: mean and standard deviation of each.
 function fillVariations({variations = []}) {
   document.getElementById("variations-section").hidden = !variations.some(one => one.runs > 1);
   const names = COLUMNS.filter(([name]) => variations.some(one => one.values.some(value => value.name === name)));
@@ -59,7 +59,7 @@ function fillVariations({variations = []}) {
                                cells: variations.map(one => cell(of(one, name)))}))]);
 }
 
-// The last frame of every run, in one scale of colours.
+// The last frame of every run, with a common colour scale.
 function fillThumbnails({runs, thumbnails}) {
   const shown = runs.filter(run => run.thumbnail);
   document.getElementById("thumbnails-section").hidden = !shown.length;

@@ -11,7 +11,7 @@ function addRow(table, cells, isHead) {
 const withError = (value, error, count = 3) =>
   error === undefined ? digits(value, count) : `${digits(value, count)} ± ${digits(error, 2)}`;
 
-// {value, error} in a unit for people, both in the same.
+// {value, error} in a readable unit, the same for both.
 function measured(known, unit = "-") {
   if (!known) return "–";
   const {factor, label} = unitFor(unit, Math.abs(known.value));
@@ -20,7 +20,7 @@ function measured(known, unit = "-") {
 }
 
 // columns: [{title, unit, cells}]; a cell is a number, {mean, deviation}, a text, an element or null. A column of numbers
-// with a unit has one unit for all of them.
+// with a unit uses one unit throughout.
 function fillColumns(table, columns, isBad = () => false) {
   const shown = columns.map(shownColumn), head = element("tr", {}), body = element("tbody", {});
   table.replaceChildren(element("thead", {}, head), body);
@@ -49,7 +49,7 @@ function shownColumn({title, unit, cells}) {
   return {title: labelled(title, label), cells: cells.map(text), isNumber: true};
 }
 
-// The mean to the second digit of its deviation, six at most.
+// The mean, rounded to the second digit of its deviation, at most six digits.
 function withSpread(mean, deviation, factor = 1) {
   if (deviation === undefined || deviation === null) return digits(mean);
   const spread = deviation * factor;

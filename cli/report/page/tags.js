@@ -1,20 +1,20 @@
-// What tells particles apart: their number, their material and their class, in colours of their own.
+// Particle tags: number, material and class, each with its own colours.
 "use strict";
 
-// Pale enough for outlines and lines over them, and told apart by the colour-blind: the first three by hue and
-// lightness, the others by lightness most.
+// Pale enough for outlines and lines on top, and colour-blind safe: the first three differ in hue and
+// lightness, the others mainly in lightness.
 const TAG_COLOURS = ["#8fb8de", "#f0a868", "#b9d98c", "#d7a3c7", "#f2dd7e", "#7a9e9f", "#c9c9c9", "#b98b73", "#9a8fd0"];
 
 const rgbOf = hex => hex.match(/\w\w/g).map(two => parseInt(two, 16));
 const tagColour = (position, count) => count <= TAG_COLOURS.length ? rgbOf(TAG_COLOURS[position]) : fragmentColour(position);
 
-// {name, names, values}: of each particle a position in `names`, or its own number where there are none.
+// {name, names, values}: for each particle an index into `names`, or its number if `names` is empty.
 function tagsOf(run) {
   const particles = run.head.mesh.particles;
   return [...run.tags, {name: "number", names: [], values: Int32Array.from({length: particles}, (_, i) => i)}];
 }
 
-// "particle 12, 316L, class large"; what all particles have in common is left out.
+// "particle 12, 316L, class large"; tags common to all particles are omitted.
 function particleInWords(run, number) {
   const parts = [`particle ${number}`];
   for (const {name, names, values} of run.tags) {
@@ -30,7 +30,7 @@ function shortened(ctx, text, wide) {
   return text.slice(0, kept) + "…";
 }
 
-// A square of its colour and the name of each.
+// A colour swatch and a name for each.
 function drawTagLegend(ctx, left, top, {names}, colours, room) {
   ctx.textAlign = "left";
   names.forEach((name, i) => {

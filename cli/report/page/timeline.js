@@ -1,10 +1,10 @@
-// One time for the whole page: frames, curves and observations follow it, and each of them can move it.
-// Times are shares of the run, so that runs of different lengths can be shown together.
+// A common time for the whole page: frames, curves and observations follow it, and each of them can change it.
+// Times are fractions of the run, so that runs of different length can be shown together.
 "use strict";
 
 class Timeline {
-  // times: of the frames of the run that sets the pace, s
-  // textOf(time): it in words
+  // times: frame times of the reference run, s
+  // textOf(time): the time as text
   constructor(host, times, textOf = time => withUnit(time, "s", 3)) {
     Object.assign(this, {times, textOf, end: times.at(-1) || 1, frame: times.length - 1, listeners: [], timer: 0});
     this.share = 1;
@@ -28,7 +28,7 @@ class Timeline {
     this.showShare(this.times[this.frame] / this.end);
   }
 
-  // From a curve: the share may lie between two frames.
+  // Called by a chart: the fraction may lie between two frames.
   seek(share) {
     if (this.timer) return;
     if (!this.times.length) return;
@@ -74,7 +74,7 @@ class Timeline {
     this.setPlaying(Boolean(this.timer));
   }
 
-  // Space plays, arrows step, wherever the keys are not needed for something else.
+  // Space plays, arrow keys step, unless the focused element needs these keys.
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const at = event.target;

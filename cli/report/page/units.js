@@ -1,11 +1,11 @@
-// Units for people: results are SI, an engineer reads mm, kN and MPa.
+// Display units: results are in SI, engineers read mm, kN and MPa.
 "use strict";
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""],
                   [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"], [1e-15, "f"]];
 const SCALED = new Set(["m", "N", "Pa", "J", "s", "m/s", "V", "W", "N/m", "N/V", "V/N", "m/V", "J/m^2"]);
 
-// What the reader has chosen: SI unit to prefix. Whoever shows numbers listens.
+// User choice: prefix for each SI unit. Everything that shows numbers listens for changes.
 const chosenPrefixes = new Map();
 const unitListeners = [];
 const onUnits = listener => { unitListeners.push(listener); };
@@ -47,7 +47,7 @@ function withUnit(value, unit, count = 4) {
   return digits(value * shown.factor, count) + (shown.label ? " " + shown.label : "");
 }
 
-// Properties as of the element; those with a dash and "role" as attributes.
+// Keys set element properties; names with a dash and "role" set attributes.
 function element(tag, properties, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(properties || {})) {
@@ -57,7 +57,7 @@ function element(tag, properties, ...children) {
   return made;
 }
 
-// After the layout that the change of size belongs to.
+// Runs after the layout that caused the resize.
 const onResize = (host, action) => new ResizeObserver(() => requestAnimationFrame(action)).observe(host);
 const percent = value => digits(100 * value, 3) + " %";
 // "1 run", "2 runs".
@@ -66,7 +66,7 @@ const words = name => name.replaceAll("_", " ");
 const titled = name => words(name).replace(/^./, letter => letter.toUpperCase());
 const labelled = (name, unit) => unit ? `${name} [${unit}]` : name;
 
-// Round numbers that divide [low, high] into about `count` parts.
+// Round tick values that divide [low, high] into about `count` intervals.
 function niceTicks(low, high, count) {
   const rough = (high - low) / count, size = 10 ** Math.floor(Math.log10(rough));
   const step = size * ([1, 2, 5, 10].find(s => s * size >= rough) || 10);

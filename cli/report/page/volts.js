@@ -1,6 +1,6 @@
-// The page of the way from an AFM's volts to friction: force curves with their fits, loops, friction against load,
-// what the draws gave and what contributes to it.
-// <body> tells how it went: data-ready, data-charts, or data-error.
+// The page for converting AFM volts to friction: force curves with fits, loops, friction against load,
+// the Monte Carlo distribution and the contributions to its uncertainty.
+// Status on <body>: data-ready, data-charts, or data-error.
 "use strict";
 
 const QUANTITIES = [
@@ -26,7 +26,7 @@ function drawCurves(title, curves, y) {
   draw(title, {x: {label: "displacement of the piezo", unit: "m", values: []}, y, lines});
 }
 
-// The loops as they were taken: trace and retrace of the smallest, a middle and the largest load.
+// The measured loops: trace and retrace at the smallest, a middle and the largest load.
 function drawTraces(title, record) {
   const raw = record.loops.filter(loop => loop.traces);
   if (!raw.length) return;
@@ -64,7 +64,7 @@ function drawWedge(record) {
        {x: {label: "load", unit: record.load_unit, values: []}, y: "lateral signal", lines});
 }
 
-// Whole: against the load, from where the line is zero, which is the adhesion; bars by the half-widths alone.
+// Friction against load, down to the zero of the line, which is the adhesion; error bars from the half-widths only.
 function drawFriction(summary, record) {
   const x = summary.loops.map(loop => loop.load), values = summary.loops.map(loop => loop.force);
   const error = record.loops.map(loop => (loop.half_width_error || 0) * summary.lateral_sensitivity.value);
@@ -97,7 +97,7 @@ function drawHistogram({from, until, counts}, {friction, confidence}, draws) {
                 upright("to", friction.high, [5, 4])]});
 }
 
-// Bars: of the variance with one input drawn alone; the tick is the share by the law of propagation.
+// Bars: variance fraction with only one input sampled; tick: fraction by the law of error propagation.
 function barsSvg(groups, contributions, colours, width) {
   const left = 210, right = width - 60, tall = 26, height = tall * groups.length + 34;
   const px = share => left + (right - left) * Math.min(1, share);

@@ -1,13 +1,13 @@
-// The page of a wedge calibration: friction loops in volts against the load, with the lines that were fitted, and
-// what they say about friction and the detector.
-// <body> tells how it went: data-ready, data-charts, or data-error.
+// The page of a wedge calibration: friction loops in volts against load, with the fitted lines, and
+// the resulting friction and detector constants.
+// Status on <body>: data-ready, data-charts, or data-error.
 "use strict";
 
 const inDegrees = slope => `${slope > 0 ? "+" : ""}${digits(slope * 180 / Math.PI, 4)}°`;
 const mean = values => values.reduce((sum, v) => sum + v, 0) / values.length;
 
-// A facet's loops as marks, and the line through them: least squares pass through the mean of both. One load
-// gives no line.
+// The loops of a facet as markers, with the fitted line: least squares pass through the mean of both. A single
+// load gives no line.
 function facetLine(facet, loops, key, slope) {
   const own = loops.filter(loop => loop.slope === facet.slope);
   const x = own.map(loop => loop.load), values = own.map(loop => loop[key]);
@@ -23,7 +23,7 @@ function placeCharts({facets, crosstalk}, loops) {
   const draw = (title, y, key, slopeOf) => drawChart(card(title),
     {x: load, y, lines: facets.map(facet => facetLine(facet, loops, key, slopeOf(facet)))});
   draw("Half-width W of the loops against load", "half-width W", "half_width", facet => facet.half_width_by_load.value);
-  const taken = crosstalk ? crosstalk.value : 0;  // of the others' offsets, not of the flat facet's own
+  const taken = crosstalk ? crosstalk.value : 0;  // subtracted from the other facets' offsets, not from the flat facet's
   draw("Offset Δ of the loops against load", "offset Δ", "offset",
        facet => facet.offset_by_load.value + (facet.friction ? taken : 0));
   return 2;

@@ -1,9 +1,9 @@
-// The words of the report: what was run, how it went, and whether its numbers can be believed.
+// Text of the report: what was run, how it ended, and whether the results are reliable.
 "use strict";
 
 const countOf = value => Math.round(value).toLocaleString("en");
 
-// The largest that was reached: at the end the compact may be unloaded and ejected.
+// The maximum: at the end the compact may be unloaded and ejected.
 function pressedDensity(run) {
   const reached = run.values("relative_density").filter(Number.isFinite);
   return reached.length ? Math.max(...reached) : run.summary.relative_density;
@@ -21,7 +21,7 @@ function did(run) {
       digits(pressedDensity(run), 3);
 }
 
-// What was done, how it ended, and whether to believe it, in words.
+// What was done, how it ended, and whether the result is reliable, in words.
 function leadOf(run) {
   const {summary, head} = run, figures = qualityFigures(run);
   const elements = head.mesh ? head.mesh.cells : head.solid ? head.solid.cells : 0;
@@ -64,7 +64,7 @@ addFigures(run => {
   return [value > 0 && ["largest force", withUnit(value, "N", 3), `on ${tool}`]];
 });
 
-// Units of a material's numbers: the summary is plain SI.
+// Units of material parameters: the summary is in plain SI.
 const MATERIAL_UNITS = {density: "kg/m³", youngs_modulus: "Pa", poissons_ratio: "-",
                         yield_stress: "Pa", hardening_modulus: "Pa"};
 
@@ -77,7 +77,7 @@ function materialRows(materials) {
      ["materials"]]);
 }
 
-// Rows for the keys with a meaning of their own: [label, text or null, the keys it tells].
+// Rows for keys with special meaning: [label, text or null, the keys it covers].
 function knownRows(run) {
   const {head, summary: s} = run, has = key => typeof s[key] === "number", count = countOf;
   const density = has("relative_density") ? s.relative_density : run.end("relative_density");
@@ -106,7 +106,7 @@ function knownRows(run) {
   ];
 }
 
-// What the program tells beyond that, one row a number or text, nested names joined.
+// All other entries, one row per number or text, nested names joined.
 function otherRows(value, name, rows) {
   if (value === null || value === "") return;
   if (typeof value !== "object") {
@@ -147,7 +147,7 @@ function fillFigures(run) {
             element("small", {textContent: note}))));
 }
 
-// As the program judged them (scenes/results/run_quality.hpp).
+// As rated by the program (scenes/results/run_quality.hpp).
 const qualityFigures = run => (run.summary.quality || []).filter(figure => Number.isFinite(figure.value));
 const isBeyond = ({value, limit}) => typeof limit === "number" && !(Math.abs(value) <= limit);
 
@@ -177,7 +177,7 @@ function fillQuality(run) {
   }
 }
 
-// What the run cost, by system where the run has counted it.
+// The cost of the run, by system if it was measured.
 function fillCost(run) {
   const {cost} = run.summary;
   if (!Array.isArray(cost) || !cost.length) return;

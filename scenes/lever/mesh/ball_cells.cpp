@@ -10,14 +10,14 @@ namespace {
 constexpr std::array<std::array<std::size_t, 4>, 6> faces_of_cell{
     {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
-// (parts - weight) a + weight b over parts.
+// ((parts - weight) a + weight b) over parts.
 BallKey between(const BallKey& a, const BallKey& b, int weight = 1, int parts = 2) {
   BallKey at;
   for (std::size_t k = 0; k < 4; ++k) at[k] = ((parts - weight) * a[k] + weight * b[k]) / parts;
   return at;
 }
 
-// A cell is a box of its numbers: the child at a corner lies half way to all others.
+// A cell is a box in its coordinates: the child at a corner extends half way to all others.
 std::array<BallCell, 8> children(const BallCell& cell) {
   std::array<BallCell, 8> all;
   for (std::size_t c = 0; c < 8; ++c)
@@ -25,7 +25,7 @@ std::array<BallCell, 8> children(const BallCell& cell) {
   return all;
 }
 
-// Along its longest side.
+// Size along its longest side.
 int size_of(const BallCell& cell) {
   int size = 0;
   for (std::size_t k = 0; k < 4; ++k) size = std::max(size, std::abs(cell[6][k] - cell[0][k]));
@@ -40,7 +40,7 @@ Points points_of(const std::vector<BallCell>& cells) {
   return points;
 }
 
-// Whether a point lies on a quarter of one of the faces: a neighbour is less than half as large.
+// Whether a quarter of one of the faces has a node inside: a neighbour is less than half as large.
 bool meets_much_smaller(const BallCell& cell, const Points& points) {
   if (size_of(cell) < 4) return false;
   for (const auto& face : faces_of_cell)

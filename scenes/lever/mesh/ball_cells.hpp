@@ -1,5 +1,5 @@
-// Cells of a ball's mesh: a cubic core in six shells, each a box of whole numbers, which are divided in eight
-// where the ball touches.
+// Cells of a ball's mesh: a cubic core surrounded by six shells, each a box with integer coordinates, split
+// into eight cells near the contact.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace pulvis {
 
-// Where a point lies: three numbers on the core's grid, or on its surface, and how far it is from there
+// Position of a point: three coordinates on the core's grid, or on its surface, and the distance from there
 // to the ball's surface.
 using BallKey = std::array<int, 4>;
-using BallCell = std::array<BallKey, 8>;  // corners, in the order of a hexahedron's
+using BallCell = std::array<BallKey, 8>;  // corners, in the node order of a hexahedron
 
 class BallCells {
  public:
-  // `across`: cells along an edge of the core. Numbers are multiples of 1/fineness() of a cell.
+  // `across`: cells along an edge of the core. Coordinates are multiples of 1/fineness() of a cell.
   explicit BallCells(int across);
 
   static constexpr int fineness() { return 1 << 12; }
@@ -25,17 +25,17 @@ class BallCells {
   int layers() const { return layers_ * fineness(); }
   const std::vector<BallCell>& cells() const { return cells_; }
 
-  // Divides cells for as long as they are wanted smaller, and then those that meet others less than half as
+  // Splits cells until none is too large, and then those that border cells less than half as
   // large.
   void divide(const std::function<bool(const BallCell&)>& too_large);
-  // Points that lie in the middle of an edge or a face of a larger cell, those of the largest first, and the
-  // corners of that.
+  // Points in the middle of an edge or a face of a larger cell, those of the largest cells first, and the
+  // corners of that edge or face.
   struct Hanging {
     BallKey point;
     std::vector<BallKey> on;
   };
   std::vector<Hanging> hanging() const;
-  // Faces on the ball's surface, their corners in turn.
+  // Faces on the ball's surface, their corners in cyclic order.
   std::vector<std::array<BallKey, 4>> surface() const;
 
  private:

@@ -13,7 +13,7 @@
 namespace pulvis {
 namespace {
 
-// Points of the ball by their numbers: the same numbers are the same node.
+// Points of the ball by their keys: equal keys are the same node.
 class BallGrid {
  public:
   BallGrid(SolidDraft& draft, const BallShape& shape, const BallCells& cells)
@@ -44,7 +44,7 @@ class BallGrid {
   std::map<BallKey, int> nodes_;
 };
 
-// As small as `edge` where it may touch, and outside by half its distance larger.
+// As small as `edge` where it may touch, and larger by half the distance outside.
 void divide_at_pole(BallCells& cells, const BallGrid& grid, const BallShape& shape) {
   const Vec3 pole = shape.centre - shape.radius * Vec3::UnitZ();
   cells.divide([&](const BallCell& cell) {
@@ -73,7 +73,7 @@ void hang_between(SolidDraft& draft, BallGrid& grid, const BallCells& cells) {
   }
 }
 
-// A node that hangs touches with those it hangs on.
+// The area of a hanging node is passed on to the nodes it hangs on.
 void share_area(const SolidDraft& draft, int node, double share,
                 std::map<std::int32_t, double>& area) {
   const auto& hanging = draft.hanging[static_cast<std::size_t>(node)];
@@ -104,7 +104,7 @@ struct NearestOnFace {
   const std::array<int, 4>* face = nullptr;
 };
 
-// Gauss-Newton for the nearest point of a bilinear face, kept inside it.
+// Gauss-Newton for the nearest point of a bilinear face, restricted to the face.
 void try_face(const SolidDraft& draft, const std::array<int, 4>& face, const Vec3& x,
               NearestOnFace& best) {
   PlaceInQuad at;

@@ -10,16 +10,16 @@ namespace {
 
 using FootShape = TipSpec::Shape;
 
-// Elements that the scene asks for across a foot.
+// Number of elements that the scene requests across a foot.
 int wanted_across(const TipSpec& tip) {
   if (tip.shape == FootShape::sphere) return std::max(4, tip.elements / 2);
   return tip.shape == FootShape::mesh ? 4 : tip.elements;
 }
 
-// Stresses are singular at the rim of a stiff foot: elements grow fast away from it, in the foot and below.
+// Stresses are singular at the rim of a stiff foot: elements grow fast away from it, in and below the foot.
 constexpr double growth_in_foot = 1.2;
 
-// From -1 to 1, the same on both sides of 0: `edge` of the half-width 1 at the ends.
+// From -1 to 1, symmetric about 0: `edge`, relative to the half-width, at the ends.
 std::vector<double> symmetric_lines(double edge, int across, double coarser) {
   const std::vector<double> half =
       graded_lines({1, 2.0 / across, edge, 2.0 / across, growth_in_foot, coarser});
@@ -60,7 +60,7 @@ std::optional<FootPlan> foot_plan(const LeverSpec& lever, const TipSpec& tip) {
   foot.edge = edge * foot.reach;
   foot.spacing = foot.round ? 2.0 / across : edge;
   if (foot.round) {
-    // Its core is half as wide as the foot, the ring around it as deep as a quarter.
+    // Its core is half as wide as the foot, the surrounding ring a quarter of it deep.
     const int core = 2 * std::max(1, static_cast<int>(std::round(0.5 * across / lever.coarser)));
     foot.lines = symmetric_lines(2.0 / core, core, 1);
     foot.unit = unit_disc(

@@ -13,11 +13,11 @@
 namespace pulvis {
 namespace {
 
-constexpr double farthest = 1;  // m, of a node from the origin: no tip and no lever is as large
+constexpr double farthest = 1;  // m, of a node from the origin: no tip or lever is this large
 
 using Facet = std::vector<int>;
 
-// Of Gmsh's tetrahedron, whose nodes are numbered as the element's (kernels::tetrahedron_edge).
+// Faces of Gmsh's tetrahedron, which is numbered like the element (kernels::tetrahedron_edge).
 constexpr std::array<std::array<std::size_t, 6>, 4> faces_of_tetrahedron{
     {{0, 1, 2, 4, 5, 6}, {0, 1, 3, 4, 9, 7}, {0, 2, 3, 6, 8, 7}, {1, 2, 3, 5, 8, 9}}};
 constexpr std::array<std::array<std::size_t, 4>, 6> faces_of_hexahedron{
@@ -28,7 +28,7 @@ Facet sorted(Facet facet) {
   return facet;
 }
 
-// How many elements have a face, by its sorted nodes.
+// Number of elements that have a face, by its sorted nodes.
 template <class Elements, class Faces>
 void count_faces(const Elements& elements, const Faces& faces, std::map<Facet, int>& count) {
   for (const auto& element : elements)
@@ -119,7 +119,7 @@ class SolidReader {
                            "at mid-side, allowed: straight edges (Mesh.SecondOrderLinear = 1)",
                            element.group));
     }
-    if (volume < 0) {  // its mirror image: corners 0 and 1 change places, and their edges with them
+    if (volume < 0) {  // mirror image: corners 0 and 1 are swapped, with their edges
       std::swap(nodes[0], nodes[1]);
       std::swap(nodes[5], nodes[6]);
       std::swap(nodes[7], nodes[9]);
@@ -145,7 +145,7 @@ class SolidReader {
     }
   }
 
-  // Nodes of points and lines that no element has would hang loose.
+  // Nodes of points and lines that belong to no element would be unconnected.
   void drop_unused() {
     std::vector<int> place(solid_.nodes.size(), -1);
     std::vector<Vec3> kept;

@@ -1,4 +1,4 @@
-// A part of a lever from a Gmsh file, ready to be put into a draft: elements by part, surfaces by name.
+// A part of a lever from a Gmsh file, ready to be added to a draft: elements by part, surfaces by name.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 namespace pulvis {
 
 struct GmshSolid {
-  std::vector<Vec3> nodes;  // m; all of them belong to an element
+  std::vector<Vec3> nodes;  // m; each of them belongs to an element
   std::vector<SolidMesh::Hexahedron> hexahedra;
   std::vector<SolidPart> hexahedron_part;
   std::vector<SolidMesh::Tetrahedron> tetrahedra;
@@ -24,20 +24,20 @@ struct GmshSolid {
 };
 
 struct GmshGroups {
-  std::string key;  // of the scene, that names the file
+  std::string key;  // the scene key that names the file
   std::map<std::string, SolidPart> volumes;
-  // Surfaces that must be there, and whether they may lie between two elements.
+  // Surfaces that must exist, and whether they may lie between two elements.
   std::map<std::string, bool> surfaces;
 };
 
-// Hexahedra of positive volume, or tetrahedra with straight edges, not both; whose surfaces they are. Throws
+// Hexahedra of positive volume or tetrahedra with straight edges, not both, with their surfaces. Throws
 // SceneError: file:line: what is wrong, what is allowed.
 GmshSolid read_gmsh_solid(const std::filesystem::path& file, double unit, const GmshGroups& groups);
 
 [[noreturn]] void refuse_mesh(const std::filesystem::path& file, int line, const std::string& key,
                               const std::string& message);
 
-// With `root` where the file's origin is; the number of its first node.
+// `root` is where the file's origin is placed; returns the number of its first node.
 int add_gmsh_solid(SolidDraft& draft, const GmshSolid& solid, const Vec3& root,
                    HexFormulation formulation);
 

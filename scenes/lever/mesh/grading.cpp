@@ -8,8 +8,8 @@
 namespace pulvis {
 namespace {
 
-// The size is a ramp up from either end with a plateau between them: the number of intervals up to a place, the
-// integral of dx/size, and the place of a number are closed forms.
+// The size ramps up from either end, with a plateau between: the number of intervals up to a position, the
+// integral of dx/size, and the position for a given number have closed forms.
 class Ramps {
  public:
   explicit Ramps(const Grading& g)

@@ -11,11 +11,11 @@ namespace {
 
 constexpr double growth_above_foot = 1.2;
 
-// The faces between the layers, from the lower face up.
+// The interfaces between the layers, from the lower face up.
 struct Levels {
   std::vector<double> z;   // m
-  std::vector<bool> main;  // all over the lever; the others lie around the foot alone
-  int own = 0;             // layers of the lever's own material
+  std::vector<bool> main;  // over the whole lever; the others exist around the foot only
+  int own = 0;             // number of layers without the coating
 };
 
 // From the lower face up.
@@ -28,7 +28,7 @@ std::vector<double> lines_at_foot(const LeverSpec& lever, double foot_edge) {
   return graded_lines({t, foot_edge, t, 0.5 * t, growth_above_foot, lever.coarser});
 }
 
-// Around the foot each layer is divided into as many as lie in it.
+// Around the foot each layer is subdivided as often as graded lines lie inside it.
 Levels levels_of(const LeverSpec& lever, bool solid_foot, double foot_edge) {
   const double t = lever.thickness;
   Levels levels;
@@ -55,7 +55,7 @@ Levels levels_of(const LeverSpec& lever, bool solid_foot, double foot_edge) {
   return levels;
 }
 
-// Which points belong to quads of either kind.
+// Which points belong to quads of each kind.
 struct Kinds {
   std::vector<bool> solid, plate;
   explicit Kinds(const LeverPlan& plan)
@@ -101,7 +101,7 @@ std::optional<LeverMesh::Point> LeverMesh::on_middle(const Vec2& point) const {
 
 namespace {
 
-// Nodes of all levels; between plates and solid elements those of the solid hang on the plates' faces.
+// Nodes of all levels; next to plates, the nodes of solid elements are tied to the plates' faces.
 LeverMesh add_levels(SolidDraft& draft, const LeverSpec& lever, const LeverPlan& plan,
                      const Levels& levels) {
   LeverMesh mesh;

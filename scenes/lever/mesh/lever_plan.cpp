@@ -9,14 +9,14 @@
 namespace pulvis {
 namespace {
 
-// However large the elements may be: as many as the shape of the deformation needs. However thin the lever:
-// more along it cost time and hardly add accuracy.
+// Lower bounds: the shape of the deformation needs as many, however large the elements may be. Upper bound:
+// more along the lever cost time and hardly add accuracy, however thin it is.
 constexpr int fewest_along = 20, fewest_across = 4, most_along = 150;
 constexpr double growth = 0.4, growth_around_foot = 0.7;
-// Where the foot's disturbance has died away, in thicknesses from its rim.
+// Distance at which the foot's disturbance has decayed, in thicknesses from its rim.
 constexpr double solid_reach = 1.5;
 
-// Rising places, and the part of them that the foot's lines are; equal: none of them.
+// Ascending positions, and the range of the foot's lines among them; begin = end: none.
 struct Lines {
   std::vector<double> at;
   int foot_begin = 0, foot_end = 0;
@@ -30,7 +30,7 @@ double largest_edge(const LeverSpec& lever) {
                     lever.length / fewest_along);
 }
 
-// What the layer at a side carries is a share of t/w: of a very thin lever nothing that matters.
+// The strip at a side carries a share of the torsion of about t/w: negligible for a thin lever.
 double side_edge(const LeverSpec& lever, double width, double largest) {
   constexpr double finest = 0.01;  // -, of the width
   return std::min(largest, std::max(lever.side_aspect * lever.thickness, finest * width));
@@ -41,9 +41,9 @@ void append(Lines& lines, const std::vector<double>& further) {
   for (std::size_t i = 1; i < further.size(); ++i) lines.at.push_back(from + further[i]);
 }
 
-// The foot's lines take a box of the plan; a round foot's is wider than itself, where there is room.
+// The foot's lines occupy a box of the plan; a round foot's box is wider than the foot where there is room.
 struct Box {
-  double from = 0, to = 0;  // m, of a direction
+  double from = 0, to = 0;  // m, in one direction
 };
 constexpr double wider = 1.3, least_wider = 1.05;
 
@@ -52,13 +52,13 @@ std::optional<Box> box_between(const FootPlan& foot, double at, double from, dou
   const double most = (foot.round ? wider : 1) * foot.reach;
   if (at - least < from || at + least > to) return {};
   Box box{std::max(from, at - most), std::min(to, at + most)};
-  // No sliver between it and a side.
+  // No sliver between the box and a side.
   if (box.from - from < 1e-3 * foot.edge) box.from = from;
   if (to - box.to < 1e-3 * foot.edge) box.to = to;
   return box;
 }
 
-// The foot's lines in a box, which need not lie evenly around it.
+// The foot's lines in a box, which need not be centred on it.
 std::vector<double> lines_in(const FootPlan& foot, const Box& box) {
   std::vector<double> lines;
   for (const double line : foot.lines) lines.push_back(0.5 * (1 + line) * (box.to - box.from));
@@ -84,7 +84,7 @@ Lines even(double from, double length, int count) {
 // ---- a beam ---------------------------------------------------------------------------------------
 struct Direction {
   double from = 0, to = 0;     // m
-  double first = 0, last = 0;  // m, edges wanted at its ends
+  double first = 0, last = 0;  // m, requested edges at its ends
   double largest = 0;          // m
   double coarser = 1;          // -
 };
@@ -132,7 +132,7 @@ BeamLines beam_lines(const LeverSpec& lever, const FootPlan* foot) {
 }
 
 // ---- a V ------------------------------------------------------------------------------------------
-// One of its halves, y > 0 or y < 0: the lines across an arm and across the apex plate are the same ones.
+// One of its halves, y > 0 or y < 0: the lines across an arm continue across the apex plate.
 struct HalfLines {
   std::vector<double> arm;   // shares of its width, from the inner edge
   int foot = 0;              // lines of the foot on this side of its axis
@@ -140,10 +140,10 @@ struct HalfLines {
   int count() const { return static_cast<int>(arm.size()) - 1; }
 };
 
-// The V's lines: along x first through the arms, then through the apex plate.
+// Lines of the V: along x first through the arms, then through the apex plate.
 struct VLines {
   VOutline v;
-  double slope = 0, end = 0;  // -, of the outer edges; m, where it is cut off
+  double slope = 0, end = 0;  // -, of the outer edges; m, where it is truncated
   const FootPlan* foot = nullptr;
   Lines arms, apex;
   HalfLines upper, lower;
@@ -152,7 +152,7 @@ struct VLines {
   int rows() const { return upper.count() + lower.count(); }
 };
 
-// A pointed lever is cut off where it is a fiftieth of an arm wide: nothing beyond carries load.
+// A pointed lever is truncated where it is a fiftieth of an arm wide: nothing beyond carries load.
 double v_end(const LeverSpec& lever, const VOutline& v) {
   return std::min(lever.length, v.apex - 0.01 * lever.arm_width / portable::tan(v.half_angle));
 }
@@ -165,7 +165,7 @@ bool fits(const VLines& v, const FootPlan& foot) {
   return room > (foot.round ? least_wider : 1) * margin;
 }
 
-// Half the box's height across the V: it is the same above and below the foot's axis.
+// Half the box's height across the V: equal above and below the foot's axis.
 double box_height(const VLines& v, double to) {
   const FootPlan& foot = *v.foot;
   if (!foot.round) return foot.reach;
@@ -215,7 +215,7 @@ VLines v_lines(const LeverSpec& lever, const FootPlan* foot) {
   return v;
 }
 
-// Of line k, counted from the foot's axis outwards, in half widths of the plate at the foot or beyond it.
+// Position of line k, counted outwards from the foot's axis, in half-widths of the plate at x.
 double share_at_foot(const VLines& v, const HalfLines& half, double sign, int k, double x) {
   const double to = v.apex.at[static_cast<std::size_t>(v.apex.foot_end)];
   const double height = box_height(v, to), axis = sign * v.foot->axis.y();
@@ -228,7 +228,7 @@ double share_at_foot(const VLines& v, const HalfLines& half, double sign, int k,
   return (rim + half.rest[static_cast<std::size_t>(k - half.foot)] * (width - rim)) / width;
 }
 
-// From how they lie at the inner corner to how they lie at the foot, and on from there to the point.
+// From the positions at the inner corner to those at the foot, and on from there to the point.
 double share_of_line(const VLines& v, const HalfLines& half, double sign, int k, double x) {
   const double arm = half.arm[static_cast<std::size_t>(k)];
   if (v.foot == nullptr) return arm;
@@ -239,7 +239,7 @@ double share_of_line(const VLines& v, const HalfLines& half, double sign, int k,
   return (1 - s) * arm + s * share_at_foot(v, half, sign, k, from);
 }
 
-// Row j from the lower side up, on the apex plate.
+// Row j, counted from the lower side, on the apex plate.
 Vec2 apex_point(const VLines& v, int i, int j) {
   const double x = v.apex.at[static_cast<std::size_t>(i)];
   const int k = j - v.lower.count();
@@ -263,7 +263,7 @@ void add_part(PlanMesh& mesh, int i0, int i1, int j0, int j1, double tolerance,
   add_grid(mesh, i1 - i0, j1 - j0, tolerance, [&](int i, int j) { return place(i0 + i, j0 + j); });
 }
 
-// A round foot, and layers of quads between it and the box around it.
+// A round foot, and layers of quads between it and the surrounding box.
 void add_round_foot(PlanMesh& mesh, const FootPlan& foot, int i0, int j0, double tolerance,
                     double coarser, const Place& place) {
   const int n = foot.across(), first = static_cast<int>(mesh.points.size());
@@ -284,14 +284,14 @@ void add_round_foot(PlanMesh& mesh, const FootPlan& foot, int i0, int j0, double
     });
 }
 
-// A round foot's place in a grid: its first column and row.
+// The position of a round foot in a grid: its first column and row.
 struct FootHole {
   const FootPlan* foot = nullptr;
   int column = 0, row = 0;
   double coarser = 1;
 };
 
-// A grid with a hole for a round foot, and the foot in it.
+// A grid with a hole for a round foot, and the foot inside.
 void add_grid_around(PlanMesh& mesh, int along, int across, const FootHole& hole, double tolerance,
                      const Place& place) {
   if (hole.foot == nullptr) return add_part(mesh, 0, along, 0, across, tolerance, place);

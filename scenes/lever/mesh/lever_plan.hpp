@@ -1,4 +1,4 @@
-// The plan of a beam or a V: quads, closer together at the free sides, where a layer as wide as the lever is
+// The plan of a beam or a V: quads, refined at the free sides, where a strip about as wide as the lever is
 // thick carries the torsion, and around the tip's foot.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace pulvis {
 
-// A V as its drawing dimensions give it. The apex is where the outer edges would meet.
+// A V given by its drawing dimensions. The apex is where the outer edges would meet.
 struct VOutline {
   double half_angle = 0;  // rad
   double apex = 0;        // m, from the clamp
@@ -17,16 +17,16 @@ VOutline v_outline(const LeverSpec& lever);
 
 struct LeverPlan {
   PlanMesh mesh;
-  std::vector<bool> solid;  // [quads] around the foot, where plates do not do
+  std::vector<bool> solid;  // [quads] around the foot, where plate elements are inadequate
 };
 LeverPlan lever_plan(const LeverSpec& lever, const std::optional<FootPlan>& foot);
 
-// How many quads it will have along and across the lever, and how many of them around the foot.
+// Number of quads along and across the lever, and around the foot.
 struct PlanCount {
   double along = 0, across = 0, solid_along = 0, solid_across = 0;
 };
 PlanCount plan_count(const LeverSpec& lever, const std::optional<FootPlan>& foot);
-// Between what values `aspect` has a say in the mesh.
+// The range in which `aspect` affects the mesh.
 struct AspectRange {
   double least = 0, most = 0;
 };

@@ -81,7 +81,7 @@ class LeverReader {
                       box.min().z(), box.max().z()));
   }
 
-  // Volumes that share no nodes with the clamped ones would fly off.
+  // Volumes that share no nodes with the clamped ones would be unconstrained.
   void hangs_together() const {
     std::vector<int> root(solid().nodes.size());
     std::iota(root.begin(), root.end(), 0);
@@ -103,7 +103,7 @@ class LeverReader {
             solid().nodes[n].x(), solid().nodes[n].y(), solid().nodes[n].z()));
   }
 
-  // Plates are thin along their third direction: that nearest to z.
+  // Plates are thin along their third direction: the one nearest to z.
   void lay_flat(SolidMesh::Hexahedron& h) const {
     static constexpr std::array<std::array<std::size_t, 8>, 3> turned{
         {{0, 4, 7, 3, 1, 5, 6, 2}, {0, 1, 5, 4, 3, 2, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}}};

@@ -1,9 +1,9 @@
-// Levers that were meshed elsewhere (Gmsh), with or without their tip.
+// Levers meshed with external software (Gmsh), with or without their tip.
 //
 // In the file x runs along the lever, x = 0 at the clamp; z points away from the sample, z = 0 is the middle
-// of the lever's own material. Groups: the volumes "lever" and, where they are there, "coating", "tip" and
-// "glue"; the surfaces "clamp", held; "face", the lever's lower side, what is under a tip included; "back", the
-// side the laser shines on; "end", of a tip in the file, where forces act.
+// of the lever without the coating. Groups: the volumes "lever" and, where present, "coating", "tip" and
+// "glue"; the surfaces "clamp", held; "face", the lever's lower side, also under a tip; "back", the
+// side that the laser hits; "end", of a tip in the file, where forces act.
 #pragma once
 
 #include "scenes/language/problem.hpp"
@@ -24,15 +24,15 @@ struct LeverSolid {
   GmshSolid solid;
   LeverSide face, back;
   std::vector<std::vector<int>> end;  // nodes of its facets; empty without a tip
-  double length = 0, thickness = 0;   // m, of the lever's own material
-  double tip_height = 0;              // m, below the lever's own material
+  double length = 0, thickness = 0;   // m, of the lever without the coating
+  double tip_height = 0;              // m, below the lever without the coating
   Eigen::Vector2d tip_axis{0, 0};     // m, the middle of the end
 };
 
-// Reads the file of a lever of shape "mesh" into it, and what it says of the tip; anything wrong is a problem.
+// Reads the file of a lever of shape "mesh" into it, with the data of its tip; errors are reported as problems.
 void load_meshed_lever(Scene& scene, const schema::Origins& origins, Problems& problems);
 
-// Puts the lever, and a tip that is in its file, into an empty draft.
+// Adds the lever, and a tip that is in its file, to an empty draft.
 LeverMesh add_meshed_lever(SolidDraft& draft, const LeverSpec& lever);
 
 }  // namespace pulvis

@@ -1,6 +1,6 @@
-// Tips and probes that were meshed elsewhere (Gmsh) and stand under a lever of Pulvis's own.
+// Tips and probes meshed with external software (Gmsh), attached to a lever that Pulvis meshes.
 //
-// In the file z = 0 is the lever's lower face, the tip stands below it, its axis is x = y = 0. Groups: the
+// In the file z = 0 is the lever's lower face, the tip lies below it, its axis is x = y = 0. Groups: the
 // volumes "tip" and, where there is one, "glue"; the surfaces "foot", in z = 0, and "end", where forces act.
 #pragma once
 
@@ -19,7 +19,7 @@ struct TipSolid {
   double reach = 0;                   // m, of the foot from the axis, along x or y
 };
 
-// Reads the file of a tip of shape "mesh" into it; anything wrong is a problem.
+// Reads the file of a tip of shape "mesh" into it; errors are reported as problems.
 void load_meshed_tip(Scene& scene, const schema::Origins& origins, Problems& problems);
 
 }  // namespace pulvis

@@ -10,9 +10,9 @@
 namespace pulvis {
 namespace {
 
-constexpr double inside = 1e-7;  // -, how far outside of [-1, 1] still counts as on the edge
+constexpr double inside = 1e-7;  // -, how far outside [-1, 1] still counts as on the edge
 
-// Points are shared with earlier grids only, and these have to be searched at the rim alone.
+// Points are shared with earlier grids only, so that only the boundary has to be searched.
 int shared_point(PlanMesh& mesh, const Vec2& point, double tolerance, std::size_t earlier) {
   for (std::size_t i = 0; i < earlier; ++i)
     if ((mesh.points[i] - point).squaredNorm() < tolerance * tolerance) return static_cast<int>(i);
@@ -42,7 +42,7 @@ std::optional<PlaceInQuad> place_in(const std::array<Vec2, 4>& x, const Vec2& po
   return PlaceInQuad{xi, eta};
 }
 
-// Shape functions of second order where the edges are straight.
+// Quadratic shape functions for straight edges.
 std::optional<std::array<double, 6>> weights_in_triangle(const std::array<Vec2, 3>& x,
                                                          const Vec2& point) {
   Eigen::Matrix2d edges;
@@ -110,7 +110,7 @@ Vec2 rim_of_disc(int side, int j, int across) {
 }
 
 PlanMesh unit_disc(int across, const std::vector<double>& ring) {
-  constexpr double core = 0.5;  // half-width; with rim corners of 135 degrees the ring stays good
+  constexpr double core = 0.5;  // half-width; rim corners of 135 degrees keep the ring well shaped
   PlanMesh mesh;
   add_patch(mesh, {Vec2(-core, -core), Vec2(core, -core), Vec2(core, core), Vec2(-core, core)},
             even_shares(across), even_shares(across), 1e-6);

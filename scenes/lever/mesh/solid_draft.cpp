@@ -13,7 +13,7 @@ namespace {
 
 constexpr int elements_of_chunk = 16;  // about a millisecond of work
 
-// Follows what a node hangs on down to free nodes; held ones drop out.
+// Resolves a node's supports down to free nodes; held ones drop out.
 void trace(const SolidDraft& draft, const SolidMesh::Support& support,
            std::map<std::int32_t, double>& supports) {
   const auto node = static_cast<std::size_t>(support.node);
@@ -23,7 +23,7 @@ void trace(const SolidDraft& draft, const SolidMesh::Support& support,
     trace(draft, {next.node, support.weight * next.weight}, supports);
 }
 
-// As many chunks of either kind, for there is one number of them.
+// Equal numbers of chunks for both element types, since there is only one chunk count.
 void divide(SolidMesh& mesh) {
   const auto hexahedra = static_cast<std::int32_t>(mesh.hexahedra.size());
   const auto tetrahedra = static_cast<std::int32_t>(mesh.tetrahedra.size());

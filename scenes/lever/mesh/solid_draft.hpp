@@ -1,5 +1,5 @@
-// A solid in the making: nodes, elements, what holds them. finish_solid() turns it into the tables,
-// columns and lists that the solver works on.
+// A solid under construction: nodes, elements, constraints. finish_solid() converts it into the
+// tables, columns and lists that the solver works on.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,19 +29,19 @@ struct SolidDraft {
   std::vector<std::vector<SolidMesh::Support>> hanging;  // [nodes] empty: free or held
 
   int add_node(const Vec3& x);
-  // The supports may hang themselves; a held node stays held.
+  // The supports may be hanging nodes themselves; a held node stays held.
   void hang(int node, std::vector<SolidMesh::Support> on);
   void add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart of, HexFormulation how);
   void add_tetrahedron(const SolidMesh::Tetrahedron& of_nodes, SolidPart of);
 };
 
-// Puts the corners into an order of positive volume; false where one of them has none: it is folded.
+// Orders the corners so that the volume is positive; false where the hexahedron is folded.
 bool turn_outside_out(const std::vector<Vec3>& nodes, SolidMesh::Hexahedron& corners);
 
 struct SolidMaterial {
   double lambda = 0, mu = 0;                       // Pa
   double yield_stress = 0, hardening_modulus = 0;  // Pa; 0 0: elastic
-  std::shared_ptr<const FlowLaw> flow = {};        // where it is another law than that
+  std::shared_ptr<const FlowLaw> flow = {};        // where the material has another flow law
 };
 SolidMaterial solid_material(const MaterialSpec& material);
 

@@ -23,7 +23,7 @@ LeverMesh::Point on_lower_face(const LeverMesh& lever, const Vec2& point) {
   return *std::move(place);
 }
 
-// Layers of a plan, one under the other: `at(point of the plan, layer)` says where.
+// Layers of a plan, one below the other: `at(point of the plan, layer)` gives the position.
 template <class At>
 std::vector<int> add_column(SolidDraft& draft, const PlanMesh& plan, int layers, SolidPart part,
                             const At& at) {
@@ -49,7 +49,7 @@ void tie_to_lever(SolidDraft& draft, const LeverMesh& lever, int node) {
              on_lower_face(lever, draft.nodes[static_cast<std::size_t>(node)].head<2>()).gauge);
 }
 
-// Shares of an even pressure on the end's faces: a triangle of six nodes takes it at the middles of its edges.
+// Nodal shares of a uniform pressure on the end's faces: a six-node triangle takes it at its mid-edge nodes.
 std::vector<SolidMesh::Support> area_shares(const SolidDraft& draft,
                                             const std::vector<std::vector<int>>& faces, int first) {
   std::map<int, double> share;
@@ -95,13 +95,13 @@ TipMesh add_solid_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh
   return {area_shares(draft, facets(plan), first.back()), {}, {}};
 }
 
-// As far as a reach that is written may go, where eight edges are more.
+// The default of eight edges is limited to the largest value that the key allows.
 double contact_reach(const TipSpec& tip) {
   return tip.contact_reach.value_or(std::min(8 * tip.contact_edge.value_or(0), 0.5 * tip.radius));
 }
 
-// A node at x that goes where the affine map goes that fits the motion of the nodes from `first` on best:
-// turned and moved with them as a whole.
+// A node at x that follows the affine map that best fits the motion of the nodes from `first` on:
+// it moves and rotates with them as a whole.
 int add_carried_node(SolidDraft& draft, int first, const Vec3& x) {
   const auto count = static_cast<int>(draft.nodes.size()) - first;
   const auto at = [&](int i) { return draft.nodes[static_cast<std::size_t>(first + i)]; };

@@ -1,4 +1,4 @@
-// What both dimensions write of a network of contacts, and count in it. Link: ContactLink of either.
+// Output and counts of a contact network, for two and three dimensions. Link: ContactLink of either.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct ContactCounts {
     kernels::count_contacts(network.pairs, true, pairs);
     kernels::count_contacts(network.tools, false, tools);
   }
-  // Share of the particles that touch fewer than two others or tools.
+  // Share of the particles that touch fewer than two other particles or tools.
   double rattlers() const {
     double number = 0;
     for (std::size_t p = 0; p < pairs.size(); ++p)
@@ -35,11 +35,11 @@ inline double share_in_chains(const std::vector<std::int32_t>& chain) {
   return 1 - static_cast<double>(in_none) / static_cast<double>(chain.size());
 }
 
-// What is different in two and three dimensions.
+// What differs between two and three dimensions.
 struct LinkWords {
   int components;                    // of a vector
   const char* tangential;            // what tangential_force is
-  const char *extent, *unit, *what;  // name of the size of the contact
+  const char *extent, *unit, *what;  // name of the contact size
 };
 
 inline std::vector<FieldInfo> link_fields(const std::string& group, bool pairs,
@@ -85,7 +85,7 @@ void append_links(const std::vector<Link>& links, double Link::*extent,
   column([extent](const Link& l, auto& to) { to.push_back(l.*extent); });
 }
 
-// Of the particles: contacts with others, with tools, the number of their force chain.
+// Per particle: contacts with particles, contacts with tools, number of its force chain.
 inline void append_counts(const ContactCounts& counts, const std::vector<std::int32_t>& chain,
                           std::vector<std::vector<double>>& fields) {
   fields.push_back(counts.pairs);

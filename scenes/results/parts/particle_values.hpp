@@ -1,5 +1,5 @@
-// What the nodes and elements of a particle hold, particle by particle: so the ranks of a run each tell those of their own, and
-// nobody holds the columns of all.
+// Nodal and element values, particle by particle: each rank of a run thus reports those of its own particles, and
+// no rank holds the columns of all.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace pulvis {
 using ParticleValues = std::function<void(const World& world, int slot, std::vector<double>& out)>;
 using ValueSink = std::function<void(std::span<const double>)>;
 
-// The row of column C that is the first of the particle in `slot`; its values stand `lane_count` apart.
+// The first row of column C that belongs to the particle in `slot`; its values are `lane_count` apart.
 template <class C>
 const double* first_value(const World& world, int slot) {
   const Column<C>& column = world.column<C>();

@@ -1,4 +1,4 @@
-// What of a run's results depends on its dimension: mesh and fields, tools and the room between them, momentum.
+// Results that depend on the dimension: mesh and fields, tools and the space between them, momentum.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-// Energies of the whole scene at t_n, J. `balance` is what the others leave over: 0 in a perfect run.
+// Energies of the whole scene at t_n, J. `balance` is the remainder of the others: 0 in a perfect run.
 struct Energies {
   double kinetic = 0, elastic = 0, plastic = 0, hourglass = 0, contact = 0;
   double friction = 0, damping = 0, bulk_damping = 0, bonds = 0, fracture = 0;
@@ -31,14 +31,14 @@ class ResultParts {
   virtual ~ResultParts() = default;
 
   virtual RunMesh mesh() const = 0;
-  // Those of every run, and at the end those of its tools.
+  // The fields of every run; those of its tools come last.
   virtual std::vector<FieldInfo> fields() const = 0;
   virtual std::vector<FieldInfo> tool_fields() const = 0;
-  // Of what is not of the mesh (mesh_values).
+  // Fields other than those of the mesh (mesh_values).
   virtual void append_frame(Fields& fields) const = 0;
   virtual void append_tool_frame(Fields& fields) const = 0;
 
-  // Of the history, in its order: tools and the room around the powder; contacts; what is observed.
+  // Of the history, in order: tools and the space around the powder; contacts; observed quantities.
   virtual void append_tools(const Energies& energies, std::vector<double>& row) const = 0;
   virtual void append_contacts(std::vector<double>& row) const = 0;
   virtual void append_observed(std::vector<double>& row) const = 0;

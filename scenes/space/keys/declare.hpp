@@ -1,4 +1,4 @@
-// Short forms for the declarations in declare_*.cpp, beside those of two dimensions.
+// Short forms for the declarations in declare_*.cpp, in addition to those for two dimensions.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline document::Value triple_of(const char* x, const char* y, const char* z) {
   return {document::Array{value_of(x), value_of(y), value_of(z)}, {}};
 }
 
-// A table that two dimensions have as well, without some of its keys.
+// A table that also exists in two dimensions, without some of its keys.
 template <class Spec>
 TableDeclaration<Spec> without(TableDeclaration<Spec> table,
                                std::initializer_list<const char*> names) {

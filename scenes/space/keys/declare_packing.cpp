@@ -1,4 +1,4 @@
-// Declarations of packings: lattices, random packings of mixtures in a box or cylinder, places from a file.
+// Declarations of packings: lattices, random mixtures in a box or cylinder, positions from a file.
 #include "scenes/keys/packing_keys.hpp"
 #include "scenes/space/keys/declare.hpp"
 
@@ -138,7 +138,7 @@ const TableDeclaration<PackingSpec>& packing() {
   return declaration;
 }
 
-// As in two dimensions, of volumes instead of areas.
+// As in two dimensions, with volumes instead of areas.
 const TableDeclaration<MixtureClass>& mixture_class() {
   static const TableDeclaration<MixtureClass> declaration = [] {
     TableDeclaration<MixtureClass> table = schema::mixture_class();

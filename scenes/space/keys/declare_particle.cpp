@@ -11,7 +11,7 @@ void emplace_shape(ParticleSpec& particle) {
   particle.shape = Shape{};
 }
 
-// The first key of a particle, its words in this order: the keys after it find the shape they belong to.
+// The first key of a particle, words in this order: later keys find the shape they belong to.
 void choose_shape(ParticleSpec& particle, const Decoded& value) {
   constexpr void (*choices[])(ParticleSpec&) = {
       emplace_shape<SphereShape>,       emplace_shape<EllipsoidShape>,
@@ -20,7 +20,7 @@ void choose_shape(ParticleSpec& particle, const Decoded& value) {
   choices[value.index](particle);
 }
 
-// A key of every shape that has the member: the one chosen does, only_for sees to that.
+// A key of every shape that has this member: the selected one has it, which only_for ensures.
 template <class Value = double, class Set>
 auto shape_to(Set set, Value Decoded::*member = &Decoded::number) {
   return [set, member](ParticleSpec& particle, const Decoded& value) {

@@ -1,5 +1,5 @@
-// Declarations of the top level, of what happens to the powder, and of the settings of a run, where they are not those
-// of two dimensions.
+// Declarations of the top level, the process and the settings of a run, where they differ from those
+// in two dimensions.
 #include "engine/portable_math.hpp"
 #include "scenes/space/keys/declare.hpp"
 
@@ -43,7 +43,7 @@ std::vector<Key<BodySpec>> turn_keys() {
             .needs = "angle",
             .doc = "Rotation axis, of any length.",
             .fallback_doc = "`[0, 0, 1]`"},
-           // The key before it has set the angle, about z.
+           // The preceding key has set the angle, about z.
            [](BodySpec& spec, const Decoded& value) {
              const Vec3 part = spec.rotation.z() * value.vector3.normalized();
              spec.rotation = Rotation(spec.rotation.w(), part.x(), part.y(), part.z());
@@ -76,7 +76,7 @@ TableDeclaration<BodySpec> declared_body() {
   return table;
 }
 
-// As in two dimensions, but that the setters are those of another plain value.
+// As in two dimensions, but with setters for a different struct.
 template <class Spec>
 schema::KeyInfo as_in_the_plane(const TableDeclaration<Spec>& table, const char* name) {
   for (const Key<Spec>& key : table.keys)
@@ -264,7 +264,7 @@ const TableDeclaration<OutputSpec>& output() {
   return declaration;
 }
 
-// As in two dimensions, of the series that there are here.
+// As in two dimensions, for the series that exist here.
 const TableDeclaration<ExpectSpec>& expect() {
   static const TableDeclaration<ExpectSpec> declaration = [] {
     TableDeclaration<ExpectSpec> table = schema::expect();

@@ -1,4 +1,4 @@
-// The language of scenes in three dimensions described for people and for editors.
+// Describes the language of scenes in three dimensions for people and editors.
 #pragma once
 
 #include <string>

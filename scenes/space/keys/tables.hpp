@@ -1,4 +1,4 @@
-// The tables of a scene in three dimensions, and the language that they make. What is the same in two dimensions is
+// The tables of a scene in three dimensions, and the language they form. Whatever is the same in two dimensions is
 // declared there (scenes/keys/tables.hpp).
 #pragma once
 
@@ -37,7 +37,7 @@ namespace pulvis {
 
 // Whether the scene says `dimension = 3`.
 bool is_in_space(const document::Table& root);
-// Of a scene: by its `dimension`.
+// For a scene: depends on its `dimension`.
 const schema::Language& language_of(const document::Table& root);
 
 }  // namespace pulvis

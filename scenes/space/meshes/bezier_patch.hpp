@@ -1,4 +1,4 @@
-// The undeformed smooth surface: places, tangents and areas of its patches.
+// The undeformed smooth surface: points, tangents and areas of its patches.
 #pragma once
 
 #include <vector>
@@ -9,25 +9,25 @@
 namespace pulvis::space {
 
 struct PatchPlace {
-  double u, v, weight;  // of the unit square
+  double u, v, weight;  // in the unit square
 };
-PatchPlace gauss_place(int point);  // of a face's 4 x 4, u first
+PatchPlace gauss_place(int point);  // one of a face's 4 x 4 points, u first
 
 struct PatchPoint {
   Vec3 at, by_u, by_v;
-  Vec3 area() const { return by_u.cross(by_v); }  // outward, for an area 1 of the unit square
+  Vec3 area() const { return by_u.cross(by_v); }  // outward, per unit area of the unit square
 };
-// `points`: Bezier points of the particle.
+// `points`: the particle's Bezier points.
 PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points, double u,
                     double v);
 inline PatchPoint patch_at(const Shape::Face& face, const std::vector<Vec3>& points, double u,
                            double v) {
   return patch_at(face.point, points, u, v);
 }
-// m^3: between the origin and a patch.
+// m^3, between the origin and a patch.
 double volume_under(const std::array<int, 16>& numbers, const std::vector<Vec3>& points);
 
-// Bezier points where the mesh's nodes are those given.
+// Bezier points for a mesh with the given nodes.
 std::vector<Vec3> surface_points_of(const Shape& shape, const std::vector<Point>& nodes);
 
 }  // namespace pulvis::space

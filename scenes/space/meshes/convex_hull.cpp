@@ -6,7 +6,7 @@
 namespace pulvis::space {
 namespace {
 
-constexpr double in_plane = 1e-9;   // of the size
+constexpr double in_plane = 1e-9;   // relative to the size
 constexpr double parallel = 1e-7;   // determinant of three unit normals
 constexpr double same_face = 1e-9;  // sine between two normals
 

@@ -1,4 +1,4 @@
-// Convex polyhedra by their faces and by their corners: of tens of corners, by trying all.
+// Convex polyhedra from their faces or their corners: by brute force, for tens of corners.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct HalfSpace {
 };
 
 std::vector<HalfSpace> faces_of_hull(const std::vector<Vec3>& points);
-// Corners of what all half-spaces have in common.
+// Corners of the intersection of all half-spaces.
 std::vector<Vec3> corners_between(const std::vector<HalfSpace>& faces);
 
 }  // namespace pulvis::space

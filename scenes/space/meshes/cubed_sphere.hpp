@@ -1,7 +1,7 @@
 // O-grid of hexahedra on a cubed sphere: a core of n * n * m elements, m along z, and layers of 2 n^2 + 4 n m between it and
 // the surface.
 //
-// Node numbers: layer 0 is the surface, and so on inwards; the core follows, whose rim ends the innermost layer. The
+// Node numbers: layer 0 is the surface, and layers continue inwards; then the core, whose rim is the innermost layer. The
 // nodes of a layer are the lattice points i, j = 0..n, k = 0..m on the faces of a cube.
 #pragma once
 
@@ -24,9 +24,9 @@ class CubedSphere {
   int layer_nodes() const { return static_cast<int>(rim_.size()); }
   int nodes() const { return rings_ * layer_nodes() + static_cast<int>(number_.size()); }
 
-  // Of a lattice point, in [-1, 1]^3.
+  // A lattice point's coordinates, in [-1, 1]^3.
   std::array<double, 3> on_cube(const Lattice& at) const;
-  // The lattice points of a layer's nodes, and those of the core's.
+  // The lattice points of the nodes in a layer, and in the core.
   const std::vector<Lattice>& rim() const { return rim_; }
   Lattice core_point(int number) const;
   // Layer `rings` is the core's rim.
@@ -35,7 +35,7 @@ class CubedSphere {
 
   // Of a layer, by its nodes: counter-clockwise as seen from outside.
   std::vector<std::array<int, 4>> quads() const;
-  // Those at the surface first, each behind the quad of the same number, with zeta outwards; the core last.
+  // Those at the surface first, each beneath the quad of the same number, with zeta outwards; the core last.
   std::vector<Hexahedron> hexahedra() const;
 
  private:
@@ -46,7 +46,7 @@ class CubedSphere {
   Lattice divisions_;
   int rings_;
   std::vector<Lattice> rim_;
-  std::vector<int> number_;  // in a layer, [place]; -1: inside
+  std::vector<int> number_;  // within a layer, [place]; -1: inside
 };
 
 }  // namespace pulvis::space

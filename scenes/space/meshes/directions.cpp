@@ -36,7 +36,7 @@ std::vector<Direction> directions(int cells) {
           d[(axis + 1) % 3] = a.tangent;
           d[(axis + 2) % 3] = b.tangent;
           const double square = d.squaredNorm();
-          // Of a plane at distance 1: dx dy / r^3, and dx = (1 + x^2) d(angle).
+          // For a plane at distance 1: dx dy / r^3, and dx = (1 + x^2) d(angle).
           const double solid = (1 + a.tangent * a.tangent) * (1 + b.tangent * b.tangent) /
                                (square * std::sqrt(square));
           all.push_back({d / std::sqrt(square), solid * a.weight * b.weight});

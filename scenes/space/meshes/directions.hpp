@@ -1,4 +1,4 @@
-// Sums over all directions from the centre of a star-shaped surface.
+// Quadrature over all directions from the centre of a star-shaped surface.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@ namespace pulvis::space {
 
 struct Direction {
   Vec3 unit;
-  double weight;  // solid angle that it stands for; the sum is 4 pi
+  double weight;  // solid angle that it represents; the sum is 4 pi
 };
 // 6 * cells^2 equiangular cells, four Gauss points each.
 std::vector<Direction> directions(int cells);
 
-// m^3; m, from the origin: sums over `directions(cells)`.
+// m^3; m, relative to the origin: sums over `directions(cells)`.
 double volume_about(const StarSurface& surface, int cells);
 Vec3 centre_of_volume(const StarSurface& surface, int cells);
 

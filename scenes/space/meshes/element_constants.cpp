@@ -1,7 +1,7 @@
 // Constants of hexahedra: mean gradients, fibres, masses.
 //
-// Source   mean gradient: Flanagan & Belytschko (1981). All integrands are of second degree at most in xi, eta and zeta,
-//          or third for the masses: the 2 x 2 x 2 Gauss points integrate them exactly
+// Source   mean gradient: Flanagan & Belytschko (1981). All integrands are at most quadratic in xi, eta and zeta,
+//          or cubic for the masses: the 2 x 2 x 2 Gauss points integrate them exactly
 #include "scenes/space/meshes/element_constants.hpp"
 
 #include <Eigen/Dense>
@@ -110,7 +110,7 @@ void set_fibres(Shape::Element& element, const Corners& x) {
     entry(element.plane, k) = plane_of(half_edges.col((k + 1) % 3), half_edges.col((k + 2) % 3));
 }
 
-// The modes' derivatives by (xi, eta, zeta) at Gauss point g.
+// Derivatives of the modes with respect to (xi, eta, zeta) at Gauss point g.
 Eigen::Matrix<double, Shape::modes, 3> mode_derivatives(int g) {
   const AtPoint at = shape_functions(gauss_coordinates(g));
   Eigen::Matrix<double, Shape::modes, 3> sum = Eigen::Matrix<double, Shape::modes, 3>::Zero();
@@ -119,9 +119,9 @@ Eigen::Matrix<double, Shape::modes, 3> mode_derivatives(int g) {
   return sum;
 }
 
-// With the mean gradient held, what hourglass modes X_m = fibre^-1 p_m add to it at a Gauss point is, in the axes of the
-// edges, sum p_m w_m: w_m fibre = (d_m - g_m . d)(dX/dxi)^-1/8 with d_m the mode's derivatives there and the stretches'
-// parts taken off that keep the mean. Needs the gradients and fibres.
+// At fixed mean gradient, hourglass modes X_m = fibre^-1 p_m add to it at a Gauss point, in the axes of the
+// edges, sum p_m w_m: w_m fibre = (d_m - g_m . d)(dX/dxi)^-1/8 with d_m the mode's derivatives there, less the parts of
+// the stretches that preserve the mean. Requires the gradients and fibres.
 void set_hourglass_reach(Shape::Element& element, const Integrals& integrals) {
   using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   Eigen::Matrix<double, Shape::modes, 3> mean;
@@ -158,7 +158,7 @@ void set_gradients(Shape::Element& element, const Integrals& integrals) {
 using Functions3 = Eigen::Matrix<double, 8, 3>;
 using Functions4 = Eigen::Matrix<double, 8, 4>;
 
-// What the hourglass strains see of the nodes, gamma_a = 1/8 (sign_a - sum_J sign_aJ x_J . b): nothing of homogeneous
+// The nodal weights of the hourglass strains, gamma_a = 1/8 (sign_a - sum_J sign_aJ x_J . b): zero for homogeneous
 // deformations (Flanagan & Belytschko 1981).
 Functions4 hourglass_functions(const Corners& x, const Functions3& gradient) {
   Functions4 gamma;
@@ -170,7 +170,7 @@ Functions4 hourglass_functions(const Corners& x, const Functions3& gradient) {
   return gamma;
 }
 
-// 2/3 of the largest inverse metric of the planes, twice: a mode bends two plates.
+// 2/3 of the largest inverse metric of the planes, doubled: a mode bends two plates.
 double plate_spread(const Matrix3d& half_edges) {
   double largest = 0;
   for (int k = 0; k < 3; ++k) {
@@ -183,7 +183,7 @@ double plate_spread(const Matrix3d& half_edges) {
   return 2 * 2.0 / 3.0 * largest;
 }
 
-// Both kinds of modes over the masses: how the lightest hourglass mode compares, and how far they overlap.
+// Both kinds of modes, mass-weighted: how the lightest hourglass mode compares, and how strongly they overlap.
 void set_hourglass_bounds(Shape::Element& element, const Corners& x, const Integrals& integrals) {
   const Eigen::Matrix<double, 8, 1> weight = (integrals.volume / integrals.shares.array()).sqrt();
   const Functions4 gamma = weight.asDiagonal() * hourglass_functions(x, integrals.gradient);
@@ -191,7 +191,7 @@ void set_hourglass_bounds(Shape::Element& element, const Corners& x, const Integ
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> light(gamma.transpose() * gamma);
   const Matrix3d half_edges = x * shape_functions(Vector3d::Zero()).by_xi;
   element.hourglass_spread = light.eigenvalues().maxCoeff() * plate_spread(half_edges);
-  // Between b and gamma, each made orthonormal by its Cholesky factor.
+  // Between b and gamma, each orthonormalised by its Cholesky factor.
   const Eigen::Matrix<double, 4, 3> one_side =
       (gamma.transpose() * gamma).llt().matrixL().solve(gamma.transpose() * b);
   const Eigen::Matrix<double, 3, 4> cosines =
@@ -200,8 +200,8 @@ void set_hourglass_bounds(Shape::Element& element, const Corners& x, const Integ
   element.overlap = std::max(0.0, overlap.eigenvalues().maxCoeff());
 }
 
-// The springs k K A/V of a face of area A before an element of volume V bear k K A/V (A/36) [4 2 1 2; ...] on its nodes,
-// whose largest eigenvalue is that of four moving together, a quarter of the sum. Here 1/4 V over the least mass.
+// The springs k K A/V of a face of area A on an element of volume V exert k K A/V (A/36) [4 2 1 2; ...] on its nodes,
+// whose largest eigenvalue is that of all four moving together, a quarter of the sum. Here 1/4 V over the smallest mass.
 double lightest_corner(const Shape& shape, const Shape::Face& face, const Integrals& integrals) {
   double least = integrals.volume;
   for (int i = 0; i < 8; ++i)

@@ -8,7 +8,7 @@
 namespace pulvis::space {
 namespace {
 
-// Its boundary nodes first, as many as the outermost ring has quads; quads of that ring first, each with its side on the
+// Boundary nodes first, as many as the outermost ring has quads; quads of that ring first, each with its side on the
 // boundary as its first.
 pulvis::Shape disc_of(double diameter, const MeshSpec& mesh) {
   pulvis::Shape disc;
@@ -37,7 +37,7 @@ class Extrusion {
     for (const Place& at : places_) {
       const auto& p = entry(disc_.nodes, at.node);
       Vec3 x(p[0], p[1], 0);
-      // The boundary of a disc's mesh lies a little outside of the circle, to have its area.
+      // The boundary of a disc's mesh lies slightly outside the circle, so that the areas are equal.
       if (at.node < disc_.boundary_nodes) x *= cylinder.diameter / 2 / x.norm();
       x.z() = cylinder.height * (static_cast<double>(at.level) / layers_ - 0.5);
       nodes.push_back(on_surface(at) ? surface.point(x.normalized()) : x);

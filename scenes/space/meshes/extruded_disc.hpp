@@ -1,8 +1,8 @@
-// Mesh of a cylinder: the O-grid of a disc, n * n quads in the middle and rings of 4 n around them (a butterfly), drawn along
-// z in m layers.
+// Mesh of a cylinder: the O-grid of a disc, n * n quads in the middle and rings of 4 n around them (a butterfly), extruded
+// along z in m layers.
 //
-// Its surface hangs together as that of a cubed sphere of n * n * (m + 2 rings): three faces meet at the eight corners of the
-// squares at the ends, four everywhere else, at the rims too.
+// Its surface has the topology of a cubed sphere of n * n * (m + 2 rings): three faces meet at the eight corners of the
+// squares at the ends, four everywhere else, including at the rims.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@
 namespace pulvis::space {
 
 struct ExtrudedDisc {
-  std::vector<Vec3> nodes;  // m; those of the surface first
+  std::vector<Vec3> nodes;  // m; surface nodes first
   int surface_nodes = 0;
   std::vector<std::array<int, 4>> quads;  // of the surface, counter-clockwise as seen from outside
   std::vector<Hexahedron> hexahedra;      // layer by layer
 };
 
-// Nodes of the surface lie on `surface`, that of the cylinder; those inside where the disc's mesh in two dimensions has them.
+// Surface nodes lie on `surface`, that of the cylinder; inner nodes are those of the disc's mesh in two dimensions.
 ExtrudedDisc extruded_disc(const CylinderShape& cylinder, const MeshSpec& mesh,
                            const StarSurface& surface);
 

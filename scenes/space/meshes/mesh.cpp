@@ -18,7 +18,7 @@ namespace {
 
 constexpr Smoothing smoothing{0.5, 200};
 
-// Moves the nodes of the surface, the first ones.
+// Moves the surface nodes, which come first.
 void make_surface_true(std::vector<Vec3>& nodes, int surface_nodes,
                        const std::vector<std::array<int, 4>>& quads, const StarSurface& surface) {
   std::vector<Vec3> outer(nodes.begin(), nodes.begin() + surface_nodes);
@@ -43,7 +43,7 @@ class Mesher {
   int surface_nodes() const { return grid_.layer_nodes(); }
 
  private:
-  // Layers of even thickness about a core between a cube and a ball, which takes its share of all layers.
+  // Layers of uniform thickness around a core shaped between a cube and a sphere, with its share of all layers.
   void start() {
     const Vec3 half = surface_.half_size();
     const Vec3 core = core_size();
@@ -69,7 +69,7 @@ class Mesher {
     return {place[0], place[1], place[2]};
   }
 
-  // Over the size of the shape.
+  // Relative to the size of the shape.
   Vec3 core_size() const {
     Vec3 core;
     for (int axis = 0; axis < 3; ++axis) {
@@ -97,7 +97,7 @@ void mesh_on_cube(const MeshSpec& mesh, const StarSurface& surface, Shape& shape
   set_mesh(shape, mesher.nodes(), mesher.surface_nodes(), mesher.hexahedra());
 }
 
-// Its elements are even from the start.
+// Its elements are uniform from the start.
 void mesh_by_extrusion(const CylinderShape& cylinder, const MeshSpec& mesh,
                        const StarSurface& surface, Shape& shape) {
   ExtrudedDisc disc = extruded_disc(cylinder, mesh, surface);
@@ -105,15 +105,15 @@ void mesh_by_extrusion(const CylinderShape& cylinder, const MeshSpec& mesh,
   set_mesh(shape, disc.nodes, disc.surface_nodes, disc.hexahedra);
 }
 
-// As seen from the axes that the mesh is laid along, where those are not the shape's own.
+// As seen from the axes of the mesh, if they differ from the shape's own.
 using Seen = const TurnedSurface*;
 
-// From `nodes` and `hexahedra` on.
+// Everything that follows from `nodes` and `hexahedra`.
 void complete(Shape& shape, const StarSurface& surface) {
   shape.true_volume = surface.volume();
-  complete_elements(shape);  // the stiffness of the faces is made of the elements' volumes,
+  complete_elements(shape);  // the stiffness of the faces needs the elements' volumes,
   complete_surface(shape, surface);
-  complete_elements(shape);  // and the contact's frequencies of the faces
+  complete_elements(shape);  // and the contact frequencies need the faces
 }
 
 Shape shape_on_cube(const MeshSpec& mesh, const StarSurface& surface, Seen seen) {
@@ -128,8 +128,8 @@ Shape shape_on_cube(const MeshSpec& mesh, const StarSurface& surface, Seen seen)
   return shape;
 }
 
-// A polyhedron or a scan lies anyhow in its file. The cube is turned to where contacts see the shape best; it stays along
-// the shape's own axes where that gains little.
+// A polyhedron or a scan has an arbitrary orientation in its file. The cube is rotated to where contacts see the shape
+// best; it stays along the shape's own axes if the gain is small.
 Shape shape_on_fitting_cube(const MeshSpec& mesh, const StarSurface& surface) {
   constexpr double clearly = 0.8;
   std::optional<Shape> best;
@@ -155,7 +155,7 @@ struct ShapeKey {
   bool operator==(const ShapeKey&) const = default;
 };
 
-// `axial_divisions` are along the shape's own z.
+// `axial_divisions` are along the shape's local z.
 bool has_free_axes(const ShapeKey& of) {
   return !of.mesh.axial_divisions && (std::holds_alternative<PolyhedronShape>(of.shape) ||
                                       std::holds_alternative<StlShape>(of.shape));
@@ -180,9 +180,9 @@ std::size_t bytes_of(const Shape& shape) {
 }  // namespace
 
 Shape make_shape(const ParticleSpec& particle) {
-  // Packings, the layout of the particles, the summary and the warnings of a scene ask for the same shapes, and so do the
+  // Packings, the particle layout, the summary and the warnings of a scene request the same shapes, and so do the
   // runs of a study.
-  static ResultCache<ShapeKey, Shape> cache(32 << 20);  // bytes, about
+  static ResultCache<ShapeKey, Shape> cache(32 << 20);  // bytes, approximately
   const auto size = [&](const Shape& made) { return stl_bytes(particle.shape) + bytes_of(made); };
   Shape shape = cache.get({particle.shape, particle.mesh}, shape_of, size);
   shape.name = particle.name;

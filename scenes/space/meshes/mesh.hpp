@@ -8,7 +8,7 @@
 namespace pulvis::space {
 
 // The undeformed shape of a particle class: its mesh has the volume of the true shape, its smooth surface lies on the true
-// one. Throws std::invalid_argument where no mesh without folded elements was found.
+// one. Throws std::invalid_argument if no mesh without folded elements was found.
 Shape make_shape(const ParticleSpec& particle);
 
 }  // namespace pulvis::space

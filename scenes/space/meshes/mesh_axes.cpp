@@ -12,14 +12,14 @@
 namespace pulvis::space {
 namespace {
 
-constexpr int point_cells = 12;    // of `directions`, to tell extents
-constexpr int rotations = 2400;    // of which a 24th is tried: the cube has that many turns
-constexpr int most_divisions = 6;  // of the meshes that are compared: finer ones lie alike
-constexpr double clearly = 0.9;    // of what lies between the surface and a mesh along its own axes
+constexpr int point_cells = 12;    // of `directions`, to determine extents
+constexpr int rotations = 2400;    // of which 1/24 are tried: the cube has 24 rotations onto itself
+constexpr int most_divisions = 6;  // of the meshes compared: finer ones have the same best axes
+constexpr double clearly = 0.9;    // of the gap between the surface and a mesh along its own axes
 constexpr std::size_t followed = 3;
-constexpr double first_step = 0.16, last_step = 0.004;  // rad, about
+constexpr double first_step = 0.16, last_step = 0.004;  // rad, approximate
 
-// Evenly spread (Alexa, Super-Fibonacci spirals, CVPR 2022).
+// Uniformly distributed (Alexa, Super-Fibonacci spirals, CVPR 2022).
 Rotation spread_rotation(int i) {
   constexpr double phi = std::numbers::sqrt2, psi = 1.533751168755204288118041;
   const double s = i + 0.5, share = s / rotations;
@@ -29,7 +29,7 @@ Rotation spread_rotation(int i) {
           rest * portable::sin(b)};
 }
 
-// Whether no turn of the cube onto itself leaves a rotation by a smaller angle.
+// Whether no rotation of the cube onto itself leaves a rotation with a smaller angle.
 bool is_smallest(const Rotation& q) {
   const Vec3 by = q.vec().cwiseAbs();
   const double w = std::abs(q.w());
@@ -38,7 +38,7 @@ bool is_smallest(const Rotation& q) {
 
 struct Turned {
   Rotation axes;
-  double size;  // m^3, of what is to be small
+  double size;  // m^3, to be minimised
 };
 
 class AxesSearch {
@@ -55,7 +55,7 @@ class AxesSearch {
     return surface(least([&](const Rotation& axes) { return gap(surface(axes)); }));
   }
 
-  // m^3, about: between the surface and the quads over nodes on it.
+  // m^3, approximate: between the surface and the quads over nodes on it.
   double gap(const StarSurface& surface) const {
     std::vector<Vec3> nodes;
     for (const Lattice& at : grid_.rim()) {

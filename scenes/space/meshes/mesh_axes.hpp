@@ -1,5 +1,5 @@
-// How the cube of a cubed-sphere mesh lies in a shape that has no axes of its own: a polyhedron or a scan, as its file turns
-// it.
+// Orientation of the cube of a cubed-sphere mesh in a shape that has no axes of its own: a polyhedron or a scan in the
+// orientation of its file.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace pulvis::space {
 
-// A shape as seen from axes turned by `axes` from its own. Keeps a reference to the surface.
+// A shape as seen from axes rotated by `axes` from its own. Keeps a reference to the surface.
 class TurnedSurface final : public StarSurface {
  public:
-  // `points`: of the surface, in its own axes, many enough to tell its extents.
+  // `points`: of the surface, in its own axes, enough to determine its extents.
   TurnedSurface(const StarSurface& surface, const Rotation& axes, const std::vector<Vec3>& points);
 
   double radius(const Vec3& d) const override { return surface_.radius(axes_ * d); }
@@ -30,8 +30,8 @@ class TurnedSurface final : public StarSurface {
   Vec3 half_size_;
 };
 
-// The surface from axes in which its mesh may lie closer to it than in its own, as far as a search finds them: those of the
-// least box around it, and those that leave clearly less between it and a mesh of so many divisions.
+// The surface in rotated axes in which its mesh may fit it better than in its own, as far as a search finds them: the axes
+// of the smallest box around it, and those with a clearly smaller deviation of a mesh with `divisions` divisions.
 std::vector<TurnedSurface> turned_to_fit(const StarSurface& surface, int divisions);
 
 }  // namespace pulvis::space

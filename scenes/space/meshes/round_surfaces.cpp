@@ -28,14 +28,14 @@ class EllipsoidSurface final : public StarSurface {
 class SuperquadricSurface final : public StarSurface {
  public:
   SuperquadricSurface(const Vec3& half, double e, double f) : half_(half), e_(e), f_(f) {}
-  // The left side F of its equation is homogeneous of the order f.
+  // The left side F of its equation is homogeneous of order f.
   double radius(const Vec3& d) const override {
     const Vec3 s = d.cwiseQuotient(half_).cwiseAbs();
     const double round = portable::pow(s.x(), e_) + portable::pow(s.y(), e_);
     const double sum = portable::pow(round, f_ / e_) + portable::pow(s.z(), f_);
     return portable::pow(sum, -1 / f_);
   }
-  // grad F over f. (s_x^e + s_y^e)^(f/e - 1) may be infinite at the poles, where what it multiplies is 0.
+  // grad F over f. (s_x^e + s_y^e)^(f/e - 1) may be infinite at the poles, where its factor is 0.
   Vec3 normal(const Vec3& d) const override {
     const Vec3 s = d.cwiseQuotient(half_).cwiseAbs();
     const double round = portable::pow(s.x(), e_) + portable::pow(s.y(), e_);
@@ -64,7 +64,7 @@ class SuperquadricSurface final : public StarSurface {
   double e_, f_;
 };
 
-// A cylinder whose rims are rounded: the points within `rounding` of a smaller one.
+// A cylinder with rounded rims: the points within `rounding` of a smaller one.
 class CylinderSurface final : public StarSurface {
  public:
   CylinderSurface(double radius, double half_height, double rounding)
@@ -82,14 +82,14 @@ class CylinderSurface final : public StarSurface {
     const double across = portable::hypot(p.x(), p.y());
     const double side = across > inner_radius() ? 1 - inner_radius() / across : 0;
     const double up = std::max(std::abs(p.z()) - inner_height(), 0.0);
-    if (side == 0 && up == 0) return d;  // on a sharp rim, to round-off
+    if (side == 0 && up == 0) return d;  // on a sharp rim, up to round-off
     return Vec3(side * p.x(), side * p.y(), p.z() < 0 ? -up : up).normalized();
   }
   Vec3 half_size() const override { return {radius_, radius_, half_height_}; }
-  // Less than one leaves the elements an angle where a corner of the cube comes to lie on the rim. What is left over leads
+  // A value below 1 leaves the elements an angle where a corner of the cube lies on the rim. The excess extends
   // past the rim, farther in a long cylinder.
   double roundness() const override { return 1 - 0.3 * std::min(1.0, radius_ / half_height_); }
-  // Steiner's formula: of the smaller cylinder volume, area, integral of the mean curvature.
+  // Steiner's formula: volume, area and integral of the mean curvature of the smaller cylinder.
   double volume() const override {
     const double r = inner_radius(), h = 2 * inner_height(), w = rounding_;
     return pi * r * r * h + w * 2 * pi * r * (r + h) + w * w * pi * (h + pi * r) +

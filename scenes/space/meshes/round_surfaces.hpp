@@ -1,4 +1,4 @@
-// True surfaces of the shapes that have formulas.
+// True surfaces of the shapes that have a formula.
 #pragma once
 
 #include <memory>

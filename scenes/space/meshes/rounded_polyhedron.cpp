@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-struct Side {  // of the smaller polyhedron
+struct Side {  // a face of the smaller polyhedron
   HalfSpace plane;
   std::vector<Vec3> corners;  // counter-clockwise as seen from outside
 };
@@ -49,8 +49,8 @@ class RoundedPolyhedron final : public StarSurface {
     double t = 0;
     const Side& side = first_side(d, t);
     if (rounding_ == 0) return t;
-    // Straight over a flat, or on the rounding beyond it: the distance to the smaller polyhedron is convex along the ray,
-    // so that Newton's steps come from outside.
+    // Straight over a flat face, or on the rounding beyond it: the distance to the smaller polyhedron is convex along the
+    // ray, so Newton's steps approach from outside.
     for (int i = 0; i < 60; ++i) {
       const Vec3 off = t * d - closest(t * d);
       const double distance = off.norm();
@@ -86,9 +86,9 @@ class RoundedPolyhedron final : public StarSurface {
     sides_.push_back(std::move(side));
   }
 
-  // Steiner's formula for the volume and, part by part, for the first moment: the smaller polyhedron, what stands on its
-  // faces, wedges along its edges, and sectors of a ball at its corners, whose solid angles are the corners' defects. (The
-  // moments of the sectors about their corners cancel: they make up a ball.)
+  // Steiner's formula for the volume and, term by term, for the first moment: the smaller polyhedron, prisms on its
+  // faces, wedges along its edges, and sphere sectors at its corners, whose solid angles are the angular defects. (The
+  // moments of the sectors about their corners cancel: together they form a sphere.)
   void measure(const std::vector<Vec3>& corners) {
     const double w = rounding_, sector = w * w * w / 3;
     Vec3 moment = Vec3::Zero();
@@ -103,7 +103,7 @@ class RoundedPolyhedron final : public StarSurface {
     for (const Side& side : sides_) add_edges(side, moment);
     centre_ = moment / volume_;
   }
-  // A wedge of the angle theta about an edge; each of its two sides adds half.
+  // A wedge of angle theta about an edge; each of its two sides adds half.
   void add_edges(const Side& side, Vec3& moment) {
     const double w = rounding_;
     const std::size_t n = side.corners.size();
@@ -112,7 +112,7 @@ class RoundedPolyhedron final : public StarSurface {
                  &to = side.corners[(k + 1) % n];
       const double length = (to - from).norm(), theta = angle_at(side, from, to);
       const Vec3 across = (to - from).cross(side.plane.normal) / length;
-      // Half of the wedge: from this side's normal on, by theta/2 towards `across`.
+      // Half of the wedge: from this side's normal by theta/2 towards `across`.
       const Vec3 arc =
           portable::sin(theta / 2) * side.plane.normal + (1 - portable::cos(theta / 2)) * across;
       const double half = length * theta * w * w / 4;
@@ -147,7 +147,7 @@ class RoundedPolyhedron final : public StarSurface {
     half_size_ = (high - low) / 2 + Vec3::Constant(rounding_);
   }
 
-  // The side that a ray leaves the sharp polyhedron by, at t d.
+  // The side through which a ray leaves the sharp polyhedron, at t d.
   const Side& first_side(const Vec3& d, double& t) const {
     const Side* first = nullptr;
     for (const Side& side : sides_) {

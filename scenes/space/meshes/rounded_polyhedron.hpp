@@ -7,10 +7,10 @@
 
 namespace pulvis::space {
 
-// Throws std::invalid_argument where the rounding leaves nothing.
+// Throws std::invalid_argument if the rounding leaves nothing.
 std::unique_ptr<StarSurface> polyhedron_surface(const PolyhedronShape& shape);
 
-// The centre of its volume, in the frame of its corners, m.
+// Its centre of volume, in the frame of its corners, m.
 Vec3 centre_of(const PolyhedronShape& shape);
 
 }  // namespace pulvis::space

@@ -10,7 +10,7 @@
 namespace pulvis::space {
 namespace {
 
-// The corners that a corner's edges lead to, right-handed.
+// The corners at the ends of a corner's edges, right-handed.
 constexpr int corner_edges[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                     {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 const double cube_norm = 3 * std::sqrt(3.0);

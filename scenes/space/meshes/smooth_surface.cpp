@@ -18,20 +18,20 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double usual_c = 1.0 / 12;
 constexpr double least_c = 0, most_c = 0.25;
-// How much c and the lines at irregular nodes stay as usual, against the surface passing where it should.
+// Weights that keep c and the lines at irregular nodes at their usual values, relative to the fit of the surface.
 constexpr double stay = 1e-3, stay_turned = 1e-4;
 constexpr double flat =
-    1e-8;  // U^2 over its largest, below which the springs do not weaken: where U is 0 they hold all
-// The largest changes of a, which is 1 as a rule, and of b (smooth_surface.hpp): larger ones, which sharp shapes with few faces
-// ask for, turn tangents round and fold the surface.
+    1e-8;  // U^2 over its maximum, below which the springs stay constant: where U is 0, only they determine the solution
+// The largest changes of a, which is normally 1, and of b (smooth_surface.hpp): larger ones, which sharp shapes with few
+// faces require, reverse tangents and fold the surface.
 constexpr std::array most_change{0.75, 0.2};
 constexpr std::array shares_of_change{1.0, 0.75, 0.5, 0.25, 0.0};  // tried in turn
 constexpr int volume_fits = 24;                                    // halvings
-constexpr int fits = 3;  // as the place to pass moves a little along the surface
+constexpr int fits = 3;  // since the target point moves slightly along the surface
 
 Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
 
-// U of smooth_surface.hpp: over the surface nodes.
+// U of smooth_surface.hpp, in terms of the surface nodes.
 Combination umbrella(const SurfaceNet& net, int node) {
   Combination u{{node, -4.0}};
   for (const SurfaceNet::Corner c : entry(net.fan, node))
@@ -45,17 +45,17 @@ Vec3 value_of(const Combination& combination, const std::vector<Vec3>& of) {
   return sum;
 }
 
-// Where faces are looked at, along both sides: folds begin at their corners.
+// Where faces are checked, along both sides: folds start at their corners.
 constexpr std::array looked_at{0.0, 0.03, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 1.0};
 
-// How well a smooth surface stands for the true one.
+// How well a smooth surface represents the true one.
 struct Likeness {
-  double distance = 0;  // m, from the true surface at most, as the centre of volume sees it
-  double bulge = 0;     // m, outwards along its normal at most
-  double cosine = 1;    // between both normals at least; <= 0: the surface is folded
-  double evenness = 1;  // least area that (u, v) stands for, over the mean of the face
+  double distance = 0;  // m, maximum from the true surface, as seen from the centre of volume
+  double bulge = 0;     // m, maximum outwards along its normal
+  double cosine = 1;    // minimum between both normals; <= 0: the surface is folded
+  double evenness = 1;  // minimum area per unit of (u, v), over the mean of the face
 
-  // >= 1: good enough. Where hardly any area is left, closest points are not found.
+  // >= 1: good enough. Where the area almost vanishes, closest points cannot be found.
   double quality() const { return std::min(cosine / 0.5, evenness / 0.2); }
 };
 Likeness likeness(const SurfaceNet& net, const std::vector<Vec3>& points,
@@ -80,7 +80,7 @@ Likeness likeness(const SurfaceNet& net, const std::vector<Vec3>& points,
   return worst;
 }
 
-// Makes the undeformed surface lie on the true one.
+// Fits the undeformed surface to the true one.
 class Fit {
  public:
   Fit(const Shape& shape, const SurfaceNet& net, const StarSurface& surface)
@@ -93,7 +93,7 @@ class Fit {
   }
 
   const std::vector<double>& smoothing() const { return c_; }
-  // Over the nodes of the net.
+  // In terms of the nodes of the net.
   std::vector<Combination> points() const { return bezier_points(net_, turned_frames()); }
   const Likeness& reached() const { return reached_; }
 
@@ -105,7 +105,7 @@ class Fit {
     return control;
   }
 
-  // The c with which the corners of the faces lie on the true surface, all at once.
+  // The c for which the corners of the faces lie on the true surface, all at once.
   void improve_smoothing() {
     const std::vector<Vec3> control = net_places();
     Sparse by_c(net_.nodes(), net_.nodes());
@@ -126,7 +126,7 @@ class Fit {
 
   double held_by(const Vec3& u) const { return std::max(u.squaredNorm(), least_u2_); }
 
-  // Least squares of the distances, with each c held where it is usual by a weak spring.
+  // Least squares of the distances, with each c held at its usual value by a weak spring.
   void solve(const Sparse& by_c, const Eigen::VectorXd& off) {
     Sparse normal = by_c.transpose() * by_c;
     Eigen::VectorXd right = by_c.transpose() * off;
@@ -152,7 +152,7 @@ class Fit {
     return frames;
   }
 
-  // The first share of the changes that is good enough; where there is none, the best.
+  // The first fraction of the changes that is good enough; if there is none, the best.
   void turn_as_far_as_good() {
     const std::vector<double> c = c_;
     double best_share = 0;
@@ -172,7 +172,7 @@ class Fit {
     c_ = best_c;
   }
 
-  // m, of the Bezier points.
+  // m, positions of the Bezier points.
   std::vector<Vec3> places() const {
     const std::vector<Vec3> control = net_places();
     std::vector<Vec3> at;
@@ -180,7 +180,7 @@ class Fit {
     return at;
   }
 
-  // m^3, of the smooth surface when every c is larger by `more`, as far as it may be.
+  // m^3, of the smooth surface when every c is increased by `more`, within its limits.
   double volume_with(const std::vector<double>& c, double more) {
     for (std::size_t i = 0; i < count(); ++i) c_[i] = std::clamp(c[i] + more, least_c, most_c);
     const std::vector<Vec3> at = places();
@@ -189,18 +189,18 @@ class Fit {
     return volume;
   }
 
-  // Between its corners the surface may still lie a little off: the same addition to every c makes its volume the true one.
+  // Between its corners the surface may still deviate slightly: a common addition to every c makes its volume correct.
   void match_volume() {
     const std::vector<double> c = c_;
-    double low = -most_c, high = most_c;  // the volume rises with c
+    double low = -most_c, high = most_c;  // the volume increases with c
     for (int i = 0; i < volume_fits; ++i) {
       const double more = (low + high) / 2;
       (volume_with(c, more) < surface_.volume() ? low : high) = more;
     }
   }
 
-  // The least squares of square * change = right. Where a change goes beyond its bound it stays there, and the other one is the
-  // best that goes with it.
+  // The least-squares solution of square * change = right. A change beyond its bound is set to the bound, and the other one
+  // is the best for it.
   Eigen::Vector2d bounded_change(const Eigen::Matrix2d& square,
                                  const Eigen::Vector2d& right) const {
     const auto bounded = [&](int i, double change) {
@@ -218,8 +218,8 @@ class Fit {
     return change;
   }
 
-  // Where a line leads to an irregular node, whose place follows from the derivative D along it at the regular node w:
-  // D = a D_spline + b U_w in the tangent plane at w, its half reaching to that at the irregular node.
+  // Where a line leads to an irregular node, whose position follows from the derivative D along it at the regular node w:
+  // D = a D_spline + b U_w in the tangent plane at w, and half of it reaches that at the irregular node.
   void turn_line(int w, int line, const std::vector<Vec3>& control, NodeFrame& frame) const {
     const Vec3 at = value_of(frame.place, control), spline = value_of(frame.along[line], control);
     const Vec3 u = value_of(umbrella(net_, w), control);
@@ -266,7 +266,7 @@ void store(const Combination& combination, Shape::Terms& terms) {
   terms.close();
 }
 
-// Face after face: what a face needs lies together.
+// Face by face: the data of a face is contiguous.
 void store_points(Shape& shape, const SurfaceNet& net, const std::vector<Combination>& points,
                   const std::vector<double>& c) {
   shape.net = shape.points = {};
@@ -298,7 +298,7 @@ void store_faces(Shape& shape, const SurfaceNet& net) {
   }
 }
 
-// Areas, and the particle's measures that follow from them.
+// Areas, and the particle's properties that follow from them.
 void measure(Shape& shape) {
   const std::vector<Vec3> points = surface_points_of(shape, shape.nodes);
   shape.area = shape.mean_face_stiffness = 0;

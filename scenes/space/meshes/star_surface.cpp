@@ -18,12 +18,12 @@ std::unique_ptr<StarSurface> round_surface(const StlShape& shape) {
   return triangle_surface(shape);
 }
 
-// Equiangular on a ball: its faces are of similar size.
+// Equiangular on a sphere: its faces are of similar size.
 Vec3 on_square_box(const Vec3& on_cube) {
   return (std::numbers::pi / 4 * on_cube).unaryExpr([](double a) { return portable::tan(a); });
 }
 
-// The cube with its sections drawn into circles: edges that run around the z axis come to lie on the rims of a cylinder.
+// The cube with its sections mapped to circles: edges that run around the z axis are placed on the rims of a cylinder.
 // (Fong, Analytical methods for squaring the disc, 2014: elliptical grid.)
 Vec3 on_round_box(const Vec3& on_cube) {
   const auto even = [](double a) {

@@ -1,4 +1,4 @@
-// The true surface of a shape, as its centre of volume sees it: how far it is along each direction.
+// The true surface of a shape as seen from its centre of volume: its distance along each direction.
 #pragma once
 
 #include <memory>
@@ -13,14 +13,14 @@ class StarSurface {
   // `direction`: unit vector.
   virtual double radius(const Vec3& direction) const = 0;  // m
   virtual Vec3 normal(const Vec3& direction) const = 0;    // outward unit vector there
-  // m, from the centre along x, y, z: of a box that has about the same proportions.
+  // m, from the centre along x, y, z: of a box of roughly the same proportions.
   virtual Vec3 half_size() const = 0;
   virtual double volume() const = 0;  // m^3, exact
-  // How much the sections z = const of its box are round: 0 (square) to 1.
+  // How round the sections z = const of its box are: 0 (square) to 1.
   virtual double roundness() const { return 0; }
 
   Vec3 point(const Vec3& direction) const { return radius(direction) * direction; }
-  // Unit vector: along which a point of the surface of the cube [-1, 1]^3 is projected onto this one, for a mesh.
+  // Unit vector along which a point on the surface of the cube [-1, 1]^3 is projected onto this one, for a mesh.
   Vec3 direction_of(const Vec3& on_cube) const;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Triangles by the cells of a cube about the centre through which they are seen.
+// Triangles sorted into the cells of a cube around the centre through which they are seen.
 class TriangleFan {
  public:
   explicit TriangleFan(const std::vector<Triangle>& triangles) {
@@ -29,9 +29,9 @@ class TriangleFan {
 
   struct Hit {
     double distance;
-    Vec3 normal;  // not of length 1
+    Vec3 normal;  // not normalised
   };
-  // The surface is closed about the centre: the triangle of which the ray is most inside.
+  // The surface is closed around the centre: take the triangle that contains the ray best.
   Hit along(const Vec3& d) const {
     double best = -std::numeric_limits<double>::max();
     Hit hit{};
@@ -48,7 +48,7 @@ class TriangleFan {
   }
 
  private:
-  // A triangle, as what rays from the centre ask of it.
+  // A triangle, with the data needed for rays from the centre.
   struct Seen {
     Vec3 normal;                // area_vector
     std::array<Vec3, 3> sides;  // normals of the planes through the centre and each side
@@ -58,7 +58,7 @@ class TriangleFan {
         : normal(area_vector(t)),
           sides{t[0].cross(t[1]), t[1].cross(t[2]), t[2].cross(t[0])},
           plane(normal.dot(t[0])) {}
-    // The least of the three shares of the corners at the point that the ray meets, times normal . d.
+    // The smallest barycentric coordinate of the point where the ray hits, times normal . d.
     double least_share(const Vec3& d) const {
       return std::min({sides[0].dot(d), sides[1].dot(d), sides[2].dot(d)});
     }
@@ -75,7 +75,7 @@ class TriangleFan {
     return (side * cells_ + along(axis + 1)) * cells_ + along(axis + 2);
   }
 
-  // To all cells whose cap about their middle meets the triangle's.
+  // To all cells whose cap around their centre intersects the triangle's.
   void add(const Triangle& triangle, const std::vector<Vec3>& middles) {
     const int number = static_cast<int>(seen_.size());
     seen_.emplace_back(triangle);
@@ -111,7 +111,7 @@ class TriangleFan {
   std::vector<std::vector<int>> in_cell_;
 };
 
-// Rays in rings about a direction: how far out in the two directions across it, and with what weights of a bell.
+// Rays in rings around a direction: their offsets in the two directions across it, with bell-shaped weights.
 struct RingRay {
   double out, weight, cosine, sine;
 };
@@ -129,7 +129,7 @@ std::vector<RingRay> rays_in_rings() {
   return all;
 }
 
-// Two unit vectors across a unit vector.
+// Two unit vectors perpendicular to a unit vector.
 std::array<Vec3, 2> across(const Vec3& d) {
   Eigen::Index least = 0;
   d.cwiseAbs().minCoeff(&least);
@@ -137,7 +137,7 @@ std::array<Vec3, 2> across(const Vec3& d) {
   return {x, d.cross(x)};
 }
 
-constexpr int volume_cells = 16;  // along a quarter turn: the volume of what is smoothed, to 1e-4
+constexpr int volume_cells = 16;  // along a quarter circle: volume of the smoothed shape, to 1e-4
 
 class TriangleSurface final : public StarSurface {
  public:
@@ -159,7 +159,7 @@ class TriangleSurface final : public StarSurface {
     half_size_ *= factor;
   }
 
-  // Smoothed: the mean over rays about the direction.
+  // Smoothed: the mean over rays around the direction.
   double radius(const Vec3& d) const override {
     if (smoothing_ == 0) return scale_ * fan_.along(d).distance;
     static const std::vector<RingRay> rays = rays_in_rings();
@@ -172,7 +172,7 @@ class TriangleSurface final : public StarSurface {
     }
     return scale_ * sum / weights;
   }
-  // Of r(d) d: along d - grad r / r.
+  // For the surface r(d) d: along d - grad r / r.
   Vec3 normal(const Vec3& d) const override {
     if (smoothing_ == 0) return fan_.along(d).normal.normalized();
     const double step = smoothing_ / 2, r = radius(d);

@@ -1,4 +1,4 @@
-// The true surface of a star-shaped body of triangles.
+// The true surface of a star-shaped body made of triangles.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace pulvis::space {
 
-// Throws std::invalid_argument where the centre of its volume does not see all of it.
+// Throws std::invalid_argument if the surface is not star-shaped about its centre of volume.
 std::unique_ptr<StarSurface> triangle_surface(const StlShape& shape);
 
 }  // namespace pulvis::space

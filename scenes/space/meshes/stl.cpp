@@ -31,7 +31,7 @@ void refuse_count(std::size_t count) {
     throw BadStl(fmt::format("{} triangles, allowed: at most {}", count, most_triangles));
 }
 
-// Many binary files start with "solid" too: their length tells, or that no word of a text is in them.
+// Many binary files start with "solid" too: their length reveals them, or that no "vertex" occurs.
 bool is_binary(const std::string& bytes) {
   if (bytes.size() < header) return false;
   const std::uint64_t count = little_endian(&bytes[header - 4]);
@@ -79,7 +79,7 @@ class Words {
   std::string_view left_;
 };
 
-// Only the corners count: the normals that such files tell follow from them.
+// Only the corners are used: the normals given in such files follow from them.
 std::vector<Triangle> text_triangles(const std::string& text) {
   std::vector<Triangle> triangles;
   std::size_t corners = 0;
@@ -106,7 +106,7 @@ void refuse_numbers(const std::vector<Triangle>& triangles) {
 using Corner3 = std::array<double, 3>;
 Corner3 key_of(const Vec3& p) { return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}; }  // -0 is 0
 
-// Every side is run once in each direction.
+// Every side is traversed once in each direction.
 void refuse_open(const std::vector<Triangle>& triangles) {
   std::map<std::pair<Corner3, Corner3>, int> sides;
   for (const Triangle& t : triangles)

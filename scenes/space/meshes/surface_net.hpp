@@ -1,4 +1,4 @@
-// How the faces of a closed surface of quads hang together.
+// Connectivity of the faces of a closed surface of quads.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@ struct SurfaceNet {
     int face = 0, corner = 0;
   };
   std::vector<std::array<int, 4>> quads;  // nodes, counter-clockwise as seen from outside
-  std::vector<int> element;               // behind each
+  std::vector<int> element;               // the one beneath each quad
   std::vector<std::array<Shape::Neighbour, 4>> neighbour;
-  // The corners that meet in a node, counter-clockwise.
+  // The corners that meet at a node, counter-clockwise.
   std::vector<std::vector<Corner>> fan;
 
   int faces() const { return static_cast<int>(quads.size()); }
@@ -24,14 +24,14 @@ struct SurfaceNet {
   int node(Corner c, int ahead = 0) const {
     return entry(entry(quads, c.face), (c.corner + ahead) % 4);
   }
-  // The corner at which the side that starts in `c` ends up when it is run from the other face.
+  // The corner at which the side that starts at `c` ends when traversed from the other face.
   Corner beyond(Corner c) const {
     const Shape::Neighbour& n = entry(entry(neighbour, c.face), c.corner);
     return {n.face, n.side};
   }
 };
 
-// Of the sides of hexahedra that lie in the surface.
+// From the sides of hexahedra that lie in the surface.
 SurfaceNet surface_net(const Shape& shape);
 
 }  // namespace pulvis::space

@@ -9,7 +9,7 @@ using Corner = SurfaceNet::Corner;
 
 bool is_cube(const SurfaceNet& net) { return net.faces() == 6; }
 
-// About a node v with the neighbours e_k and the opposite corners d_k of its faces, between e_k and e_(k+1): products of
+// Around a node v with neighbours e_k and the opposite corners d_k of its faces, between e_k and e_(k+1): products of
 // (1, 4, 1)/6 and (1, 0, -1)/2.
 NodeFrame spline_frame(const SurfaceNet& net, int v) {
   int e[4], d[4];
@@ -30,7 +30,7 @@ NodeFrame spline_frame(const SurfaceNet& net, int v) {
   return f;
 }
 
-// The place of a node of three faces on Catmull and Clark's surface.
+// The position of a three-face node on the Catmull-Clark surface.
 NodeFrame cube_frame(const SurfaceNet& net, int v) {
   NodeFrame f;
   add(f.place, {{v, 9.0}}, 1.0 / 24);
@@ -66,7 +66,7 @@ class Points {
     const NodeFrame& frame = entry(frames_, v);
     add(at(number_.at(v)), frame.place, 1);
     for (std::size_t k = 0; k < 4; ++k) {
-      // Of the way to e_k, and to e_(k+1), in the frame.
+      // Signs of the directions to e_k and e_(k+1) in the frame.
       const double ahead = k < 2 ? 1 : -1, left = k == 0 || k == 3 ? 1 : -1;
       Combination &beside = at(number_.beside(fan[k])), &inside = at(number_.inside(fan[k]));
       add(beside, frame.place, 1);
@@ -78,11 +78,11 @@ class Points {
   }
 
   // p0, p1, p2, p3: points of the side from v along fan[k]. It is quadratic, p1 = (p0 + 3 p2 - p3)/3, and the three
-  // tangents p1 - p0 add up to nothing.
+  // tangents p1 - p0 sum to zero.
   void set_irregular(int v) {
     const std::vector<Corner>& fan = entry(net_.fan, v);
     Combination& p0 = at(number_.at(v));
-    std::array<Combination, 3> sum;  // of the two inner points beside a side
+    std::array<Combination, 3> sum;  // of the two inner points next to a side
     for (const Corner c : fan) {
       add(p0, at(number_.beside(net_.beyond(c))), 3.0 / 6);
       add(p0, at(number_.at(net_.node(c, 1))), -1.0 / 6);
@@ -112,7 +112,7 @@ class Points {
     }
   }
 
-  // Of a net of six faces: the tangents are as long as those of a great circle's arc when the net is a cube.
+  // For a net of six faces: the tangents have the length for a great-circle arc if the net is a cube.
   void set_cube_corner(int v) {
     constexpr double tangent = 0.2247;
     const std::vector<Corner>& fan = entry(net_.fan, v);
@@ -168,7 +168,7 @@ std::vector<Combination> bezier_points(const SurfaceNet& net,
 
 std::array<int, 16> points_of(const SurfaceNet& net, int face) {
   const PointNumbers number{net.nodes(), net.faces()};
-  // Of each corner: itself, along its side, along the side before, inside.
+  // For each corner: itself, along its side, along the previous side, inside.
   constexpr int place[4][4] = {{0, 1, 4, 5}, {3, 7, 2, 6}, {15, 14, 11, 10}, {12, 8, 13, 9}};
   std::array<int, 16> points{};
   for (int k = 0; k < 4; ++k) {

@@ -11,7 +11,7 @@ namespace pulvis::space {
 using Combination = std::map<int, double>;  // number -> weight
 void add(Combination& to, const Combination& from, double factor);
 
-// Numbers of Bezier points: of a node; on the side that starts in a corner, next to it; inside, next to it.
+// Numbers of Bezier points: at a node; on the side that starts at a corner, next to it; inside, next to it.
 struct PointNumbers {
   int nodes, faces;
   int at(int node) const { return node; }
@@ -20,18 +20,18 @@ struct PointNumbers {
   int count() const { return nodes + 8 * faces; }
 };
 
-// What the surface does at a node, over the nodes of the net: its place, its derivatives towards the first and the second
-// of the fan's neighbours, the mixed one.
+// The surface at a node, in terms of the nodes of the net: its position, its derivatives towards the first and second
+// of the fan's neighbours, and the mixed derivative.
 struct NodeFrame {
   Combination place, along[2], twist;
 };
-// Those of the uniform bicubic B-spline; where three faces meet it is the surface about that decides, there is nothing
-// (on a cube the place).
+// Those of the uniform bicubic B-spline; empty where three faces meet, since the surrounding surface decides there
+// (on a cube: the position only).
 std::vector<NodeFrame> spline_frames(const SurfaceNet& net);
 
-// [points] over the nodes of the net. Patches meet with one tangent plane whatever the frames.
+// [points] over the nodes of the net. Patches share tangent planes for any frames.
 std::vector<Combination> bezier_points(const SurfaceNet& net, const std::vector<NodeFrame>& frames);
-// The numbers of a face's points, u first.
+// The point numbers of a face, u first.
 std::array<int, 16> points_of(const SurfaceNet& net, int face);
 
 }  // namespace pulvis::space

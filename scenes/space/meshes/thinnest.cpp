@@ -10,7 +10,7 @@ namespace {
 
 using Axes = std::array<Vec3, 3>;
 
-// dX/d(xi, eta, zeta) at the middle, twice: the edges there.
+// dX/d(xi, eta, zeta) at the centre, times two: the edges there.
 Axes middle_axes(const Shape& shape, const std::array<Row<Node>, 8>& hexahedron) {
   Axes axes{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   for (int corner = 0; corner < 8; ++corner) {

@@ -1,11 +1,11 @@
-// How thin the elements are that surfaces could pass through within a step of the run.
+// Thickness of the thinnest element: surfaces could pass through it within one step of the run.
 #pragma once
 
 #include "components/space/shape.hpp"
 
 namespace pulvis::space {
 
-// m: the least width of an element between opposite sides, at its middle.
+// m: the minimum width of an element between opposite sides, at its centre.
 double thinnest_part(const Shape& shape);
 
 }  // namespace pulvis::space

@@ -1,4 +1,4 @@
-// Triangles in space.
+// Triangles in three dimensions.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@ namespace pulvis::space {
 
 using Triangle = std::array<Vec3, 3>;
 
-// Twice its area, times its normal.
+// Twice its area times its normal.
 inline Vec3 area_vector(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
 // Ericson, Real-Time Collision Detection (2005), 5.1.5.

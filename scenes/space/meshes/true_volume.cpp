@@ -11,7 +11,7 @@ namespace {
 
 using Quads = std::vector<std::array<int, 4>>;
 
-constexpr double most_shift = 1.0 / 6;  // of the edges at a node: more makes spikes of sharp bends
+constexpr double most_shift = 1.0 / 6;  // of the edges at a node: more would turn sharp bends into spikes
 
 struct BilinearPlace {
   Vec3 at, area;
@@ -24,7 +24,7 @@ BilinearPlace bilinear(const std::vector<Vec3>& nodes, const std::array<int, 4>&
   return {(1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * c), by_u.cross(by_v)};
 }
 
-// Of a quad: its area, and the volume between it and the true surface beyond, within the rays through its sides.
+// For a quad: its area, and the volume between it and the true surface beyond, within the rays through its sides.
 struct Cut {
   double area = 0, volume = 0;
 };
@@ -41,7 +41,7 @@ Cut cut_of(const std::vector<Vec3>& nodes, const std::array<int, 4>& quad,
   return cut;
 }
 
-// How far the neighbours of each node lie behind its tangent plane, in the mean.
+// Mean distance by which the neighbours of each node lie behind its tangent plane.
 std::vector<double> bends(const std::vector<Vec3>& nodes, const Quads& quads,
                           const std::vector<Vec3>& normals) {
   std::vector<double> bend(nodes.size()), sides(nodes.size());
@@ -56,7 +56,7 @@ std::vector<double> bends(const std::vector<Vec3>& nodes, const Quads& quads,
   return bend;
 }
 
-// What a quad cuts off is made up for by its nodes in proportion to the bend of the surface there: flats stay flat.
+// The volume that a quad cuts off is restored by its nodes in proportion to the local bend: flats stay flat.
 std::vector<double> shifts(const std::vector<Vec3>& nodes, const Quads& quads,
                            const std::vector<Vec3>& normals, const StarSurface& surface) {
   const std::vector<double> bend = bends(nodes, quads, normals);

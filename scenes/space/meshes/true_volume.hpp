@@ -1,4 +1,4 @@
-// Surface nodes between which a mesh of flat-sided elements has the volume of the true shape.
+// Surface nodes for which a mesh of flat-sided elements has the volume of the true shape.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace pulvis::space {
 
-// Moves nodes from the true surface along its normals: each by what the quads about it cut off, times one factor for all
-// that closes the sum. Quads: counter-clockwise as seen from outside.
+// Moves nodes from the true surface along its normals: each by what the quads around it cut off, times one common
+// factor that makes the total right. Quads: counter-clockwise as seen from outside.
 void make_volume_true(std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& quads,
                       const StarSurface& surface);
 

@@ -7,16 +7,16 @@ namespace pulvis::space {
 namespace {
 
 constexpr int floor_wall = 0, punch = 1, round_wall = 2;
-constexpr int starts = 16;  // around the axis, for the point of a particle that is farthest from it
-constexpr int most_steps = 40;  // of each
+constexpr int starts = 16;  // around the axis, to find the particle's farthest point from it
+constexpr int most_steps = 40;  // for each
 constexpr double no_step = 1e-9;
 
-// Unit vectors at equal angles: (1, 0) turned on by 2 pi / 16 = 22.5 degrees.
+// Unit vectors at equal angles: (1, 0) rotated by 2 pi / 16 = 22.5 degrees.
 constexpr double cos_of_step = 0.92387953251128674, sin_of_step = 0.38268343236508977;
 
 struct Plane {
   V3 normal;      // into the powder
-  double offset;  // normal . x on it
+  double offset;  // normal . x on the plane
 };
 
 Plane plane_of(const Container& box, double height, int wall) {
@@ -45,7 +45,7 @@ struct Farthest {
   double from_axis = -1;
 };
 
-// From a direction on the support point's distance from the axis rises step by step to a largest one.
+// From a given direction, the support point's distance from the axis is increased to a maximum.
 Farthest climb(const RigidShape& shape, const RigidPose& pose, V3 along) {
   Farthest best;
   for (int i = 0; i < most_steps; ++i) {

@@ -1,5 +1,5 @@
-// The rigid box or round die that a powder is packed in: floor at z = 0, walls, and a punch that presses on it from above.
-// Of a box the corner is the origin, of a cylinder the centre of its floor. Lengths in units of a mean diameter.
+// The rigid box or round die that a powder is packed in: floor at z = 0, walls, and a punch that presses from above.
+// The origin is the corner of a box, or the centre of a cylinder's floor. Lengths in units of a mean diameter.
 #pragma once
 
 #include "scenes/space/packing/rigid_contact.hpp"
@@ -8,21 +8,21 @@ namespace pulvis::space {
 
 struct Container {
   ContainerSpec::Kind kind = ContainerSpec::Kind::box;
-  double width = 0, depth = 0;  // of a box
-  double radius = 0;            // of a cylinder
+  double width = 0, depth = 0;  // for a box
+  double radius = 0;            // for a cylinder
 
   double floor_area() const;
   bool round() const { return kind == ContainerSpec::Kind::cylinder; }
 };
 
-// Walls, floor and punch are counted from 0.
+// Walls, floor and punch are numbered from 0.
 int walls_of(const Container& container);
 
-// Deepest point of a particle in one of them; normal into the powder. None where it is farther away than `range`.
+// Deepest point of a particle in one of them; normal into the powder. None if it is farther away than `range`.
 std::optional<RigidTouch> wall_touch(const Container& container, double height, int wall,
                                      const RigidShape& shape, const RigidPose& pose, double range);
 
-// The same of a round wall about the z axis alone.
+// The same for a round wall around the z axis only.
 std::optional<RigidTouch> round_wall_touch(double radius, const RigidShape& shape,
                                            const RigidPose& pose, double range);
 

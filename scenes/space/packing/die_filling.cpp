@@ -12,8 +12,8 @@ namespace {
 constexpr double margin = 2.5e-4;  // of the smallest particle's diameter
 constexpr double touching = 1e-3;
 constexpr double hard_vibration =
-    0.2;  // diameters, between pressings: less does not leave a jam in three dimensions
-// Shaking goes on for as long as some seconds of one core take, half a minute for thousands: sweeps times particles.
+    0.2;  // diameters, between pressings: less does not break a jam in three dimensions
+// Shaking takes a few seconds of one core, half a minute for thousands of particles: sweeps times particles.
 constexpr double work_of_balls = 40e6;
 constexpr double work_of_many = 200e6;
 constexpr double work_of_others = 0.8e6;

@@ -1,4 +1,4 @@
-// A random packing the way a die is filled (scenes/packing/press.hpp), of rigid convex particles.
+// A random packing made like a die filling (scenes/packing/press.hpp), from rigid convex particles.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ struct DieFilling {
   std::vector<RigidShape> shapes = {};  // in units of the powder's mean diameter
   std::vector<int> shape_of = {};       // [particles]
   Container container = {};
-  double min_height = 0;  // the punch goes no farther
-  bool shaken = true;     // on after nothing moves any more
+  double min_height = 0;  // the punch does not go below it
+  bool shaken = true;     // continue shaking after nothing moves any more
   std::uint64_t seed = 1;
 
   double volume() const;  // of all particles
@@ -23,8 +23,8 @@ struct FilledDie {
   std::vector<RigidPose> poses;
   double height = 0;
   double mean_gap = 0;  // to the three nearest neighbours, in diameters
-  double min_gap = 0;   // largest that is known to lie between any two
-  int touches = 0;      // pairs with a gap below a thousandth of a diameter
+  double min_gap = 0;   // largest proven lower bound between any two
+  int touches = 0;      // pairs with a gap below 1/1000 of a diameter
 };
 
 FilledDie fill_die(const DieFilling& order);

@@ -101,7 +101,7 @@ class RandomPacking {
     return found == origins_.end() ? document::Origin{{1, 1}, -1} : found->second;
   }
 
-  // A particle must get through in some position.
+  // A particle must fit through in some orientation.
   bool everything_fits() {
     const ContainerSpec& in = packing_.container;
     const bool round = in.kind == ContainerSpec::Kind::cylinder;
@@ -124,7 +124,7 @@ class RandomPacking {
     return true;
   }
 
-  // However high the die, some overlapped.
+  // Some overlapped, however high the die.
   void refuse_die() {
     const std::string key = order_.container.round() ? ".diameter" : ".width";
     problems_.add(origin(key), path_ + key,
@@ -166,7 +166,7 @@ class RandomPacking {
 
 double highest_point(const SpaceScene& scene, const std::vector<BodySpec>& bodies) {
   double highest = std::numeric_limits<double>::lowest();
-  std::map<int, RigidShape> shapes;  // of the classes
+  std::map<int, RigidShape> shapes;  // by class
   for (const BodySpec& body : bodies) {
     const ParticleSpec& particle = scene.particles[static_cast<std::size_t>(body.particle)];
     const auto found = shapes.find(body.particle);
@@ -194,7 +194,7 @@ void read_file(Scene& scene, PackingSpec& packing) {
   packing.top = filed.top ? *filed.top : highest_point(space, packing.placed);
 }
 
-// m, of the face of a punch that looks down, over its point: it is this place that rests on the packing.
+// m, highest point on the face of a downward-facing punch, above its point: it rests on the packing.
 double foremost_place(const ToolSpec& tool) {
   if (tool.shape != ToolSpec::Shape::punch || tool.profile.empty() || !(tool.normal.z() < 0))
     return 0;

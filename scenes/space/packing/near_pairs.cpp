@@ -8,7 +8,7 @@ namespace {
 
 constexpr int most_cells = 64;  // along an axis
 
-// Cells as wide as two largest balls and the range: neighbours lie in one cell or in two beside each other.
+// Cells as wide as two largest spheres plus the range: neighbours are in the same or adjacent cells.
 class BallGrid {
  public:
   BallGrid(const std::vector<Ball>& balls, double range) : balls_(balls), range_(range) {
@@ -48,7 +48,7 @@ class BallGrid {
     return number(steps(from_low.x), steps(from_low.y), steps(from_low.z));
   }
 
-  // With itself, and with the thirteen of its neighbours that come behind it.
+  // Pairs within the cell, and with the thirteen of its neighbours that follow it.
   void pairs_of_cell(int x, int y, int z, int layers) {
     const auto& own = cells_[number(x, y, z)];
     for (std::size_t i = 0; i < own.size(); ++i)

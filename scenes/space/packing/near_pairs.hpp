@@ -1,4 +1,4 @@
-// Pairs of balls that are near each other.
+// Pairs of spheres that are close to each other.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Ball {
   double radius;
 };
 
-// Of all balls whose gap is below `range`, the lower number first; in an order that the places alone decide.
+// All pairs of spheres with a gap below `range`, lower number first; the order depends only on positions.
 std::vector<std::pair<std::int32_t, std::int32_t>> near_pairs(const std::vector<Ball>& balls,
                                                               double range);
 

@@ -11,7 +11,7 @@
 namespace pulvis::space {
 namespace {
 
-constexpr double of_length_1 = 1e-14;  // a quaternion that a packing has is kept bit for bit
+constexpr double of_length_1 = 1e-14;  // a packing's own quaternions are kept bit for bit
 
 std::string described(const PackingSpec& packing) {
   const ContainerSpec& die = packing.container;
@@ -37,7 +37,7 @@ std::string header(const Scene& scene) {
   return text;
 }
 
-// Products summed one after the other: the same bits on every machine.
+// Products summed sequentially: identical bits on every machine.
 double length_of(const Rotation& q) {
   return std::sqrt(q.w() * q.w() + q.x() * q.x() + q.y() * q.y() + q.z() * q.z());
 }

@@ -1,5 +1,5 @@
-// Packings in files: `pulvis pack` writes them, [[packing]] with kind = "csv" reads them. Numbers are written so that they are
-// read back bit for bit. Columns class, x, y, z, qw, qx, qy, qz and, where not all are as the class says, scale.
+// Packing files: `pulvis pack` writes them, [[packing]] with kind = "csv" reads them. Numbers are written so that reading
+// them back gives identical bits. Columns class, x, y, z, qw, qx, qy, qz and, if any size differs from its class, scale.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace pulvis::space {
 
 struct FiledParticle {
-  int particle = 0;  // position in SpaceScene::particles
+  int particle = 0;  // index in SpaceScene::particles
   double scale = 1;  // of its shape
   Vec3 position = Vec3::Zero();
   Rotation rotation = Rotation::Identity();
@@ -22,7 +22,7 @@ struct FiledPacking {
   std::optional<double> top;  // m, where a punch rests
 };
 
-// Throws SceneError at the file's line. A quaternion that is not of length 1 is scaled to it; (0, 0, 0, 0) is refused.
+// Throws SceneError with the line of the file. Quaternions are normalised; (0, 0, 0, 0) is refused.
 FiledPacking read_packing(const std::filesystem::path& file, const Scene& scene);
 
 // All particles of the scene.

@@ -13,7 +13,7 @@ using Kind = PackingSpec::Kind;
 
 const double root_2_3 = std::sqrt(2.0 / 3.0);
 
-// Of a cubic cell, in its edges.
+// In a cubic cell, in units of its edges.
 std::vector<Vec3> particles_of_cell(Kind kind) {
   if (kind == Kind::body_centred) return {{0, 0, 0}, {0.5, 0.5, 0.5}};
   if (kind == Kind::face_centred) return {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};

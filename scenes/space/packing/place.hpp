@@ -1,6 +1,6 @@
-// From packings and bodies to single particles.
+// Individual particles from packings and bodies.
 //
-// Lattices stand between flat walls as a whole: the outermost particles lie half a distance of neighbours t off the corner.
+// Lattices stand between flat walls as a whole: the outermost particles are half a neighbour distance t from the corner.
 //   cubic         t = spacing, one particle in each cell
 //   body-centred  t = sqrt(3)/2 spacing, two: (0,0,0) and (1,1,1)/2 of a cell
 //   face-centred  t = spacing/sqrt(2), four: (0,0,0), (1,1,0)/2, (1,0,1)/2, (0,1,1)/2
@@ -14,7 +14,7 @@
 
 namespace pulvis::space {
 
-// Overlaps up to this share of the smaller particle's size are round-off: particles that touch exactly are meant to.
+// Overlaps up to this fraction of the smaller particle's size are round-off: particles may touch exactly on purpose.
 inline constexpr double touching_tolerance = 1e-9;
 
 bool is_lattice(const PackingSpec& packing);  // not random, not from a file
@@ -24,7 +24,7 @@ std::int64_t particle_count(const PackingSpec& packing);
 double top_of_lattice(const PackingSpec& packing);
 double top_of_packings(const SpaceScene& scene);
 
-// Every particle of the scene. Bodies and packings come in the order of the file; of a lattice along x, then y, then z, cell by
+// Every particle of the scene. Bodies and packings are in file order; a lattice along x, then y, then z, cell by
 // cell; random and CSV packings as they were filled. The position in the list is the particle's number.
 std::vector<BodySpec> place_bodies(const Scene& scene);
 

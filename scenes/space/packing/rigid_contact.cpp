@@ -61,7 +61,7 @@ bool RigidPair::open_portal(const V3& along, Portal& portal) const {
   return false;
 }
 
-// Where the ray goes through the portal, as a mean of its corners.
+// Where the ray crosses the portal, as a weighted mean of its corners.
 RigidTouch RigidPair::touch_at(const V3& along, const V3& normal, double gap,
                                const Portal& p) const {
   std::array<double, 3> weight{std::max(triple(p[1].at, p[2].at, along), 0.0),
@@ -104,7 +104,7 @@ std::optional<RigidTouch> RigidPair::touch(double range, V3& normal, double flat
   }
 }
 
-// Steepest ascent of the gap over the unit sphere; a step that does not pay is halved.
+// Steepest ascent of the gap on the unit sphere; a step without gain is halved.
 double RigidPair::distance(V3 normal) const {
   if (a_.is_ball() && b_.is_ball()) return length(apart_) - a_.radius - b_.radius;
   V3 out = apart_ - support(normal).at;

@@ -1,6 +1,6 @@
-// Position-based dynamics of rigid bodies (Mueller et al. 2007; Jakobsen 2001): one overlap after the other is taken away by
-// moving and turning its two particles, in proportion to their mobilities, as an impulse at the touch would. Sweeps over
-// all pairs, forwards and backwards in turn, are Gauss-Seidel iterations for a state without overlaps. No friction.
+// Position-based dynamics of rigid bodies (Mueller et al. 2007; Jakobsen 2001): one overlap after another is removed by
+// moving and rotating its two particles, in proportion to their mobilities, as an impulse at the contact would. Sweeps over
+// all pairs, alternately forwards and backwards, are Gauss-Seidel iterations towards a state without overlaps. No friction.
 #include "scenes/space/packing/rigid_powder.hpp"
 
 #include <algorithm>
@@ -12,20 +12,20 @@
 namespace pulvis::space {
 namespace {
 
-constexpr double list_range = 0.25;       // of a mean diameter: pairs this near are listed
-constexpr double max_displacement = 0.2;  // that one correction may move a particle
-constexpr double max_turn = 0.25;         // half of it, rad
-constexpr double gap_range = 0.5;         // of a diameter: neighbours farther than this are none
-constexpr double kept_speed = 0.95;       // of the last sweep; without it pushes spread like heat
-constexpr double kept_margin = 0.1;       // of two margins, which a relaxed touch keeps
-constexpr int wall_rounds = 3;            // of a particle that lies flat on a wall
+constexpr double list_range = 0.25;       // of a mean diameter: closer pairs are listed
+constexpr double max_displacement = 0.2;  // of a particle in one correction
+constexpr double max_turn = 0.25;         // half of the angle, rad
+constexpr double gap_range = 0.5;         // of a diameter: farther particles are not neighbours
+constexpr double kept_speed = 0.95;       // from the last sweep; without it, displacements spread diffusively
+constexpr double kept_margin = 0.1;       // of two margins, which a relaxed contact keeps
+constexpr int wall_rounds = 3;            // for a particle that lies flat on a wall
 
 V3 random_vector(portable::Random& random, double size) {
   const double x = random.between(-size, size), y = random.between(-size, size);
   return {x, y, random.between(-size, size)};
 }
 
-// Evenly over all rotations: a point of the unit ball in four dimensions, drawn until it is not too near its centre.
+// Uniform over all rotations: a point in the unit ball in four dimensions, redrawn if too close to its centre.
 Turn random_turn(portable::Random& random) {
   for (;;) {
     const double w = random.between(-1, 1);
@@ -102,7 +102,7 @@ bool RigidPowder::relax(int max_sweeps) {
   return false;
 }
 
-// Particles go on as they moved in the last sweep, but for a share that is lost.
+// Particles continue to move as in the last sweep, apart from a fraction that is lost.
 void RigidPowder::drift() {
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const RigidPose& then = before_[i];
@@ -144,8 +144,8 @@ double RigidPowder::sweep() {
   return worst;
 }
 
-// Moves particle i as a push along `correction` at `arm` from its centre does, whose strength is the length of `correction`
-// in units of volume.
+// Moves particle i like an impulse along `correction` at `arm` from its centre, whose magnitude is the length of
+// `correction` in units of volume.
 void RigidPowder::correct(std::size_t i, const V3& arm, const V3& correction) {
   const RigidShape& s = shape(i);
   poses_[i].at = poses_[i].at + (1 / s.volume) * correction;
@@ -181,7 +181,7 @@ double RigidPowder::push(Pair& pair) {
   return overlap;
 }
 
-// Of each wall the deepest point, then again the deepest: where a flat side lies on a wall the other end.
+// For each wall, the deepest point, then the deepest again: for a flat side on a wall, its other end.
 double RigidPowder::push_from_walls(std::size_t i) {
   const RigidShape& s = shape(i);
   double worst = 0;

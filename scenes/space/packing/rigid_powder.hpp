@@ -1,5 +1,5 @@
-// Rigid particles between walls, floor and punch of a die: pushed out of each other, shaken, squeezed. Lengths in units of a
-// mean diameter. The same as scenes/packing/rigid_powder.hpp in three dimensions.
+// Rigid particles between walls, floor and punch of a die: separated, shaken, squeezed. Lengths in units of a
+// mean diameter. The counterpart of scenes/packing/rigid_powder.hpp in three dimensions.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@ namespace pulvis::space {
 
 class RigidPowder {
  public:
-  // `margin`: particles are pushed apart as if each were wider by this all around, so that what is left of their overlap at
-  // the end is a gap.
+  // `margin`: particles are separated as if each were larger by this all around, so that any overlap left at
+  // the end is still a gap.
   RigidPowder(const std::vector<RigidShape>& shapes, std::vector<int> shape_of,
               const Container& container, double margin);
 
   void scatter(double height,
-               portable::Random& random);  // anywhere, turned anyhow, overlaps and all
-  void squeeze(double height);             // every particle's place is scaled with it
+               portable::Random& random);  // anywhere, in any orientation, overlaps allowed
+  void squeeze(double height);             // scales all particle positions with it
   void shake(double displacement, portable::Random& random);
 
-  // Pushes particles apart until no two overlap; false where that takes more than so many sweeps.
+  // Separates particles until no two overlap; false if that takes more than `max_sweeps`.
   bool relax(int max_sweeps);
 
   double height() const { return height_; }
@@ -31,16 +31,16 @@ class RigidPowder {
   void restore(const std::vector<RigidPose>& poses, double height);
   std::int64_t sweeps() const { return sweeps_; }
 
-  double min_gap();  // of all particles to each other and to the walls; negative where they overlap
-  // Gaps of every particle to its three nearest neighbours, walls being neighbours, in its diameters; a particle without
-  // one within half a diameter counts half a diameter. `touches`: pairs of particles whose gap is below `touching`
+  double min_gap();  // of all particles to each other and to the walls; negative if they overlap
+  // Gaps of every particle to its three nearest neighbours, walls included, in its diameters; without a neighbour
+  // within half a diameter, half a diameter is used. `touches`: pairs of particles whose gap is below `touching`
   // diameters of the smaller one.
   std::vector<std::array<double, 3>> near_gaps(double touching, int& touches);
 
  private:
   struct Pair {
     std::int32_t a, b;
-    V3 normal;  // along which they were apart, or touched, last
+    V3 normal;  // along which they were apart, or in contact, last
   };
   const RigidShape& shape(std::size_t i) const {
     return shapes_[static_cast<std::size_t>(shape_of_[i])];
@@ -49,7 +49,7 @@ class RigidPowder {
   void find_pairs(double range);
   bool lists_hold() const;
   void drift();
-  double sweep();  // largest overlap it met
+  double sweep();  // largest overlap found
   double push(Pair& pair);
   double push_from_walls(std::size_t i);
   void correct(std::size_t i, const V3& arm, const V3& correction);
@@ -60,8 +60,8 @@ class RigidPowder {
   double margin_;
   double height_ = 0;
   std::vector<RigidPose> poses_;
-  std::vector<RigidPose> before_;  // the last sweep
-  std::vector<RigidPose> listed_;  // where particles were when the pairs were found
+  std::vector<RigidPose> before_;  // from the last sweep
+  std::vector<RigidPose> listed_;  // positions when the pairs were found
   std::vector<Pair> pairs_;
   std::int64_t sweeps_ = 0;
 };

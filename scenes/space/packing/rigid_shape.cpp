@@ -20,7 +20,7 @@
 namespace pulvis::space {
 namespace {
 
-constexpr int samples = 24;  // of an STL shape, along an edge of a cube of directions
+constexpr int samples = 24;  // for an STL shape, along an edge of a cube of directions
 constexpr std::size_t most_corners = 4000;
 
 V3 ellipsoid_support(const V3& half, const V3& n) {
@@ -38,7 +38,7 @@ double dual_norm(double& p, double& q, double e) {
   return log_s;
 }
 
-// The norm of which a superquadric is the unit ball has as dual norm its support function, with exponents e/(e-1):
+// The norm whose unit ball is the superquadric has the support function as its dual norm, with exponents e/(e-1):
 // h = || || (a n_x, b n_y) ||_e', c n_z ||_f'. The point is its gradient.
 V3 superquadric_support(const RigidShape& shape, const V3& n) {
   constexpr double smallest = 1e-200;  // has a logarithm
@@ -59,7 +59,7 @@ V3 cylinder_support(const V3& half, const V3& n) {
   return {share * n.x, share * n.y, n.z < 0 ? -half.z : half.z};
 }
 
-// Largest sqrt(x^2 + y^2) where (x/a)^e + (y/b)^e = 1 (Hoelder).
+// Maximum of sqrt(x^2 + y^2) where (x/a)^e + (y/b)^e = 1 (Hoelder).
 double farthest(double a, double b, double e) {
   if (e <= 2) return std::max(a, b);
   const double q = 2 * e / (e - 2), most = std::max(a, b);
@@ -141,10 +141,10 @@ std::vector<V3> points_along(const StarSurface& surface, const std::vector<Vec3>
 
 struct OutsidePoint {
   Vec3 point, direction;
-  double at_most;  // distance from the hull
+  double at_most;  // upper bound of the distance from the hull
 };
 
-// A point of the surface over a cell, unless it is inside of the hull, which holds the triangle that is seen behind it.
+// A surface point over a cell, unless it is inside the hull, which contains the triangle seen behind it.
 std::optional<OutsidePoint> outside(const Vec3& point, const Vec3& direction,
                                     const Triangle& triangle) {
   const Vec3 normal = area_vector(triangle);
@@ -152,7 +152,7 @@ std::optional<OutsidePoint> outside(const Vec3& point, const Vec3& direction,
   return OutsidePoint{point, direction, (point - closest_point(triangle, point)).norm()};
 }
 
-// Of those at nine places of each cell of the cube.
+// The points outside among nine in each cell of the cube.
 std::vector<OutsidePoint> points_outside(const StarSurface& surface) {
   std::vector<OutsidePoint> found;
   const auto grid = even_directions();
@@ -177,9 +177,9 @@ std::vector<OutsidePoint> points_outside(const StarSurface& surface) {
   return found;
 }
 
-// How far the surface lies outside of the hull at most; a quarter more, since it is looked at in places. A ball of this
-// radius about each of the hull's points covers it. The distance from a hull of many points takes long, so it is only
-// asked for where it may be the largest.
+// The maximum distance of the surface outside the hull; a quarter more, since it is sampled. A sphere of this
+// radius around each of the hull's points covers it. The distance from a hull of many points is expensive, so it is only
+// computed where it may be the maximum.
 double bulge_of(const StarSurface& surface, const RigidShape& hull, double unit) {
   std::vector<OutsidePoint> points = points_outside(surface);
   std::ranges::sort(points, std::greater(), &OutsidePoint::at_most);
@@ -196,8 +196,8 @@ double bulge_of(const StarSurface& surface, const RigidShape& hull, double unit)
   return 1.25 * most;
 }
 
-// The convex hull: hollows stay empty. Of its corners; of many, or of a smoothed surface, of points on it, with what
-// bulges out between them.
+// The convex hull: hollows are filled. Of its corners or, if there are many or the surface is smoothed, of points on it,
+// plus the bulge between them.
 void set_core(const StlShape& s, double unit, RigidShape& rigid) {
   const auto surface = star_surface(s);
   std::vector<Vec3> directions = directions_of_corners(s);
@@ -254,7 +254,7 @@ RigidShape make_rigid(const RigidKey& key) {
   std::visit([&rigid, length = unit](const auto& s) { set_core(s, length, rigid); }, shape);
   const V3 half = 0.5 * extent_of(rigid);
   rigid.volume = volume_of(shape) / (unit * unit * unit);
-  rigid.gyration = 2.0 / 15 * dot(half, half);  // of an ellipsoid, the mean over its axes
+  rigid.gyration = 2.0 / 15 * dot(half, half);  // for an ellipsoid, the mean over its axes
   rigid.diameter = ball_of(rigid.volume);
   return rigid;
 }
@@ -262,8 +262,8 @@ RigidShape make_rigid(const RigidKey& key) {
 }  // namespace
 
 RigidShape rigid_shape(const ParticleShape& shape, double unit) {
-  // Those of STL shapes take a while, and a check and the run ask for the same ones.
-  static ResultCache<RigidKey, RigidShape> cache(16 << 20);  // bytes, about
+  // Those of STL shapes are expensive, and a check and the run request the same ones.
+  static ResultCache<RigidKey, RigidShape> cache(16 << 20);  // bytes, approximately
   const auto size = [&](const RigidShape& made) {
     return sizeof(RigidKey) + stl_bytes(shape) + made.table.bytes();
   };
@@ -278,7 +278,7 @@ RigidShape contact_shape(const ParticleSpec& particle, double unit) {
     if (bulge < little * shape.diameter / 2) return shape;
     shape.radius += bulge;
     shape.reach += bulge;
-  } catch (const std::invalid_argument&) {  // no mesh of it: told by the layout of the particles
+  } catch (const std::invalid_argument&) {  // it has no mesh: the particle layout reports that
   }
   return shape;
 }

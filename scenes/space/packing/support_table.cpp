@@ -40,7 +40,7 @@ std::size_t extreme_of(const std::vector<V3>& points, const V3& d) {
 
 }  // namespace
 
-// p is extreme along no n of a cell about c, |n - c| <= r, where (p - q).c + r |p - q| < 0, q being extreme along c.
+// p is extreme along no n of a cell around c, |n - c| <= r, if (p - q).c + r |p - q| < 0, q being extreme along c.
 SupportTable::SupportTable(std::vector<V3> points) : points_(std::move(points)) {
   constexpr double half = 1.0 / cells;
   const double around = std::sqrt(2.0) * half * (1 + 1e-9);

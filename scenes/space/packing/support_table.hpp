@@ -1,5 +1,5 @@
-// The point of many that lies farthest along a direction. Directions are looked up in the cells of a cube around them, each of
-// which keeps the few points that are extreme along one of its directions.
+// The farthest of many points along a direction. Directions are looked up in the cells of a cube around them; each cell
+// holds the few points that are extreme along one of its directions.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ class SupportTable {
  public:
   SupportTable() = default;
   explicit SupportTable(std::vector<V3> points);
-  const V3& extreme(const V3& direction) const;  // of any length but 0
+  const V3& extreme(const V3& direction) const;  // of any length except 0
   const std::vector<V3>& points() const { return points_; }
   std::size_t bytes() const {
     return (points_.size() + candidates_.size()) * sizeof(V3) + begin_.size() * sizeof(begin_[0]);

@@ -1,5 +1,5 @@
-// Vectors and rotations of packings: plain arithmetic, whose order is the same on every machine (scenes/outlines/portable.hpp
-// says why). Rotations need no sine here.
+// Vectors and rotations for packings: plain arithmetic in a fixed order, identical on every machine (reasons in
+// scenes/outlines/portable.hpp). Rotations need no sine here.
 #pragma once
 
 #include <cmath>
@@ -36,8 +36,8 @@ inline V3 operator*(const Turn& q, const V3& a) {
   return a + q.w * twice + cross(u, twice);
 }
 inline V3 turned_back(const Turn& q, const V3& a) { return reversed(q) * a; }
-// Turned on, about the direction of `half` by twice the arc tangent of its length (Cayley's map): about twice the length
-// where that is small.
+// Rotated further, about the direction of `half` by twice the arc tangent of its length (Cayley map): about twice the length
+// if that is small.
 inline Turn turned(const Turn& q, const V3& half) {
   const Turn r = Turn{1, half.x, half.y, half.z} * q;
   const double norm = 1 / std::sqrt(r.w * r.w + r.x * r.x + r.y * r.y + r.z * r.z);

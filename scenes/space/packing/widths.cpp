@@ -10,11 +10,11 @@
 namespace pulvis::space {
 namespace {
 
-constexpr int grid = 16;         // directions along an edge of a cube of them
-constexpr int tries = 6;         // of the narrowest of them, each followed down
+constexpr int grid = 16;         // directions along an edge of a cube of directions
+constexpr int tries = 6;         // number of narrowest directions that are refined
 constexpr double finest = 1e-7;  // rad, where a search ends
 constexpr double clearly =
-    1 - 1e-6;  // narrower than along an axis of its own, rather than by rounding
+    1 - 1e-6;  // clearly narrower than along one of its axes, not just by round-off
 
 struct Width {
   V3 along;
@@ -27,7 +27,7 @@ class WidthSearch {
 
   Width least() const {
     std::vector<Width> found;
-    for (int side = 0; side < 3; ++side)  // the other three are their opposites
+    for (int side = 0; side < 3; ++side)  // the other three are opposite directions
       for (int i = 0; i <= grid; ++i)
         for (int k = 0; k <= grid; ++k) {
           const double u = 2.0 * i / grid - 1, v = 2.0 * k / grid - 1;
@@ -72,7 +72,7 @@ class WidthSearch {
     return {a, cross(n, a)};
   }
 
-  // Downhill in ever smaller steps along the two vectors across it and between them.
+  // Descent in ever smaller steps along the two vectors perpendicular to it and between them.
   template <class Across>
   Width followed(Width best, const Across& across) const {
     for (double step = 2.0 / grid; step > finest; step /= 2)

@@ -1,4 +1,4 @@
-// How wide a particle is: between two parallel planes that touch it.
+// The width of a particle: the distance between two parallel planes that touch it.
 #pragma once
 
 #include "scenes/spec/space_scene.hpp"
@@ -6,10 +6,10 @@
 namespace pulvis::space {
 
 struct Widths {
-  double least = 0;   // m, along any direction
-  double middle = 0;  // m, the least one across that direction: what passes a sieve
+  double least = 0;   // m, minimum over all directions
+  double middle = 0;  // m, minimum across that direction: the sieve size
 };
-// Of its convex hull, however the shape lies in its own axes.
+// Of its convex hull, for any orientation of the shape in its axes.
 Widths widths_of(const ParticleShape& shape);
 
 }  // namespace pulvis::space

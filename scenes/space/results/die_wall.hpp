@@ -1,4 +1,4 @@
-// What a powder does to the wall of a round die.
+// Load of the powder on the wall of a round die.
 #pragma once
 
 #include "components/die_room.hpp"
@@ -6,7 +6,7 @@
 
 namespace pulvis::space {
 
-// N, across the wall, of all points of contact: those on opposite sides do not cancel as they do in the force on the die.
+// N, normal to the wall, summed over all contact points: unlike in the resultant force on the die, opposite sides add up.
 // `die`: the tool; `axis`: unit vector.
 double normal_force_on_die(const World& world, int die, const DieRoom::Vector& axis);
 

@@ -13,7 +13,7 @@ namespace pulvis::space {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double min_room = 0.5;  // of a cell, to be looked at for the extremes
+constexpr double min_room = 0.5;  // of a cell, for it to count towards the extremes
 
 DensityGrid::Profile profile_of(const ToolSpec& tool) {
   DensityGrid::Profile profile;
@@ -39,7 +39,7 @@ struct DensityCells {
   explicit DensityCells(const DensityGrid& of) : grid(of) {
     for (std::size_t k = 0; k < 3; ++k) whole *= (grid.high[k] - grid.low[k]) / grid.cells[k];
   }
-  // A cell without room but for round-off has no density.
+  // A cell whose room is only round-off has no density.
   double density(double filled, double room) const {
     return room > 1e-9 * whole ? filled / room : unknown;
   }
@@ -113,7 +113,7 @@ void append_density_sample(const World& world, std::vector<double>& row) {
     filled += grid.filled[c];
     room += grid.room[c];
     if (grid.room[c] < min_room * view.whole) continue;
-    minimum = std::fmin(minimum, cells[c]);  // the other one where one is no number
+    minimum = std::fmin(minimum, cells[c]);  // the other value if one is NaN
     maximum = std::fmax(maximum, cells[c]);
   }
   const double mean = filled / room;

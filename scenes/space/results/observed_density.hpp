@@ -9,7 +9,7 @@
 
 namespace pulvis::space {
 
-// Whether the tools stand around a room along whose axes a grid can be laid.
+// Whether the tools enclose a room along whose axes a grid can be aligned.
 bool has_grid_room(const Scene& scene);
 void add_observed_density(World& world, const Scene& scene);
 

@@ -1,4 +1,4 @@
-// output.contacts in three dimensions: the network of contacts, and what it is like as a whole.
+// output.contacts in three dimensions: the contact network and its global measures.
 #pragma once
 
 #include <vector>

@@ -9,11 +9,11 @@
 
 namespace pulvis::space {
 
-// Its columns, to a world that has its particles.
+// Adds its columns to a world that already has its particles.
 void add_observed_stress(World& world, const Scene& scene);
 
 std::vector<SeriesInfo> stress_series(
-    const Scene& scene);  // none without a room that they refer to
+    const Scene& scene);  // none without a room to refer to
 std::vector<FieldInfo> stress_fields(const World& world);
 // `room`: m^3, between the tools.
 void append_stress_sample(const World& world, double room, std::vector<double>& row);

@@ -163,7 +163,7 @@ class SpaceParts : public ResultParts {
   double force(int tool, int k) const {
     return world_.column<ToolForce>().values()[tool_axes * tool + k];
   }
-  // N, on the tool of a side, away from the powder.
+  // N, on the tool at a side, away from the powder.
   double push(DieRoom::Side side, const DieRoom::Vector& outward) const {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -203,7 +203,7 @@ class SpaceParts : public ResultParts {
 
   const World& world_;
   std::optional<DieRoom> room_;
-  std::optional<double> yield_stress_;  // where all particles share one
+  std::optional<double> yield_stress_;  // if all particles share one
   double volume_ = 0;
   std::int64_t elements_ = 0;
   std::vector<bool> has_servo_;

@@ -1,4 +1,4 @@
-// Results of three dimensions.
+// Results in three dimensions.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Series of the history that three dimensions have instead of those of two.
+// History series in three dimensions that replace those of two dimensions.
 #pragma once
 
 #include <vector>

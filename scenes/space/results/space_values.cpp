@@ -21,7 +21,7 @@ struct ElementStresses {
   double effective = 0, pressure = 0;
 };
 
-// Means over the points of an element: its deviators, its mean stress; values stand `lane_count` apart.
+// Means over an element's points: deviatoric and mean stress; values are `lane_count` apart.
 template <int points>
 ElementStresses stresses_of(const double* s, double mean_stress) {
   ElementStresses mean;

@@ -1,4 +1,4 @@
-// Nodes and elements of three dimensions.
+// Node and element values in three dimensions.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace pulvis::space {
 
 bool is_plastic(const World& world);
-// position, velocity, effective_stress, pressure, stress, and plastic_strain where there is any.
+// position, velocity, effective_stress, pressure, stress, and plastic_strain if it exists.
 std::vector<ParticleValues> mesh_values(const World& world);
 
 }  // namespace pulvis::space

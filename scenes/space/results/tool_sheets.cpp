@@ -31,7 +31,7 @@ struct Reach {
   double low = 0, high = 0;
 };
 
-// Of the box along a direction, from `from`.
+// Extent of the box along a direction, from `from`.
 Reach reach_of(const Box& box, const Vec3& direction, const Vec3& from) {
   Reach reach{direction.dot(box.center() - from), direction.dot(box.center() - from)};
   for (const Vec3& corner : corners_of(box)) {
@@ -41,7 +41,7 @@ Reach reach_of(const Box& box, const Vec3& direction, const Vec3& from) {
   return reach;
 }
 
-// Two unit vectors across `axis`, along the scene's axes where that is; first cross second is `axis`.
+// Two unit vectors normal to `axis`, along the scene's axes if possible; first x second is `axis`.
 std::array<Vec3, 2> across(const Vec3& axis) {
   int least = 0;
   axis.cwiseAbs().minCoeff(&least);
@@ -77,7 +77,7 @@ FieldInfo ToolSheets::field() {
 
 ToolSheets::ToolSheets(const SpaceScene& scene, const Box& powder) : box_(powder) {
   const Vec3 middle = powder.center();
-  for (const ToolSpec& tool : scene.tools) {  // those far off lengthen no other
+  for (const ToolSpec& tool : scene.tools) {  // distant tools do not extend the others
     if (tool.shape != ToolSpec::Shape::plane) continue;
     const Vec3 foot = middle + tool.normal.dot(tool.point - middle) * tool.normal;
     if ((foot - middle).norm() < powder.diagonal().norm()) box_.extend(foot);

@@ -1,5 +1,5 @@
-// Surfaces of the tools in three dimensions for pictures, frame by frame. Planes and dies have no end for the powder; here
-// they reach as far as the powder and the planes around it did at the start. A plane across a die is as round as that.
+// Tool surfaces in three dimensions for display, frame by frame. Planes and dies are infinite for the powder; here they
+// extend as far as the powder and the planes around it did at the start. A plane across a die is as round as the die.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,12 +13,12 @@ namespace pulvis::space {
 
 class ToolSheets {
  public:
-  // `powder`: the box of its nodes at the start, m.
+  // `powder`: bounding box of its nodes at the start, m.
   ToolSheets(const SpaceScene& scene, const Eigen::AlignedBox3d& powder);
 
   static FieldInfo field();
   const ToolFaces& faces() const { return faces_; }
-  // Rows of the field: `places` has x, y, z of the tools in their order.
+  // Rows of the field: `places` holds x, y, z of the tools in order.
   std::vector<double> points(std::span<const double> places) const;
 
  private:
@@ -29,12 +29,12 @@ class ToolSheets {
   void add_die(const ToolSpec& die);
   void add_punch(const ToolSpec& punch);
   void add_triangles(const ToolSpec& tool);
-  void add_piece(std::span<const Vec3> corners);  // three or four, from the tool's place
+  void add_piece(std::span<const Vec3> corners);  // three or four, relative to the tool's position
   void add_between(const Ring& inner, const Ring& outer);
 
   Eigen::AlignedBox3d box_;
   ToolFaces faces_;
-  std::vector<Vec3> corners_;  // m, from the tool's place
+  std::vector<Vec3> corners_;  // m, relative to the tool's position
   std::vector<int> tool_;      // of each corner
 };
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double along_axis = 1 - 1e-12;  // cosine between a tool's normal and an axis
 constexpr int nobody = -1;
 
-// m^3, between the plane through `point` and the face: integral of 2 pi r h(r), straight between the points.
+// m^3, between the plane through `point` and the face: integral of 2 pi r h(r), linear between the points.
 double volume_of_face(const ToolSpec& punch) {
   double sum = 0;
   for (std::size_t i = 1; i < punch.profile.size(); ++i) {
@@ -22,7 +22,7 @@ double volume_of_face(const ToolSpec& punch) {
   return sum;
 }
 
-// Puts a tool on the side that its normal looks away from.
+// Assigns a tool to the side from which its normal points inwards.
 bool stand_on(DieRoom& room, DieRoom::Side low, const Vec3& axis, const ToolSpec& tool,
               int number) {
   const double cosine = tool.normal.dot(axis);

@@ -1,4 +1,4 @@
-// The room around a powder, which its relative density refers to: the box between six planes, or a round die between two
+// The room around a powder to which its relative density refers: the box between six planes, or a round die between two
 // planes or punches.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace pulvis::space {
 
-// None where other tools stand beside them, or some are missing. Normals must be along the axes, or along the die's.
+// None if there are other tools besides them, or some are missing. Normals must be along the axes, or the die's axis.
 std::optional<DieRoom> die_room(const Scene& scene);
 
 }  // namespace pulvis::space

@@ -1,4 +1,4 @@
-// From a scene's tools and stages to columns and to what moves the tools: programme, servos, and what ends a stage early.
+// Columns and tool motion from a scene's tools and stages: programme, servos, and conditions that end a stage early.
 #pragma once
 
 #include "engine/world.hpp"
@@ -6,13 +6,13 @@
 
 namespace pulvis::space {
 
-// In which a servo pushes; zero where nothing says it.
+// The direction in which a servo pushes; zero if unspecified.
 Vec3 direction_of(const ServoSpec& servo, const SpaceScene& scene);
 
-// Whether in some stage a tool holds a force, or is moved by a drive that gives.
+// Whether in any stage a tool is force-controlled, or is moved by a compliant drive.
 bool has_servos(const SpaceScene& scene);
 
-// The world has its bodies with their shapes.
+// The world must have its bodies with their shapes.
 void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis::space

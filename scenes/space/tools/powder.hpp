@@ -1,5 +1,5 @@
-// What the powder of a scene is as a whole, from a world that has its bodies with their shapes. Its columns are not looked at:
-// of several ranks each has those of its own bodies only.
+// Global properties of a scene's powder, from a world that has its bodies with their shapes. Its columns are not used:
+// with several ranks, each has only those of its own bodies.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace pulvis::space {
 
-// Planes and punches: whose normal says where the powder is.
+// Planes and punches: their normal gives the side of the powder.
 bool has_face(const ToolSpec& tool);
 
 struct Powder {
@@ -19,7 +19,7 @@ struct Powder {
 };
 Powder powder_of(const World& world, const Scene& scene);
 
-// m^2, of the box around the particles, across a direction; particles count as the balls that hold them.
+// m^2, of the box around the particles, perpendicular to a direction; particles count as their bounding spheres.
 double section_across(const World& world, const std::vector<BodySpec>& bodies,
                       const Vec3& direction);
 

@@ -14,8 +14,8 @@ constexpr double far = std::numeric_limits<double>::max();
 
 }  // namespace
 
-// Triangles are kept in a tree of boxes. What is nearest to the centre, at a distance d, is looked for farther and farther
-// away; what is nearest to another point of the ball is within d + 2 reach of the centre.
+// Triangles are kept in a tree of boxes. The nearest one to the centre, at a distance d, is searched for at increasing
+// distances; the nearest one to any other point of the sphere is within d + 2 reach of the centre.
 void ToolDepth::look_about(const Vec3& centre, double reach) {
   if (shape_.kind != ToolShapes::Kind::mesh || shape_.mesh.triangles.empty()) return;
   const Vec3 from = centre - tool_.point;

@@ -1,4 +1,4 @@
-// How deep points stand in punches and STL tools, before anything moves.
+// Penetration depth of points in punches and STL tools, before anything moves.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace pulvis::space {
 class ToolDepth {
  public:
   struct Place {
-    double depth;  // m, behind the surface; below 0 in front of it
-    Vec3 out;      // unit vector of the shortest way to the surface, or from it
+    double depth;  // m, behind the surface; negative in front of it
+    Vec3 out;      // unit vector of the shortest path to the surface, or from it
   };
 
   // `shape`: of the tool (tool_shapes.hpp). Both must outlive it.
   ToolDepth(const ToolSpec& tool, const ToolShapes::Shape& shape) : tool_(tool), shape_(shape) {}
 
-  // Before `at`: the ball that holds all points asked for, in m.
+  // Call before `at`: the sphere that contains all query points, in m.
   void look_about(const Vec3& centre, double reach);
   Place at(const Vec3& point) const;
 
@@ -29,7 +29,7 @@ class ToolDepth {
 
   const ToolSpec& tool_;
   const ToolShapes::Shape& shape_;
-  std::vector<std::int32_t> triangles_;  // those that can be nearest
+  std::vector<std::int32_t> triangles_;  // those that can be the nearest
 };
 
 }  // namespace pulvis::space

@@ -34,7 +34,7 @@ Kind kind_of(const ToolSpec& tool) {
   return Kind::mesh;
 }
 
-// make_surface counts from the first point.
+// make_surface uses coordinates relative to the first point.
 void move_by(const Vec2& shift, ToolSurface& surface) {
   for (ToolSurface::Piece& piece : surface.pieces) {
     piece.x += shift.x();

@@ -1,4 +1,4 @@
-// What the particles touch of a scene's tools.
+// The contact surfaces of a scene's tools.
 #pragma once
 
 #include "components/space/tools.hpp"
@@ -8,8 +8,8 @@ namespace pulvis::space {
 
 ToolShapes tool_shapes(const SpaceScene& scene);
 
-// The meridian of a punch about its axis (x: radius, y: height over its point): the profile, or a flat face, on both sides of
-// the axis. Beyond its rim it goes on outward where it fills its die (`open`), else its side goes down from there.
+// The meridian of a punch about its axis (x: radius, y: height above its point): the profile, or a flat face, on both sides
+// of the axis. Beyond its rim it continues outward if the punch fills its die (`open`), otherwise its side goes down there.
 ToolSurface punch_meridian(const ToolSpec& punch, bool open);
 
 }  // namespace pulvis::space

@@ -1,4 +1,4 @@
-// The surface of an STL tool, made ready for contact.
+// The surface of an STL tool, prepared for contact.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace pulvis::space {
 
-// Corners that coincide exactly are one. Triangles without area are left out.
+// Corners that coincide exactly are merged. Triangles with zero area are dropped.
 TriangleMesh triangle_mesh(const std::vector<std::array<Vec3, 3>>& triangles);
 
 }  // namespace pulvis::space

@@ -3,8 +3,8 @@
 //
 // Source   systems/space/body/damping_kernel.hpp; force, velocities and work as in two dimensions
 //          (systems/body/damping_force.cpp)
-// Runs     after the forces of the stresses, before integrate
-// Active   when a material of the scene has [material.damping]
+// Runs     after the stress forces, before integrate
+// Active   if a material of the scene has [material.damping]
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
@@ -16,12 +16,12 @@ namespace {
 
 using ViscosityOfPart = kernels::Viscosity<Packet>;
 
-// An element's modes now, half a step back, and their rates.
+// An element's modes now and half a step back, and their rates.
 struct MovingModes {
   kernels::ElementModes<Packet> now, middle, rate;
 };
 
-// One point, and the hourglass modes that it does not see.
+// One point, plus its hourglass modes.
 template <class Force>
 void add_viscous_force(OnePoint, const Force& force, const MovingModes& m,
                        const ViscosityOfPart& viscosity, const Shape& shape, Row<Element> e) {
@@ -48,7 +48,7 @@ void add_viscous_force(OnePoint, const Force& force, const MovingModes& m,
                        kernels::hourglass_moment(y, m.now), element.gradient);
 }
 
-// Eight points with a mean dilatation.
+// Eight points with mean dilatation.
 template <class Force>
 void add_viscous_force(EightPoint, const Force& force, const MovingModes& m,
                        const ViscosityOfPart& viscosity, const Shape& shape, Row<Element> e) {
@@ -83,7 +83,7 @@ void add_viscous_force(EightPoint, const Force& force, const MovingModes& m,
   add_force(force, entry(shape.hexahedra, e), 2, sum.z);
 }
 
-// Power of a force on nodes that move with v.
+// Power of nodal forces at nodal velocities v.
 template <class Forces, class Velocities>
 Packet power(const Shape& shape, const Forces& force, const Velocities& v) {
   Packet sum{};

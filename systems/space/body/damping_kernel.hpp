@@ -1,8 +1,8 @@
-// Bulk damping of a hexahedron: stresses in proportion to the rate of strain. Laws, source and validity are those of two
+// Bulk damping of a hexahedron: stresses proportional to the strain rate. Laws, source and validity as in two
 // dimensions (systems/body/damping_kernel.hpp).
 //
-// Symbols  L = F' F^-1, D = sym L   rate of deformation [1/s], on the positions half a step back, where a rigid
-//                                   rotation, however large, has none
+// Symbols  L = F' F^-1, D = sym L   rate of deformation [1/s], at the positions half a step back, where it is
+//                                   zero for any rigid rotation, however large
 //          p'                       rates of the hourglass components (hourglass_kernel.hpp): fibre F^-1 (h' - L h)
 // Law      s = beta 2 mu/theta dev D,   p = beta K/2 (theta + 1/theta) tr D,   hourglass stress = beta moduli e(p')
 #pragma once
@@ -15,10 +15,10 @@ namespace pulvis::space::kernels {
 template <class T>
 struct Viscosity {
   T shear, bulk;              // Pa s: beta times 2 mu, K
-  HourglassModuli<T> moduli;  // Pa s: beta times those
+  HourglassModuli<T> moduli;  // Pa s: beta times the moduli
 };
 
-// The modes of `now`, half a step back.
+// The modes of `now`, moved back half a step.
 template <class T>
 ElementModes<T> halfway_back(const ElementModes<T>& now, const ElementModes<T>& rate,
                              double half_step) {
@@ -53,7 +53,7 @@ T viscous_mean_stress(T bulk, T theta, T inv_theta, T dilatation) {
   return 0.5 * bulk * (theta + inv_theta) * dilatation;
 }
 
-// `to`: of the positions half a step back, whose modes are `m`.
+// `to`: for the positions half a step back, with modes `m`.
 template <class T>
 HourglassComponents<T> hourglass_rates(const ElementModes<T>& m, const ElementModes<T>& rate,
                                        const Matrix3<T>& l, const Matrix3<T>& to) {

@@ -1,10 +1,10 @@
-// elastic_force: Cauchy stress at every point of an element, and the forces of the stresses on the nodes, in scenes
+// elastic_force: Cauchy stress at every integration point, and the nodal forces from the stresses, in scenes
 // without plasticity.
 //
-// Source   systems/space/body/element_kernel.hpp, j2_kernel.hpp; elements with one point: hourglass_kernel.hpp. Forces are
+// Source   systems/space/body/element_kernel.hpp, j2_kernel.hpp; one-point elements: hourglass_kernel.hpp. Forces are
 //          the exact derivative of the element's stored energy
-// Runs     after integrate of the step before
-// Watches  least det F of every particle, for element_health
+// Runs     after integrate of the previous step
+// Watches  minimum det F of every particle, for element_health
 #include "systems/space/body/element_force.hpp"
 
 namespace pulvis::space {

@@ -1,4 +1,4 @@
-// How the element systems reach an element of a chunk: its modes and state. No physics.
+// How the element systems access an element of a chunk: its modes and state. No physics.
 #pragma once
 
 #include "components/space/bundles.hpp"
@@ -11,7 +11,7 @@ namespace pulvis::space {
 
 using Hexahedron = std::array<Row<Node>, 8>;
 
-// What a view of lanes or of packets has.
+// The type of a view of lanes or of packets.
 template <class View, class Entity>
 using NumberOf = std::remove_cvref_t<decltype(std::declval<View>()(Row<Entity>(0)))>;
 

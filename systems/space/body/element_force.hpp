@@ -1,11 +1,11 @@
-// The work of an element in a step, shared by elastic_force and plastic_force: from the positions of its nodes to the
-// stress and the forces on the nodes, with all that lies between in registers.
+// The element computation in a step, shared by elastic_force and plastic_force: from nodal positions to
+// stress and nodal forces, with all intermediate values in registers.
 //
-// Material: what it adds to elasticity, for both formulations:
+// Material: what a material adds to elasticity, for both formulations:
 //   left(f, e, g)                        F C_p^-1 F^T at point g
-//   remove_plastic(e, strain)            takes the plastic part off the hourglass strains
-//   flow(PointAt, Deviator&)             brings a deviator back to the yield surface
-//   flow(PointAt, Deviator&, Hourglass& stress, const Hourglass& strain)   with the hourglass stress
+//   remove_plastic(e, strain)            subtracts the plastic part of the hourglass strains
+//   flow(PointAt, Deviator&)             returns a deviator to the yield surface
+//   flow(PointAt, Deviator&, Hourglass& stress, const Hourglass& strain)   same, with the hourglass stress
 #pragma once
 
 #include "systems/space/body/element_access.hpp"
@@ -24,7 +24,7 @@ struct ForceViews {
   kernels::HourglassModuli<Packet> moduli;
 };
 
-// A point of an element and its deformation.
+// An integration point of an element and its deformation.
 struct PointAt {
   Row<Element> element;
   int g;
@@ -39,7 +39,7 @@ inline PointAt point_at(Row<Element> e, int g, double volume, const kernels::Mat
   return {e, g, volume, f, adj, j, r2 * r, r2};
 }
 
-// Stress times volume and det F, before it is pulled back: P V = `weighted` F^-T J.
+// Stress times volume and det F, before the pull-back: P V = `weighted` F^-T J.
 inline kernels::Matrix3<Packet> weighted_stress(const kernels::Deviator<Packet>& s, Packet by,
                                                 Packet mean) {
   const Packet xy = by * s.xy, yz = by * s.yz, zx = by * s.zx;
@@ -81,8 +81,8 @@ void add_one_point_forces(const Force& of_nodes, const PointAt& at, const Hexahe
       {zero, zero, zero, y.ez.z, y.zx.z, y.xe.z, y.xez.z});
 }
 
-// Returns its least det F at a Gauss point. Seldom called, with a copy of the views so that these stay in registers
-// elsewhere.
+// Returns the minimum det F over the Gauss points. Rarely called; takes a copy of the views so that these stay in
+// registers elsewhere.
 [[gnu::noinline, gnu::cold]] inline Packet add_barrier_force(ForceViews<OnePoint> v,
                                                              const Shape& shape, Row<Element> e) {
   const Hexahedron& nodes = entry(shape.hexahedra, e);
@@ -92,7 +92,7 @@ void add_one_point_forces(const Force& of_nodes, const PointAt& at, const Hexahe
   return barrier.least;
 }
 
-// Returns its det F; where a corner may be closing, the least of that and of the Gauss points.
+// Returns det F of the element; if a corner may be inverting, the minimum of that and of the Gauss points.
 template <class Material>
 Packet element_force(const ForceViews<OnePoint>& v, Material& material, const Shape& shape,
                      Row<Element> e) {
@@ -147,7 +147,7 @@ inline EightPoints eight_points(const kernels::ElementModes<Packet>& modes,
   return p;
 }
 
-// `stress`: times volume and det F.
+// `stress`: multiplied by volume and det F.
 inline void add_point_stress(kernels::ElementModes<Packet>& force, const PointAt& at,
                              const kernels::Matrix3<Packet>& stress, const Tensor& inverse) {
   const auto row = [&](kernels::Modes<Packet>& of_force, Packet x, Packet y, Packet z) {
@@ -172,7 +172,7 @@ Packet element_force(const ForceViews<EightPoint>& v, Material& material, const 
   for (int g = 0; g < 8; ++g) {
     PointAt at = p.at[g];
     auto s = kernels::scaled_deviator(material.left(at.f, e, g), v.mu * inv_theta * at.r2);
-    // The deviator of Cauchy stress goes with theta, not with the J of the point.
+    // The deviator of Cauchy stress is divided by theta, not by the J of the point.
     const Packet inv_j = at.inv_j;
     at.j = p.theta;
     at.inv_j = inv_theta;
@@ -184,11 +184,11 @@ Packet element_force(const ForceViews<EightPoint>& v, Material& material, const 
   add_force(v.force, nodes, 0, force.x);
   add_force(v.force, nodes, 1, force.y);
   add_force(v.force, nodes, 2, force.z);
-  // A NaN of the volume is one of a point, which min keeps only where it comes last.
+  // A NaN of the volume comes from a point; min keeps it only in the last point.
   return select(p.theta == p.theta, p.least, p.theta);
 }
 
-// ---- a register of particles -------------------------------------------------------------------------------
+// ---- one register of particles -----------------------------------------------------------------------------
 template <class F>
 ForceViews<F> force_views(const Read<Position>& position, const Elasticity& elastic,
                           const ForceResults<F>& results, Chunk chunk, int part) {
@@ -205,7 +205,7 @@ ForceViews<F> force_views(const Read<Position>& position, const Elasticity& elas
           kernels::hourglass_moduli(mu, bulk)};
 }
 
-// A NaN wins every comparison and is not replaced by a later number, so that it is seen.
+// A NaN wins every comparison and is not overwritten by later values, so that it is detected.
 inline void keep_worst(Packet minimum, Row<Element> e, Packet& worst, Packet& worst_element) {
   const Packet::Mask lower = ~(minimum >= worst) & (worst == worst);
   worst_element = select(lower, e.value, worst_element);

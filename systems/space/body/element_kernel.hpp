@@ -1,4 +1,4 @@
-// Kinematics of the 8-node hexahedron by its modes.
+// Kinematics of the 8-node hexahedron in terms of its modes.
 //
 // Source   modes: Flanagan & Belytschko (1981); eight points with mean dilatation: Simo, Taylor & Pister (1985),
 //          Hughes (1980)
@@ -6,8 +6,8 @@
 //          x_m    modes of the element: sums of its nodes with signs, eight times the coefficients of xi ... xi eta zeta
 //                 in the isoparametric map (components/space/shape.hpp)
 //          F      deformation gradient dx/dX [-];  J = det F;  theta = current / undeformed volume of the element [-]
-// One point: F = sum_m x_m g_m, the mean of dx/dX over the undeformed element; a homogeneous deformation is met exactly,
-// whatever the element's form. Everything is a function of values, for T = double, Packet or Lane.
+// One point: F = sum_m x_m g_m, the mean of dx/dX over the undeformed element; homogeneous deformations are exact,
+// whatever the shape of the element. All functions take T = double, Packet or Lane.
 #pragma once
 
 #include "components/space/shape.hpp"
@@ -27,7 +27,7 @@ struct Matrix3 {
 
 // ---- modes -------------------------------------------------------------------------------------------
 template <class T>
-struct Modes {  // of one coordinate, or component of force
+struct Modes {  // of one coordinate or force component
   T xi, eta, zeta, ez, zx, xe, xez;
 };
 template <class T>
@@ -35,7 +35,7 @@ struct ElementModes {
   Modes<T> x, y, z;
 };
 
-// `x(i)`: of corner i.
+// `x(i)`: coordinate of corner i.
 template <class T, class Coordinate>
 Modes<T> modes_of(const Coordinate& x) {
   const T s0 = x(0) + x(1), d0 = x(1) - x(0), s1 = x(3) + x(2), d1 = x(2) - x(3);
@@ -79,7 +79,7 @@ Matrix3<T> deformation_gradient(const ElementModes<T>& m, const Gradient& g) {
       component_gradient(m.z, g, 0), component_gradient(m.z, g, 1), component_gradient(m.z, g, 2)};
 }
 
-// Its transpose: adds p g_m to the modes of the forces, p a row of the first Piola-Kirchhoff stress times volume.
+// The transpose: adds p g_m to the modes of the forces, p a row of the first Piola-Kirchhoff stress times volume.
 template <class T>
 void add_gradient_force(Modes<T>& t, const Vector3<T>& p, const Gradient& g) {
   const auto add = [&](T sum, std::size_t m) {
@@ -131,7 +131,7 @@ Vector3<T> transposed_product(const Matrix3<T>& m, const Vector3<T>& v) {
           fma(m.xz, v.x, fma(m.yz, v.y, m.zz * v.z))};
 }
 
-// a b with a of constants.
+// a b, where a is constant.
 template <class T>
 Matrix3<T> product(const Tensor& a, const Matrix3<T>& b) {
   const auto row = [&](std::size_t i, T x, T y, T z) {
@@ -179,7 +179,7 @@ Matrix3<T> point_gradient(const ElementModes<T>& m, const Tensor& inverse,
   return scaled(f, T{} + 0.125);
 }
 
-// Its transpose: adds the force of a row p of the stress times volume.
+// The transpose: adds the force of a row p of the stress times volume.
 template <class T>
 void add_point_force(Modes<T>& t, const Vector3<T>& p, const Tensor& inverse,
                      const GaussCoordinates& at) {

@@ -1,7 +1,7 @@
-// kinetic_energy, elastic_energy, plastic_work, hourglass_energy: per particle, on the steps that are sampled.
+// kinetic_energy, elastic_energy, plastic_work, hourglass_energy: per particle, in sampled steps.
 //
-// Kinetic energy is 1/2 m v_(n-1/2) . v_(n+1/2): together with the stored energy at t_n it is what the
-// leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors and not phase.
+// Kinetic energy is 1/2 m v_(n-1/2) . v_(n+1/2): together with the stored energy at t_n this is what the
+// leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors, not phase.
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
@@ -12,7 +12,7 @@
 namespace pulvis::space {
 namespace {
 
-// Of point g of an element: the volume that it stands for, and the deformation gradient there.
+// For point g of an element: its volume, and the deformation gradient there.
 template <class F>
 double point_volume(const Shape& shape, int element, int g) {
   if constexpr (F::points == 1)
@@ -95,7 +95,7 @@ void plastic_work<F>::operator()(Chunk chunk) const {
       for (int g = 0; g < F::points; ++g)
         total += point_volume<F>(shape, i, g) * law.plastic_work(strain(Row<Element>(i), g));
   };
-  // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
+  // Elastic particles in a chunk with plastic ones have infinite yield stress and zero strain: 0, not NaN.
   const Lane yield = min(flow.yield_stress.chunk(chunk)(particle), 1e300);
   const pulvis::kernels::LinearHardening<Lane> linear{yield, flow.hardening.chunk(chunk)(particle)};
   if (flow.laws)
@@ -103,7 +103,7 @@ void plastic_work<F>::operator()(Chunk chunk) const {
   else
     add(linear);
   total += beyond.chunk(chunk)(particle);
-  // The joint flow of stress and hourglass stress spends both; the latter is reported by itself.
+  // The coupled flow of stress and hourglass stress dissipates both; the latter is reported separately.
   if (hourglass) total -= hourglass->chunk(chunk)(particle);
   work.chunk(chunk)(particle) = total;
 }

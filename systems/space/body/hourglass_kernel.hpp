@@ -1,13 +1,13 @@
-// The twelve modes that the one-point hexahedron cannot see: bending and twisting as three families of plates, and what
-// goes with xi eta zeta. Physical stabilisation: assumed strains with the material's own constants, blind to shear that
-// bending does not have and to changes of volume.
+// Stabilisation of the twelve hourglass modes of the one-point hexahedron: bending and twisting as three families of
+// plates, and the xi eta zeta mode. Physical stabilisation: assumed strains with the material's moduli, free of
+// parasitic shear in bending and of volume changes.
 //
 // Source   Modes: Flanagan & Belytschko (1981). Assumed strains: ASQBI of Belytschko & Bindeman (1993), with each strain
 //          that is linear in one coordinate as that of a plate across it (plane stress), and of fibres of any angle
 //          as in Pian & Sumihara (1984). Limit: systems/space/body/j2_hourglass_kernel.hpp
-// Symbols  a_1 a_2 a_3  half the undeformed edges at the middle
-//          p_m    (a_i . F^-1 h_m / |a_i|^2)_i less that of the undeformed element, m: eta zeta, zeta xi, xi eta,
-//                 xi eta zeta [-]; h_m = x_m/8. Zero in every homogeneous deformation, and blind to rotation
+// Symbols  a_1 a_2 a_3  half the undeformed edges at the centre
+//          p_m    (a_i . F^-1 h_m / |a_i|^2)_i minus its undeformed value, m: eta zeta, zeta xi, xi eta,
+//                 xi eta zeta [-]; h_m = x_m/8. Zero in every homogeneous deformation, and invariant to rotation
 //          Plate across i, fibres along j and k at an angle of cosine c, strains at xi_i = 1 in the axes halfway between
 //          them:
 //            e_j = p_ij . j,  e_k = p_ik . k,  gamma = |a_j|/|a_k| p_ik . j + |a_k|/|a_j| p_ij . k
@@ -33,7 +33,7 @@ struct Hourglass {
   Vector3<T> last;                      // of xi eta zeta
 };
 
-// Calls f(a's number, b's) for each of the twelve, and gathers what it gives.
+// Calls f(component of a, component of b) for all twelve components, and collects the results.
 template <class T, class F>
 PlateMode<T> each_number(const PlateMode<T>& a, const PlateMode<T>& b, const F& f) {
   return {f(a.sum, b.sum), f(a.difference, b.difference), f(a.shear, b.shear)};
@@ -56,7 +56,7 @@ HourglassModuli<T> hourglass_moduli(T mu, T bulk) {
 }
 
 // ---- strains ---------------------------------------------------------------------------------------------
-// fibre F^-1: takes modes to components along the fibres.
+// fibre F^-1: maps modes to components along the fibres.
 template <class T>
 Matrix3<T> to_fibres(const Tensor& fibre, const Matrix3<T>& adj, T inv_det) {
   return scaled(product(fibre, adj), inv_det);
@@ -120,7 +120,7 @@ T hourglass_product(const Hourglass<T>& a, const Hourglass<T>& b) {
 
 // ---- forces: the exact derivative of the energy ------------------------------------------------------------
 template <class T>
-struct PlateForce {  // by e_j, e_k, and what belongs to p_ik . j and p_ij . k
+struct PlateForce {  // conjugate to e_j, e_k, and to p_ik . j and p_ij . k
   T j, k, j_of_k, k_of_j;
 };
 template <class T>
@@ -132,7 +132,7 @@ PlateForce<T> plate_force(const PlateMode<T>& s, const Shape::Element::Plane& pl
 }
 
 template <class T>
-struct HourglassForce {  // of the modes: derivatives by x_m
+struct HourglassForce {  // of the modes: derivatives with respect to x_m
   Vector3<T> ez, zx, xe, xez;
 };
 
@@ -150,7 +150,7 @@ HourglassForce<T> hourglass_force(const Hourglass<T>& s, const Matrix3<T>& to,
           back(ninth * s.last.x, ninth * s.last.y, ninth * s.last.z)};
 }
 
-// What the modes' forces do through F in p: -sum y (x) x_m F^-T. Here without F^-T.
+// Contribution of the mode forces through F in p: -sum y (x) x_m F^-T. Here without F^-T.
 template <class T>
 Matrix3<T> hourglass_moment(const HourglassForce<T>& y, const ElementModes<T>& m) {
   const auto of = [&](T ez, T zx, T xe, T xez, const Modes<T>& x) {

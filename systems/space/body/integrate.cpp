@@ -1,8 +1,8 @@
-// integrate: leapfrog with a time step that may change (T 5.4, 5.5):
+// integrate: leapfrog with variable time step (T 5.4, 5.5):
 //   v_(n+1/2) = v_(n-1/2) + a_n (dt_before + dt) / 2,   x_(n+1) = x_n + v_(n+1/2) dt
 // with a = (internal + contact force) / lumped mass.
 //
-// Runs     after every force of the step
+// Runs     after all forces of the step
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"

@@ -1,14 +1,14 @@
-// What keeps the one-point hexahedron from turning inside out at a corner, which its mean gradient cannot see: bending
-// that flows bears no more than its limit, however far a corner closes.
+// Barrier against inversion of the one-point hexahedron at a corner, which its mean gradient cannot detect: plastic
+// bending carries no more than its limit, however far a corner collapses.
 //
-// Source   as in two dimensions (docs/theory.md, section 4). Taken at the 2 x 2 x 2 Gauss points, which every mesh has the
-//          right way out (complete_elements refuses others), while the corners of a ball's mesh may be flat
+// Source   as in two dimensions (docs/theory.md, section 4). Evaluated at the 2 x 2 x 2 Gauss points, which are not
+//          inverted in any mesh (complete_elements rejects others), while corners in the mesh of a ball may be flat
 // Symbols  r   det F at a Gauss point over the determinant of the mean gradient; 1 in every homogeneous deformation
 //          p   components of the hourglass modes, systems/space/body/hourglass_kernel.hpp
 // Energy   per undeformed volume: sum over the points with r < 0.3 of mu/8 (r + 0.3^2/r - 0.6)
 // Bound    F^-1 F_g = 1 + E_g, E_g linear in p and, in the axes of the edges, |E_g| <= hourglass_reach |p|. With the
 //          singular values s_i of E_g, r >= (1 - s_1)(1 - s_2)(1 - s_3) (Weyl 1949) >= (1 - |E_g|/sqrt 3)^3: above 0.3
-//          where |E_g|^2 < 3 (1 - 0.3^(1/3))^2
+//          if |E_g|^2 < 3 (1 - 0.3^(1/3))^2
 #pragma once
 
 #include "systems/body/hourglass_kernel.hpp"
@@ -20,7 +20,7 @@ using pulvis::kernels::barrier_ratio;
 
 inline constexpr double harmless_distortion2 = 0.3278;  // 3 (1 - 0.3^(1/3))^2, rounded down
 
-// Where |p|^2 over what is harmless is not below 1, a corner may be closing.
+// |p|^2 relative to the harmless limit: from 1 on, a corner may be inverting.
 template <class T>
 T closing_measure(const HourglassComponents<T>& p, const Shape::Element& element) {
   const auto add = [](const Vector3<T>& a, T sum) {
@@ -72,8 +72,8 @@ void each_cofactor_row(const Matrix3<T>& adj, T by, const Add& add) {
 
 template <class T>
 struct InversionBarrier {
-  std::array<Modes<T>, 3> force{};  // derivatives of the energy by x_m
-  T least;                          // det F at a Gauss point
+  std::array<Modes<T>, 3> force{};  // derivatives of the energy with respect to x_m
+  T least;                          // minimum det F over the Gauss points
 };
 
 // Derivative of the energy: dr = (cof F_g : dF_g)/J - r (cof F : dF)/J. `f`: mean gradient.

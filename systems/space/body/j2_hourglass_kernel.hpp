@@ -1,10 +1,10 @@
-// Plastic flow of the one-point hexahedron's hourglass modes: their stress under one yield surface with the deviator,
-// returned with it.
+// Plastic flow of the hourglass modes of the one-point hexahedron: their stress shares one yield surface with the
+// deviator, and both are returned together.
 //
-// Source   a yield surface as Ilyushin's (1948) for plates: |s|^2 + t^2 <= 2/3 sigma_y^2, with t^2 such that each mode
-//          alone bears what its section bears when all of it flows: 3/2 of the stress at the edge of a plate in linear
-//          bending, 9/4 of that at the corners where it goes with xi eta. Beside a deviator it bears sqrt(1 - n^2) of
-//          that, n = |s|/(sqrt(2/3) sigma_y): between the 1 - n^2 where s stretches the same fibres, and
+// Source   a yield surface as in Ilyushin (1948) for plates: |s|^2 + t^2 <= 2/3 sigma_y^2, with t^2 such that each
+//          mode alone carries the load of its fully plastic section: 3/2 of the stress at the edge of a plate in
+//          linear bending, 9/4 of that at the corners if it varies with xi eta. With a deviator it carries
+//          sqrt(1 - n^2) of it, n = |s|/(sqrt(2/3) sigma_y): between 1 - n^2 where s stretches the same fibres, and
 //          sqrt((1 - n^2)(1 + n^2/3)) where it does not
 // Symbols  those of systems/space/body/hourglass_kernel.hpp;  M stresses of the modes [Pa]
 //          t^2 = 8/27 (sum^2 + 3 difference^2 + 3 shear^2) of the plates + 32/243 M_4^2
@@ -25,23 +25,23 @@ T hourglass_norm2(const Hourglass<T>& m) {
   return (8.0 / 27.0) * fma(last, 4.0 / 9.0, plates);
 }
 
-// Both flow along their stresses, t `softness` times as fast as s: the compliance of t over that of s. For
+// Both flow along their stresses, t `softness` times as fast as s: ratio of the compliance of t to that of s. For
 // pulvis::kernels::consistent.
 template <class T>
 struct CoupledHourglass {
   T squared;    // t^2, trial
   T softness;   // t^2 / (2 mu * twice the energy of t)
   T stiffness;  // 1/softness
-  T retained;   // share of t that the return retains
+  T retained;   // share of t that remains after the return
 
   T joint_norm(T norm2) const { return norm2 + squared; }
-  // Slope of the consistency condition and the excess, both times |S|^2.
+  // Slope of the consistency condition and the residual, both times |S|^2.
   T slope(T norm2, T joint2, T, T modulus, T two_mu) const {
     return fma((2.0 / 3.0) * joint2, modulus, two_mu * fma(softness, squared, norm2));
   }
   T push(T excess, T norm) const { return excess * norm; }
 
-  // For laws that are no line the return is iterated on the joint surface itself.
+  // For nonlinear laws the return is iterated on the joint surface itself.
   T farthest(T two_mu) const { return max(stiffness, T{} + 1.0) / two_mu; }
   pulvis::kernels::Remaining<T> keep(T beta, const Trial<T>& t) {
     const T kept = max(beta, T{});
@@ -50,8 +50,8 @@ struct CoupledHourglass {
     return {size, -(t.two_mu_bar / size) * fma(kept, t.norm2, softness * (retained * squared))};
   }
 
-  // What the linear step leaves outside the surface by more than a ten-thousandth (of the squares) is pulled straight
-  // in. The work that is spent then is that of the stresses retained.
+  // If the linear step ends outside the surface by over a ten-thousandth (of the squares), the stresses are scaled
+  // back radially. The dissipated work is then computed with the final stresses.
   template <class Mask, class Hardening>
   void settle(const Mask& flows, T& beta, T& dgamma, T norm2, T two_mu, T eps,
               const Hardening& law) {
@@ -71,8 +71,8 @@ struct CoupledHourglass {
   }
 };
 
-// `squared` = t^2, `energy2` = twice the energy of t, `limit2` = 2/3 sigma_y^2. Where there is hardly any t, the
-// softness of shear serves.
+// `squared` = t^2, `energy2` = twice the energy of t, `limit2` = 2/3 sigma_y^2. If t is almost zero, the
+// softness of shear is used.
 template <class T>
 CoupledHourglass<T> coupled_hourglass(T squared, T energy2, T mu, T limit2) {
   const auto some = squared > 1e-24 * limit2;

@@ -91,7 +91,7 @@ T mean_stress(T bulk, T theta, T over) {
 }
 
 // ---- the return map ------------------------------------------------------------------------------------
-// What a point that may flow knows: trial deviator, accumulated strain, and the geometry of the step.
+// Data of a point that may yield: trial deviator, accumulated plastic strain, and the kinematics of the step.
 template <class T>
 struct TrialPoint {
   Deviator<T> s;
@@ -101,13 +101,13 @@ struct TrialPoint {
 
 template <class T>
 struct Return {
-  T beta;   // share of the deviator that stays
-  T eps;    // after it
+  T beta;   // share of the deviator that remains
+  T eps;    // after the return
   T shift;  // m - beta m_trial of b
   T residual;
 };
 
-// Steps 2 to 4 of the box; lanes that do not yield come back with beta = 1, shift = 0. `coupled`: what shares the yield
+// Steps 2 to 4 of the box; lanes that do not yield return beta = 1, shift = 0. `coupled`: what shares the yield
 // surface with the deviator, of squared norm norm2.
 template <class T, class Hardening, class Coupled>
 Return<T> radial_return(const TrialPoint<T>& at, T norm2, const Hardening& law, Coupled&& coupled) {
@@ -139,7 +139,7 @@ Symmetric3<T> returned_metric(const Symmetric3<T>& c, const Return<T>& r, const 
           fma(r.beta, c.zx, pull * inverse.zx)};
 }
 
-// Stored energy per undeformed volume, without the volumetric part (which the element has once). `r2` = J^(-2/3).
+// Stored energy per undeformed volume, without the volumetric part (evaluated once per element). `r2` = J^(-2/3).
 template <class T>
 T isochoric_energy(const Matrix3<T>& f, const Symmetric3<T>& c, T mu, T r2) {
   return 0.5 * mu * (r2 * trace(left_cauchy_green(f, c)) - 3.0);

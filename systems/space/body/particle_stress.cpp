@@ -1,10 +1,10 @@
 // particle_stress: mean Cauchy stress, deformed volume and centre of every particle.
 //
-// Law      volume * stress = -sum over the nodes of internal force times position (virial): every point counts with the
-//          volume on which its stress acts. Bending of elements with one point adds nothing, since its energy does not
-//          change in a uniform strain
-// Runs     on sampled steps, when the stresses are known
-// Active   when the scene asks for particle stresses or contacts
+// Law      volume * stress = -sum over the nodes of internal force times position (virial): every point is weighted by
+//          the volume on which its stress acts. Hourglass stress of one-point elements adds nothing: its energy does
+//          not change with uniform strain
+// Runs     in sampled steps, once the stresses are known
+// Active   if the scene asks for particle stresses or contacts
 #include "engine/entry.hpp"
 #include "systems/space/body/element_access.hpp"
 #include "systems/space/body/systems.hpp"
@@ -24,7 +24,7 @@ void add_deviator(const kernels::Deviator<Lane>& s, const Lane& volume, Sums& su
   sums.zx = fma(volume, s.zx, sums.zx);
 }
 
-// Its volume now over that undeformed.
+// Ratio of current to undeformed volume.
 template <class F>
 Lane dilatation(const Shape& shape, int i, const kernels::ElementModes<Lane>& modes) {
   const auto det = [](const kernels::Matrix3<Lane>& f) {

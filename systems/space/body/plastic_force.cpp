@@ -1,11 +1,11 @@
-// plastic_force: Cauchy stress at every point of an element, brought back to the von Mises yield surface where it has
-// left it; in elements with one point together with the stress of the hourglass modes; and the forces on the nodes.
+// plastic_force: Cauchy stress at every integration point, returned to the von Mises yield surface if it is
+// outside; in one-point elements together with the hourglass stress; and the nodal forces.
 //
 // Source   systems/space/body/element_kernel.hpp, j2_kernel.hpp (Simo & Hughes 1998, box 9.1), j2_hourglass_kernel.hpp; laws:
 //          systems/laws
-// Runs     after integrate of the step before
-// Active   when a material of the scene declares a yield stress
-// Watches  least det F of every particle, for element_health; how well each return met the yield surface, for
+// Runs     after integrate of the previous step
+// Active   if a material of the scene has a yield stress
+// Watches  minimum det F of every particle, for element_health; residual of each return to the yield surface, for
 //          return_health
 #include <optional>
 
@@ -19,7 +19,7 @@ template <class F>
 using CoupledOf =
     std::conditional_t<F::stabilised, kernels::CoupledHourglass<Packet>, kernels::Uncoupled>;
 
-// ---- laws, of which the loop over the elements is compiled for two: the line, and any other ---------------------
+// ---- laws: the element loop is compiled for linear hardening, and for any other law -----------------------------
 template <class F>
 struct LinearRule {
   static constexpr bool iterated = false;
@@ -69,13 +69,13 @@ AnyRule<F> any_rule(const Law& law) {
 }
 
 // ---- the material -------------------------------------------------------------------------------------------
-// What the elements of a packet of particles add up to.
+// Sums over the elements of a packet of particles.
 struct PacketSums {
   Packet hourglass_work{}, beyond_hardening{};  // J
-  Packet residual{}, element = -1;              // the worst return's
+  Packet residual{}, element = -1;              // of the worst return
 };
 
-// Not a number is worse than any.
+// NaN counts as worse than any number.
 void keep_worst_return(Packet residual, Row<Element> e, PacketSums& sums) {
   const Packet::Mask worse =
       ~(abs(residual) <= abs(sums.residual)) & (sums.residual == sums.residual);
@@ -132,7 +132,7 @@ struct PlasticMaterial {
     if constexpr (Rule::iterated) keep_worst_return(r.residual, at.element, sums);
   }
 
-  // Keeps the share `retained` of the hourglass stress; the rest of its strain has become plastic.
+  // Keeps the fraction `retained` of the hourglass stress; the rest of its strain has become plastic.
   void keep_hourglass(const PointAt& at, kernels::Hourglass<Packet>& stress,
                       const kernels::Hourglass<Packet>& elastic, Packet retained, Packet energy2) {
     const Packet lost = 1.0 - retained;
@@ -144,7 +144,7 @@ struct PlasticMaterial {
   }
 };
 
-// What the parts of a chunk need besides their law.
+// What the parts of a chunk need in addition to their law.
 template <class F>
 struct ChunkAt {
   const plastic_force<F>& system;

@@ -1,5 +1,5 @@
-// Systems of the bodies in three dimensions. What a system reads and writes is what it declares here, once; each is
-// described at the top of its own file.
+// Systems of the bodies in three dimensions. Each declares here what it reads and writes; the descriptions
+// are at the top of the individual files.
 // F: the formulation of the elements (components/space/formulation.hpp).
 #pragma once
 
@@ -32,7 +32,7 @@ template <class F>
 struct PlasticState {
   Write<PlasticMetric<F::points>> metric;
   Write<PlasticStrain<F::points>> strain;
-  Optional<Write<PlasticHourglass>> hourglass;  // of elements with one point
+  Optional<Write<PlasticHourglass>> hourglass;  // for one-point elements
 };
 
 template <class F>
@@ -46,7 +46,7 @@ struct plastic_force {
   struct Work {
     Optional<Write<HourglassWork>> hourglass;
     Write<WorkBeyondHardening> beyond;
-    Optional<Write<ReturnResidual>> residual;  // of curved laws and rates
+    Optional<Write<ReturnResidual>> residual;  // for nonlinear hardening and rate dependence
   } work;
   ForceResults<F> results;
   void operator()(BusyChunk chunk) const;
@@ -65,7 +65,7 @@ struct damping_force {
   void operator()(Chunk chunk) const;
 };
 
-// ---- motion, and the steps that it can take -----------------------------------------------------
+// ---- motion, and the stable time step -----------------------------------------------------------
 struct integrate {
   Meshes meshes;
   Read<Clock> clock;
@@ -89,7 +89,7 @@ struct stable_time_step {
   void operator()(Chunk chunk) const;
 };
 
-// ---- on sampled steps -----------------------------------------------------------------------------
+// ---- in sampled steps -----------------------------------------------------------------------------
 struct kinetic_energy {
   Meshes meshes;
   Read<Clock> clock;

@@ -1,11 +1,11 @@
-// stable_time_step: the greatest time step that every element (and the contact springs on its faces) of a particle can
-// stand.
+// stable_time_step: the largest time step that is stable for all elements of a particle (and the contact springs on
+// their faces).
 //
-// Source   The highest frequency of an assembly is at most that of its worst element, however the masses of the nodes are
-//          dealt out among the elements around (Irons; Flanagan & Belytschko 1984). Elements:
-//          systems/space/body/time_step_kernel.hpp. One on the surface also bears contact springs of k K A/V, and
-//          dashpots that answer half a step late: as in systems/body/time_step.cpp
-// Runs     every few steps, while the stresses of a chunk are at hand
+// Source   The highest frequency of an assembly is at most that of its worst element, however the nodal masses are
+//          divided among the adjacent elements (Irons; Flanagan & Belytschko 1984). Elements:
+//          systems/space/body/time_step_kernel.hpp. One on the surface also carries contact springs of k K A/V, and
+//          dashpots that lag by half a step: as in systems/body/time_step.cpp
+// Runs     every few steps, while the stresses of a chunk are in cache
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
@@ -21,7 +21,7 @@ namespace {
 // See systems/body/time_step.cpp.
 constexpr double dashpots_too_strict = 1.25;
 
-// Gradients at the Gauss points of a hexahedron are at most (4/3)^2 times those of the middle, of its square.
+// Gradients at the Gauss points of a hexahedron are at most (4/3)^2 times those at the centre; this is for the square.
 constexpr double of_eight_points = 16.0 / 9.0;
 
 template <int Points, class View>
@@ -32,9 +32,9 @@ Lane largest_stress(const View& stress, Row<Element> e) {
   return sqrt(maximum);
 }
 
-// Where a corner of an element with one point may be closing: the barrier's stiffness goes with 1/r^3, r the least det F at
-// a Gauss point over that of the middle. Found to be enough down to r = 0.2 (tests/systems/space/body/time_step_test.cpp);
-// at most 25, so that a corner that is about to turn inside out does so (and is named) instead of stopping the clock.
+// For a one-point element with a corner that may be inverting: the barrier stiffness scales with 1/r^3, r the least det F
+// at a Gauss point over that at the centre. Found sufficient down to r = 0.2 (tests/systems/space/body/time_step_test.cpp);
+// at most 25, so that a corner about to invert does so (and is reported) instead of driving the time step to zero.
 Lane closing_factor(const kernels::ElementModes<Lane>& modes, const kernels::Matrix3<Lane>& f,
                     const Shape::Element& element, const kernels::GaussPoints& points) {
   const auto adj = kernels::adjugate(f);
@@ -48,9 +48,9 @@ Lane closing_factor(const kernels::ElementModes<Lane>& modes, const kernels::Mat
   return select(closing, min(max(0.9 + 0.1 * (ratio * ratio * ratio), 1.0), 25.0), 1.0);
 }
 
-// An element with a corner that closes swings faster there than its middle says, about by the square of how much smaller
-// the map is at that Gauss point: at most 9, so that a corner that is about to turn inside out does so (and is
-// named) instead of stopping the clock.
+// An element with an inverting corner has a higher frequency there than its centre suggests, by about the square of how
+// much smaller the map is at that Gauss point: at most 9, so that a corner about to invert does so (and is
+// reported) instead of driving the time step to zero.
 Lane gauss_factor(const kernels::ElementModes<Lane>& modes, const kernels::GaussPoints& points,
                   const Lane& j) {
   const Lane least = min(kernels::least_of(kernels::gauss_determinants(modes, points)), j);
@@ -59,7 +59,7 @@ Lane gauss_factor(const kernels::ElementModes<Lane>& modes, const kernels::Gauss
 }
 
 struct Contact {
-  double springs = 0;   // k, of the springs and what little damping asks for
+  double springs = 0;   // k, of the springs including the effect of light damping
   double stiff = 0;     // k of the springs alone
   double dashpots = 0;  // 2 xi of a pair
 };
@@ -111,8 +111,8 @@ template <class F>
   step = stable_step(chunk, rho, highest, damping);
   if (!(contact.dashpots > 0)) return;
   const Lane longest = stable_step(chunk, rho, late, damping);
-  // A servo's tool lives on the whole of what `safety` leaves; without one, what is known to be too strict in the bound
-  // need not be paid for.
+  // With a servo the step keeps the full margin that `safety` leaves; without one, the bound's known overestimate
+  // need not reduce the step.
   step = (*rules)->servos ? min(longest, step)
                           : min(dashpots_too_strict / clock->safety * longest, step);
 }

@@ -1,20 +1,20 @@
-// Bound on the highest squared frequency of a hexahedron, in its modes of uniform strain and its hourglass modes.
+// Upper bound on the highest squared frequency of a hexahedron, in its uniform-strain modes and its hourglass modes.
 //
 // Uniform strain. With lumped masses m_I = rho V_I at the corners and mean gradients b_I the modes are those of C : H over
 // (sum_I b_I b_I^T / m_I)^-1. In the axes of N = V sum_I b_I b_I^T / V_I [1/m^2], n_1 >= n_2 >= n_3 its eigenvalues, three
-// stretches and three pairs of shears part:
+// stretches and three pairs of shears decouple:
 //   stretches  (M - L) n_i on the diagonal and L sqrt(n_i n_j) everywhere: at most (M - L) n_1 + L tr N
 //   shears     [[m n_i, l s], [l s, m n_j]], s = sqrt(n_i n_j): at most max(m, l) (n_1 + n_2)
 // Moduli per undeformed volume of U = K/2 ((theta^2 - 1)/2 - ln theta) and the neo-Hookean deviator:
 //   M = K (1 + theta^2)/2 + 4/3 mu + d,   L = |K theta^2 - 2/3 mu| + d
 //   m = mu + d,                           l = |mu - K (theta^2 - 1)/2| + d
-// d bounds what elastic distortion adds: 1.15 |dev b'| mu, as in two dimensions.
+// d bounds the contribution of elastic distortion: 1.15 |dev b'| mu, as in two dimensions.
 //
-// Hourglass modes. The plates' energy is at most max(B, mu) |e|^2 with e the strain of a plate, itself at most the gradient
-// of what bends it: rho omega^2 <= max(B, mu) |F^-1|^2 hourglass_spread.
+// Hourglass modes. The plate energy is at most max(B, mu) |e|^2 with e the strain of a plate, itself at most the gradient
+// of the bending mode: rho omega^2 <= max(B, mu) |F^-1|^2 hourglass_spread.
 //
-// Both together: operators of norms alpha and beta whose ranges meet at an angle of squared cosine `overlap` have at
-// most the larger eigenvalue of [[alpha, c], [c, beta]], c^2 = alpha beta overlap.
+// Both together: for operators of norms alpha and beta whose ranges meet at an angle of squared cosine `overlap` the
+// bound is the larger eigenvalue of [[alpha, c], [c, beta]], c^2 = alpha beta overlap.
 #pragma once
 
 #include "systems/space/body/hourglass_kernel.hpp"
@@ -22,7 +22,7 @@
 
 namespace pulvis::space::kernels {
 
-// Bounds of a symmetric tensor's eigenvalues from its trace and deviator; sharp where two are equal.
+// Bounds on the eigenvalues of a symmetric tensor from its trace and deviator; sharp if two are equal.
 template <class T>
 struct EigenvalueBounds {
   T trace, largest, largest_two;

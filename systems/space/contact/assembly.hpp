@@ -1,7 +1,7 @@
-// Assembly: from the forces of contact points to those of Bezier points, and from there to surface nodes.
+// Assembly: from the forces on contact points to those on Bezier points, and from there to surface nodes.
 //
-// Law      Bezier point p of the sampled face takes N_p(u_g, v_g) f_g; what that of the other body takes is in
-//          other_loads.hpp; the net takes the transpose of points = terms * net, the nodes that of net = terms * nodes
+// Law      Bezier point p of the sampled face receives N_p(u_g, v_g) f_g; the load on the other body is in
+//          other_loads.hpp; the net gets the transpose of points = terms * net, the nodes that of net = terms * nodes
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace pulvis::space {
 
-// Of the Gauss points: [Gauss point][Bezier point].
+// Basis functions at the Gauss points: [Gauss point][Bezier point].
 inline constexpr auto basis_by_point = [] {
   std::array<std::array<double, 16>, face_points> n{};
   for (std::size_t g = 0; g < face_points; ++g)
@@ -24,11 +24,11 @@ inline constexpr auto basis_by_point = [] {
   return n;
 }();
 
-// The faces that bear a force on some particle of the chunk. The others are passed over: their forces are zero, since
-// to_nodes clears what it has read and nobody else writes them.
+// The faces that carry a force on any particle of the chunk. All others are skipped: their forces are zero, since
+// to_nodes clears what it has read and nothing else writes them.
 using BorneFaces = std::vector<std::uint8_t>;
 
-// What the faces of one particle bear.
+// The forces on the faces of one particle.
 struct FaceForces {
   double* first;  // of its first face
   BorneFaces& borne;
@@ -44,10 +44,10 @@ struct FaceForces {
   return {Lane::load(n), Lane::load(n + lane_count)};
 }
 
-// Bit g: point g touches, and never rests then.
+// Bit g: point g touches, and so is never inactive.
 inline unsigned touching_points(const float* activation) { return at_most(activation, 0); }
 
-// Forces of the points that touch, one after the other from `force` on, on the face that they sample: a few as a rule.
+// Adds the forces of the touching points, stored consecutively from `force` on, to the sampled face: usually a few.
 inline void add_touching(const std::array<double, 3>* force, unsigned touching, double* face) {
   FaceLoad load;
   load.fetch(face);
@@ -56,7 +56,7 @@ inline void add_touching(const std::array<double, 3>* force, unsigned touching, 
   load.store(face);
 }
 
-// Forces of sixteen points (all x, y, z) on the face that they sample.
+// Adds the forces of sixteen points (all x, y, z) to the face that they sample.
 inline void add_sampled(const double* force, double* face) {
   FaceLoad load;
   load.fetch(face);
@@ -65,13 +65,13 @@ inline void add_sampled(const double* force, double* face) {
   load.store(face);
 }
 
-// Adds what a pair does to a face of its other particle.
+// Adds the load of a pair to a face of its other particle.
 inline void add_load(const PairLoads::Load& load, double* face) {
   for (int i = 0; i < face_numbers; i += lane_count)
     (Lane::load(face + i) + Lane::load(load.force.data() + i)).store(face + i);
 }
 
-// From the faces of eight particles, `apart` numbers a particle, to the Bezier points that they share; marks these.
+// From the faces of eight particles, `apart` numbers per particle, to the shared Bezier points; marks these.
 template <class Load>
 void to_points(const Shape& shape, double* face_force, std::ptrdiff_t apart,
                const BorneFaces& borne, const Load& load, std::vector<std::uint8_t>& loaded) {
@@ -92,7 +92,7 @@ void to_points(const Shape& shape, double* face_force, std::ptrdiff_t apart,
   }
 }
 
-// The transpose of `terms`: adds a load to what it is made of.
+// The transpose of `terms`: distributes a load to the entries of its terms.
 template <class To>
 void spread(std::span<const Shape::Term> terms, Lane x, Lane y, Lane z, const To& to) {
   for (const Shape::Term& term : terms) {

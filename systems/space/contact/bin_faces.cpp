@@ -1,9 +1,9 @@
-// bin_faces, bin_tool_faces: broad phase in three dimensions: make the contact rows anew when the surfaces have moved
+// bin_faces, bin_tool_faces: broad phase in three dimensions: rebuilds the contact rows once the surfaces have moved
 // through the skin.
 //
-// History (closest points, friction springs) is carried by the key (particle, other, face) or (particle, face, tool): rows
+// History (closest points, friction springs) is matched by the key (particle, other, face) or (particle, face, tool): rows
 // are sorted by it, so that old and new rows of a particle are merged in one pass.
-// Runs     after skin_check, which says when; a sync point (rows change)
+// Runs     after skin_check, which decides when; a sync point (row counts change)
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
@@ -21,15 +21,15 @@ struct FaceKey {
 FaceKey key_of(const FaceCandidate& c) { return {c.slot, c.face, c.other}; }
 FaceKey key_of(const ToolCandidate& c) { return {c.slot, c.face, c.tool}; }
 
-// As rows are sorted.
+// The sort order of rows.
 template <class At>
 std::array<std::int32_t, 3> order_of(const FaceKey& key) {
   if constexpr (std::is_same_v<At, FaceContact>) return {key.slot, key.other, key.face};
   return {key.slot, key.face, key.other};
 }
 
-// For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, as they were made; empty
-// when none were.
+// For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, from the last rebuild; empty
+// if there was none.
 template <class At, class Candidate>
 std::vector<std::int32_t> rows_before(const std::vector<std::int32_t>& before_begin,
                                       const Write<ContactPair<At>>& pair,
@@ -51,8 +51,8 @@ std::vector<std::int32_t> rows_before(const std::vector<std::int32_t>& before_be
   return source;
 }
 
-// kappa = k K A/V of the sampled face in series with the other surface's mean, like two springs: a sphere on its mirror
-// image feels what it feels on a rigid plane.
+// kappa = k K A/V of the sampled face in series with the mean of the other surface, like two springs: a sphere touching
+// its mirror image gets the same force as on a rigid plane.
 double stiffness_of_pair(const ContactStiffness& material, const ShapedBodies& bodies,
                          const FaceKey& key) {
   const double a = entry(material.bulk.values(), key.slot) *
@@ -71,12 +71,12 @@ void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double ka
   rows.pair(row, 2) = key.other;
   rows.law(row, Law::stiffness) = kappa;
   rows.law(row, Law::friction) = friction;
-  // c = 2 xi sqrt(kappa rho h): the mass per area of the element behind on the contact spring.
+  // c = 2 xi sqrt(kappa rho h): the mass per area of the element behind, on the contact spring.
   rows.law(row, Law::damping) = 2 * share_of_critical * std::sqrt(kappa * rho / face.stiffness);
   rows.law(row, Law::inv_size) = 1 / face.size;
 }
 
-// Nothing is known of the row: all of its points are looked at.
+// Nothing is known about a new row: all its points are active.
 template <class At>
 void activate(Row<At> row, const NewRows<At>& rows) {
   for (int i = 0; i < Activation<At>::count; ++i) rows.activation(row, i) = 0;

@@ -1,5 +1,5 @@
-// Blocks of candidates, one after the other on all threads: which candidates make a block, in which they are booked, does
-// not depend on threads.
+// Blocks of candidates, processed in parallel: which candidates form a block, and add to its sums, does
+// not depend on the threads.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace pulvis::space {
 
-// A phase says what is done: active(row), fetch(row) (which asks for what it needs before it is needed), and (row, sums of
+// A phase defines the work: active(row), fetch(row) (which prefetches what the row needs), and (row, sums of
 // its block).
 template <class At, class Phase>
 void for_active_rows(const RowBlocks<At>& rows, std::vector<BlockSums>& sums, const Phase& phase) {

@@ -1,4 +1,4 @@
-// Axis-aligned boxes, and how far what they hold has come nearer.
+// Axis-aligned boxes, and how far their contents have approached each other.
 //
 // Source   systems/contact/skin_kernel.hpp, in three dimensions
 #pragma once
@@ -27,7 +27,7 @@ inline Box joined(const Box& a, const Box& b) {
   return box;
 }
 
-// Of the Bezier points of a face, whose hull holds the face (convex hull property).
+// Of the Bezier points of a face, whose hull contains the face (convex hull property).
 inline Box face_box(const PatchNumbers& face) {
   Box box{};
   for (int k = 0; k < 3; ++k) {
@@ -57,7 +57,7 @@ inline Box moved(Box box, const Point& by) {
 
 namespace kernels {
 
-// Largest distance between two boxes along an axis; < 0 where they overlap.
+// Largest distance between two boxes along any axis; < 0 if they overlap.
 inline double gap(const Box& a, const Box& b) {
   double largest = -1e300;
   for (std::size_t k = 0; k < 3; ++k)
@@ -65,7 +65,7 @@ inline double gap(const Box& a, const Box& b) {
   return largest;
 }
 
-// How far points with displacements in these boxes can have come nearer along an axis, at most.
+// Upper bound on the approach along any axis of points whose displacements lie in these boxes.
 inline double closing(const Box& a, const Box& b) {
   double maximum = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -73,7 +73,7 @@ inline double closing(const Box& a, const Box& b) {
   return maximum;
 }
 
-// Least x . n of a box.
+// Minimum x . n over a box.
 inline double min_along(const Box& box, const Point& n) {
   double minimum = 0;
   for (std::size_t k = 0; k < 3; ++k) minimum += std::min(n[k] * box.low[k], n[k] * box.high[k]);

@@ -6,8 +6,8 @@
 namespace pulvis::space {
 namespace {
 
-// Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours stand in the cells
-// around.
+// Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours are in
+// adjacent cells.
 class ParticleGrid {
  public:
   ParticleGrid(const std::vector<Box>& boxes, const std::vector<int>& slots, double distance) {
@@ -18,7 +18,7 @@ class ParticleGrid {
       for (std::size_t k = 0; k < 3; ++k) size_ = std::max(size_, b.high[k] - b.low[k] + distance);
     }
     low_ = all.low;
-    // A particle that flew off must not ask for a grid of its own; far cells fold into the last one.
+    // A particle that flew away must not inflate the grid; far cells are clamped to the last one.
     for (std::size_t k = 0; k < 3; ++k)
       count_[k] = static_cast<int>(std::clamp((all.high[k] - all.low[k]) / size_ + 1, 1.0, 256.0));
     begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
@@ -65,13 +65,13 @@ double squared_distance(const Point& a, const Point& b) {
   return sum;
 }
 
-// The faces of another particle that come near a particle's box.
+// Another particle, with those of its faces that are near a particle's box.
 struct NearParticle {
   std::int32_t slot;
   std::vector<std::int32_t> faces;
 };
 
-// The candidates of one slot after the other.
+// Finds the candidates of one slot after another.
 struct FaceSearch {
   const ShapedBodies& bodies;
   const SurfaceBoxes& boxes;
@@ -104,7 +104,7 @@ struct FaceSearch {
     }
     return others;
   }
-  // Of those near the box, or -1.
+  // Among those near the box, or -1.
   std::int32_t nearest_face(const Box& own, const NearParticle& other) const {
     std::int32_t nearest = -1;
     if (!near(own, entry(boxes.particle, other.slot), skin)) return nearest;

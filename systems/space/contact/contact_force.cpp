@@ -1,9 +1,9 @@
-// contact_force: assembles what every contact does to a particle, as sampled and as other body, on its Bezier points, and
+// contact_force: assembles all contact forces on a particle, as sampled and as other body, on its Bezier points, and
 // from there on its surface nodes.
 //
 // Source   systems/space/contact/assembly.hpp
-// Runs     after the narrow phase, before integrate
-// Order    a particle sums its own candidates in their order, then its pairs as other body: the same bits for any number of threads
+// Runs     after the narrow phases, before integrate
+// Order    a particle sums its own candidates in order, then its pairs as other body: the same bits for any number of threads
 #include <bit>
 
 #include "engine/chunk_lane.hpp"

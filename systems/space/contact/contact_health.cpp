@@ -1,5 +1,5 @@
-// contact_health: stops a run in three dimensions in which a surface went too deep into another, or in which too many
-// closest points were not found: what is not found is not felt.
+// contact_health: stops a run in three dimensions if a surface penetrates too deeply into another, or if too many
+// closest-point projections do not converge: such contacts carry no force.
 //
 // Runs     every step, after the forces
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace pulvis::space {
 namespace {
 
 struct Deepest {
-  double depth = 0;  // of the size of its face; NaN where one is
+  double depth = 0;  // relative to the size of its face; NaN if any is NaN
   std::int32_t row = -1;
 };
 Deepest deepest_of(const std::vector<BlockSums>& blocks) {
@@ -53,7 +53,7 @@ struct Watch {
   }
   bool too_deep(const Deepest& worst) const { return !(worst.depth <= rules.penetration_limit); }
 
-  // The share of the run grows only in steps in which some are not found: one of them is named.
+  // The share of the run grows only in steps in which some do not converge: one of them is reported.
   void projections(const contact_health::Pairs& pairs, const Totals& totals) const {
     if (totals.unconverged_share() <= rules.unconverged_limit) return;
     const auto found = std::ranges::find_if(
@@ -78,7 +78,7 @@ void contact_health::operator()() const {
   const Deepest of_pairs = pairs ? deepest_of(pairs->sums->blocks) : Deepest{};
   const Deepest of_tools = tools ? deepest_of(tools->sums->blocks) : Deepest{};
   totals->penetration = maximum_of_ranks(link, std::max(of_pairs.depth, of_tools.depth));
-  // A point that was not found may look deep: that is told first. Where nothing is a number, nothing is found.
+  // A point that did not converge may look deep: report that first. If all values are NaN, nothing converges.
   if (pairs && !std::isnan(of_pairs.depth)) watch.projections(*pairs, *totals);
   if (pairs && watch.too_deep(of_pairs))
     watch.depth(

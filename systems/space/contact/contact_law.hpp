@@ -1,12 +1,12 @@
-// Contact law: what eight points bear. Alike for pairs of particles and for tools.
+// Contact law: forces on eight points. The same for pairs of particles and for tools.
 //
 // Laws     systems/laws/normal_contact.hpp (pressure, damping), systems/laws/friction.hpp
 // Slip     of the sampled point x_s against the material point x_m of the other surface, a gap g apart along its normal n:
 //            w = (v_s - v_m)_t + g n',   n' = -sum_a (v_,a . n) a^a,   a: u, v;   a^a: reciprocal to the slopes
-//          which vanishes in a common rigid motion. The same power makes friction T act on the other surface with -T at
-//          x_m and with -g (T . a^a) n on its slope along a, so that angular momentum is kept across the gap
-// Springs  turn with the other surface: with its normal, and about it with its spin
-// Sign     force on the sampled face: pressure along n, friction in the plane across n
+//          which vanishes in a common rigid motion. By virtual power, friction T acts on the other surface with -T at
+//          x_m and with -g (T . a^a) n on its slope along a, so that angular momentum is conserved across the gap
+// Springs  rotate with the other surface: with its normal, and about it with its spin
+// Sign     force on the sampled face: pressure along n, friction in the plane normal to n
 #pragma once
 
 #include "components/run_state.hpp"
@@ -20,7 +20,7 @@ namespace pulvis::space {
 
 using VectorLanes = kernels::Vector<Lane>;
 
-// Eight of the sixteen points: those from 8 half on.
+// Eight of the sixteen points, starting at 8 half.
 inline VectorLanes load_half(const double* numbers, int half) {
   const double* first = numbers + lane_count * half;
   return {Lane::load(first), Lane::load(first + face_points), Lane::load(first + 2 * face_points)};
@@ -37,23 +37,23 @@ struct PointMotion {
   Lane gap;            // m, > 0 in penetration
   VectorLanes normal;  // outward, of the other surface
   Lane gap_rate{};     // m/s
-  VectorLanes slip{};  // m/s, in the plane across the normal
+  VectorLanes slip{};  // m/s, in the tangent plane
   VectorLanes spin{};  // rad/s, of the other surface
 };
 struct PointLaw {
   Lane kappa, friction, damping, inv_size;  // of the pass
-  Lane weight;                              // m^2, undeformed area that a point stands for
+  Lane weight;                              // m^2, undeformed area of a point
 };
 struct PointForces {
   VectorLanes force;     // N, on the sampled face
-  VectorLanes friction;  // N, of it
+  VectorLanes friction;  // N, friction part of it
   VectorLanes elastic_slip;
   Lane energy;         // J
-  Lane friction_work;  // J, of this step
-  Lane damping_work;   // J, of this step
+  Lane friction_work;  // J, in this step
+  Lane damping_work;   // J, in this step
 };
 
-// A spring, turned with the other surface in a step; its length stays.
+// A spring rotated with the other surface over a step; its length is unchanged.
 inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, double dt) {
   const VectorLanes turn = fma(Lane(dt), cross(m.spin, spring), spring);
   const VectorLanes flat = fma(-dot(turn, m.normal), m.normal, turn);
@@ -72,7 +72,7 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
       normal.spring_energy * law.weight,         Lane{}, normal.damping_power * law.weight * dt};
 }
 
-// `sliding`: the law of friction (systems/laws/friction.hpp). `before`: the springs.
+// `sliding`: the friction law (systems/laws/friction.hpp). `before`: the springs.
 template <class Sliding>
 void add_friction(const PointLaw& law, const PointMotion& m, double dt, const Lane& pressure,
                   const VectorLanes& before, Sliding& sliding, PointForces& f) {
@@ -86,14 +86,14 @@ void add_friction(const PointLaw& law, const PointMotion& m, double dt, const La
                  f.energy);
 }
 
-// Friction of a pair that is more than Coulomb's coefficient.
+// For pairs whose friction is more than a Coulomb coefficient.
 struct WeakeningPass {
   const ContactRules::Friction& of_pair;
-  double share;  // of the shear strength: one half where the other particle samples back
-  Lane lost;     // of the static part
+  double share;  // of the shear strength: one half if the other particle samples back
+  Lane lost;     // of the static part of friction
 };
 
-// Returns what is lost of the static part: nothing where the surfaces are apart.
+// Returns the loss of the static part: zero where the surfaces are apart.
 [[gnu::noinline]] inline Lane add_weakening_friction(const WeakeningPass& pass, const PointLaw& law,
                                                      const PointMotion& m, double dt,
                                                      const Lane& pressure,
@@ -110,8 +110,8 @@ struct WeakeningPass {
   return select(m.gap > 0.0, sliding.lost, Lane{});
 }
 
-// ---- books ----------------------------------------------------------------------------------------------
-// The sums of a block while it is looked at.
+// ---- sums -----------------------------------------------------------------------------------------------
+// The sums of a block while it is processed.
 struct FaceSums {
   Lane energy{}, friction_work{}, damping_work{};
   BlockSums block;
@@ -134,7 +134,7 @@ struct FaceSums {
     friction_work += f.friction_work;
     damping_work += f.damping_work;
   }
-  // The first depth that is no number, or the deepest.
+  // Keeps the first depth that is NaN, or else the deepest.
   void book_depth(std::int32_t row, double depth) {
     if (depth <= block.depth || block.depth != block.depth) return;
     block.depth = depth;

@@ -1,8 +1,8 @@
-// contact_surface: Bezier points of the smooth surfaces, linear in the nodes, and how fast they move.
+// contact_surface: Bezier points of the smooth surfaces, linear in the nodes, and their velocities.
 //
-// Source   scenes/space/meshes makes the terms
-// Runs     after integrate; its surfaces are what the next step's contacts see
-// Active   when anything can touch
+// Source   the terms are computed in scenes/space/meshes
+// Runs     after integrate; the contacts of the next step use its surfaces
+// Active   if there is contact
 #include <array>
 
 #include "engine/lane_memory.hpp"
@@ -28,7 +28,7 @@ void combine(const Shape::Terms& terms, const From& from, const To& to) {
   }
 }
 
-// All Bezier points of what the nodes carry. Nodes of the surface come first.
+// Evaluates a nodal field at all Bezier points. Surface nodes come first.
 template <class Nodes, class Net, class Points>
 void set_points(const Shape& shape, const Nodes& nodes, const Net& net, const Points& points) {
   combine(
@@ -38,7 +38,7 @@ void set_points(const Shape& shape, const Nodes& nodes, const Net& net, const Po
           [&](int p, int k) -> Lane& { return points(Row<SurfacePoint>(p), k); });
 }
 
-// From lanes to the plain list, particle after particle. The points are eights (Shape::complete_points).
+// From lanes to the plain list, particle by particle. Points are in eights (Shape::complete_points).
 template <class Points, class Surface>
 void set_surfaces(const Shape& shape, const Points& points, const Surface& surface) {
   const std::ptrdiff_t numbers = 3 * std::ptrdiff_t{shape.surface_points()};

@@ -1,9 +1,9 @@
 // face_contact: narrow phase between particles in three dimensions: the Gauss points of every candidate face against the
-// smooth surface of the other particle, with pressure, damping and friction; and what they do to that surface.
+// smooth surface of the other particle, with pressure, damping and friction; and the loads on that surface.
 //
 // Stages   pair_points.hpp -> projection.hpp -> contact_law.hpp -> other_loads.hpp, eight points at a time
 // Runs     after bin_faces, before contact_force
-// Active   when the scene has more than one particle
+// Active   if the scene has more than one particle
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -31,7 +31,7 @@ struct Reciprocal {
   }
 };
 
-// How the points move against the other surface, whose velocity and its slopes are given.
+// Motion of the points relative to the other surface, given its velocity and slopes.
 void set_rates(const VectorLanes& velocity, const kernels::PatchSlopes<Lane>& other,
                const Reciprocal& to, PointMotion& m) {
   const VectorLanes relative = velocity - other.x;
@@ -43,7 +43,7 @@ void set_rates(const VectorLanes& velocity, const kernels::PatchSlopes<Lane>& ot
   m.spin = cross(m.normal, normal_rate) + drill * m.normal;
 }
 
-// The points of one pair.
+// Processes the points of one pair.
 class PairPass {
  public:
   PairPass(const face_contact& system, int pair, FaceSums& sums)
@@ -85,7 +85,7 @@ class PairPass {
   }
 
  private:
-  // As many forces as there were in the step before: asked for before they are written.
+  // Prefetches as many forces as there were in the previous step, before they are written.
   static PairLoads::Pair& fetched(PairLoads::Pair& loads) {
     constexpr std::size_t in_a_line = 2;
     for (std::size_t i = 0; i < loads.own.size(); i += in_a_line) prefetch(&loads.own[i]);
@@ -100,14 +100,14 @@ class PairPass {
   }
 
   static constexpr double share = 0.5;  // of the stiffness: the other particle samples back
-  static constexpr double doubtful_depth = 0.25;  // of the size of a face
+  static constexpr double doubtful_depth = 0.25;  // relative to the size of a face
   static constexpr std::int32_t rows_at_once = 32;
 
   unsigned active_points(Row<FaceContact> row) const {
     return at_most(&s_.columns.activation(row), travel_);
   }
 
-  // The points that touch stand scattered among many: their lines are asked for before they are needed.
+  // The touching points are scattered among many: their cache lines are prefetched.
   void fetch(Row<FaceContact> row, unsigned active) const {
     for (unsigned left = active; left != 0; left &= left - 1)
       prefetch(&s_.columns.point(row, ContactPoint::numbers * std::countr_zero(left)));
@@ -119,14 +119,14 @@ class PairPass {
   }
   void fetch_face(const Shape& shape, std::ptrdiff_t surface, int face) const {
     const Shape::Face& of = entry(shape.faces, face);
-    for (const std::size_t p : {0, 2, 5, 7, 8, 10, 13, 15}) {  // the others lie beside them
+    for (const std::size_t p : {0, 2, 5, 7, 8, 10, 13, 15}) {  // the others are adjacent to them
       const std::ptrdiff_t at = surface + of.number[p];
       prefetch(positions_ + at);
       if (rates_ != nullptr) prefetch(rates_ + at);
     }
   }
 
-  // At the points of the halves that are active.
+  // At the points of the active halves.
   [[gnu::always_inline]] void sample(const double* column, const Shape::Face& face, unsigned active,
                                      double* out) const {
     const PatchNumbers own{column + own_surface_, face.number.data()};
@@ -205,10 +205,10 @@ class PairPass {
       p.done &= ~in_folds(p, standing, doubtful);
     }
     book(eight, p.unconverged());
-    // What is not found is not felt.
+    // Points that did not converge carry no force.
     standing.gap =
         select(LaneMask::of(p.unconverged()) & (standing.gap > 0.0), Lane{}, standing.gap);
-    // What is no number is not apart.
+    // A NaN gap counts as touching.
     const LaneMask touching = ~(standing.gap <= 0.0) & real;
     PointMotion m{select(touching, standing.gap, Lane{}), standing.normal};
     Reciprocal to;
@@ -233,7 +233,7 @@ class PairPass {
       }
     }
     keep(eight, p, standing.gap, touching.bits(), f);
-    sums_.add(f);  // of springs that are let go, too
+    sums_.add(f);  // of released springs, too
     if (!any(touching)) return;
     book_depth(eight, m.gap * law.inv_size);
     act_back(p, m, f, to, touching.bits());
@@ -256,7 +256,7 @@ class PairPass {
     return p;
   }
 
-  // Of the doubtful points, those that ended in the fold of a face that was crushed, where the normal leads astray.
+  // Of the doubtful points, those that ended in the fold of a crushed face, where the normal is misleading.
   [[gnu::noinline]] unsigned in_folds(const Projection& p, const Standing& standing,
                                       unsigned doubtful) const {
     constexpr double least_cosine = 0.3;
@@ -272,8 +272,8 @@ class PairPass {
     return folds;
   }
 
-  // Newton's method may end on the far side of a flat particle, as if the point had gone through it. From the nearest of a few
-  // spots of every face it ends elsewhere then: those of the doubtful points for which that is nearer begin there.
+  // Newton's method may end on the far side of a flat particle, as if the point had passed through it. Started from the
+  // nearest of a few spots on every face it ends elsewhere: doubtful points restart there if that spot is nearer.
   [[gnu::noinline]] ProjectionStart better_start(const Projection& found,
                                                  const ProjectionStart& start,
                                                  unsigned doubtful) const {
@@ -305,7 +305,7 @@ class PairPass {
     return columns_of<Count>(row);
   }
 
-  // ---- columns and books -------------------------------------------------------------------------------
+  // ---- columns and sums --------------------------------------------------------------------------------
   void keep(const PointLanes& eight, const Projection& p, const Lane& gap, unsigned touching,
             const PointForces& f) const {
     static constexpr double last = 1 - 1e-12;  // an end belongs to its own face
@@ -314,7 +314,7 @@ class PairPass {
     by_point({faces + min(max(p.u, Lane{}), last), min(max(p.v, Lane{}), 1.0), f.elastic_slip.x,
               f.elastic_slip.y, f.elastic_slip.z, f.force.x, f.force.y, f.force.z},
              kept);
-    // A point that is apart rests until it can touch; zero is what touches.
+    // A separated point stays inactive until it can touch; zero marks a touching point.
     alignas(64) std::array<double, lane_count> activation;
     constexpr double never_zero = std::numeric_limits<float>::min(), early = 1 - 0x1p-22;
     select(LaneMask::of(touching), Lane{}, max(early * (s_.clock->travel - gap), never_zero))
@@ -364,7 +364,7 @@ class PairPass {
   FaceSums& sums_;
   Lane friction_;
   bool rubs_;
-  const ContactRules::Friction* weakening_ = nullptr;  // where friction is more than a coefficient
+  const ContactRules::Friction* weakening_ = nullptr;  // if friction is not just Coulomb's
   PairLoads::Pair& loads_;
   OtherFaces faces_;  // of loads_
   PairPoints points_;
@@ -380,7 +380,7 @@ class PairPass {
 void face_contact::operator()(SmallTasks) const {
   const int count = pairs->count();
   sums->blocks.resize(static_cast<std::size_t>(count));
-  // Room that was made for other pairs is given back.
+  // Memory allocated for other pairs is released.
   if (std::ssize(loads->pairs) != count)
     loads->pairs = std::vector<PairLoads::Pair>(static_cast<std::size_t>(count));
   Deal tasks(count, tbb::this_task_arena::max_concurrency());

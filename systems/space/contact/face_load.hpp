@@ -1,4 +1,4 @@
-// What a face bears on its sixteen Bezier points, in registers while one point after the other is added.
+// Load on the sixteen Bezier points of a face, held in registers while points are added one by one.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace pulvis::space {
 
-// A number of each of the Bezier points of a face, in their order.
+// One number per Bezier point of a face, in order.
 using OfPatch = std::array<Lane, 2>;
 
-// b_i(u) c_j(v), from four numbers each
+// b_i(u) c_j(v), from four values each
 [[gnu::always_inline]] inline OfPatch outer(const double* b, const double* c) {
   const Lane along_u = load_halves(b, b);
   return {along_u * halves(c[0], c[1]), along_u * halves(c[2], c[3])};

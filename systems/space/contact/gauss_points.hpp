@@ -27,7 +27,7 @@ inline constexpr auto basis_at_points = [] {
   }
   return x;
 }
-// Both halves at once: numbers of the face are read once.
+// Both halves at once: the numbers of the face are read only once.
 [[gnu::always_inline]] inline std::array<kernels::Vector<Lane>, 2> sampled_points(
     const PatchNumbers& face) {
   std::array<kernels::Vector<Lane>, 2> x{};

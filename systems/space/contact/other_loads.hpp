@@ -1,6 +1,6 @@
-// What the points of a pair do to the other particle's faces, at the points that are closest to them.
+// Loads from the points of a pair on the faces of the other particle, at the closest points.
 //
-// Law      Bezier point p of the other face takes -N_p(u, v) f, and where friction acts across a gap g
+// Law      Bezier point p of the other face receives -N_p(u, v) f, and if friction acts across a gap g
 //          -(N_p,u C_u + N_p,v C_v) n with C_a = g (T . a^a): see contact_law.hpp
 #pragma once
 
@@ -15,14 +15,14 @@
 
 namespace pulvis::space {
 
-// Eight points: where they are closest, what they bear.
+// Eight points: closest-point coordinates and forces.
 struct OtherForces {
   Lane u, v;
   kernels::Vector<Lane> force, normal;
   Lane couple_u, couple_v;  // C_u, C_v
 };
 
-// Eight numbers of eight points, a point's side by side.
+// Eight numbers for each of eight points, the numbers of a point contiguous.
 using ByPoint = std::array<std::array<double, 8>, 8>;
 [[gnu::always_inline]] inline void by_point(const std::array<Lane, 8>& numbers, ByPoint& out) {
   std::array<const double*, 8> row;
@@ -31,7 +31,7 @@ using ByPoint = std::array<std::array<double, 8>, 8>;
   for (std::size_t i = 0; i < 8; ++i) column[i].store(out[i].data());
 }
 
-// For one more, and a few: there are many lists, and they hardly grow from step to step.
+// Reserves a few entries at a time: there are many lists, and they hardly grow from step to step.
 template <class T>
 void make_room(std::vector<T>& list) {
   constexpr std::size_t few = 4;
@@ -42,7 +42,7 @@ class OtherFaces {
  public:
   explicit OtherFaces(PairLoads::Pair& loads) : loads_(loads) { loads_.clear(); }
 
-  // Those of the points whose bit is set in `bearing`. face[l]: of the other particle.
+  // Subtracts the forces of the points whose bit is set in `bearing`. face[l]: of the other particle.
   template <bool Friction>
   void subtract(const std::array<std::int32_t, 8>& face, unsigned bearing, const OtherForces& f) {
     const auto bu = kernels::bernstein(f.u), bv = kernels::bernstein(f.v);

@@ -1,6 +1,6 @@
-// The points of a pair of particles that may touch in this step, gathered from its rows: a few of each face as a rule.
-// Eight of them are worked on at a time, whatever faces they are of, in the order of the faces that they stood against: these
-// are the same for most of the eight then, and so are the numbers that projection needs.
+// The points of a pair of particles that may touch in this step, collected from its rows: usually a few per face.
+// They are processed eight at a time, whatever faces they belong to, sorted by the face that they were closest to: most of
+// the eight then share the same face, and so the data that projection needs.
 #pragma once
 
 #include <algorithm>
@@ -12,26 +12,26 @@
 
 namespace pulvis::space {
 
-// A point while its pair is worked on: rows of eight numbers, which become lanes by transposing.
+// A point while its pair is processed: rows of eight numbers, which become lanes by transposing.
 struct alignas(64) PairPoint {
   std::array<double, 8> motion;  // position, velocity, weight, 1/size of the face
-  double kappa, damping;         // of contact_law.hpp
-  double* kept;                  // in the columns: ContactPoint's numbers
-  float* activation;             // there: when it is active again
-  double* lost;                  // there: SlipWeakening, or null
-  double* force;                 // there: ContactPointForce, or null
+  double kappa, damping;         // as in contact_law.hpp
+  double* kept;                  // ContactPoint numbers in the columns
+  float* activation;             // in the column: when it becomes active again
+  double* lost;                  // in the column: SlipWeakening, or null
+  double* force;                 // in the column: ContactPointForce, or null
   std::int32_t row;              // of FaceContact
-  bool touches;                  // once it was worked on: `motion` begins with the force then
+  bool touches;                  // valid once processed: `motion` then starts with the force
 };
 
-// Eight of them; the last one stands in the lanes that are left over.
+// Eight points; unused lanes repeat the last one.
 struct PointLanes {
   std::array<PairPoint*, lane_count> point;
-  std::array<std::int32_t, lane_count> face;  // of the other particle, which has the closest point
-  unsigned real = 0;                          // bit l: lane l is a point of its own
+  std::array<std::int32_t, lane_count> face;  // of the other particle, with the closest point
+  unsigned real = 0;                          // bit l: lane l holds a point that is not a repeat
 };
 
-// As many points as are worked on at once: what touches of a pair fits in, of large faces in many turns.
+// A buffer of points processed together: the touching points of a pair usually fit; large faces take several batches.
 class PairPoints {
  public:
   static constexpr int capacity = 96;
@@ -42,7 +42,7 @@ class PairPoints {
     return entry(points_, count_++);
   }
 
-  // visit(eight of them)
+  // visit(eight points)
   template <class Visit>
   void for_eights(const Visit& visit) {
     std::sort(order_.begin(), order_.begin() + count_);
@@ -57,7 +57,7 @@ class PairPoints {
       visit(eight);
     }
   }
-  // visit(each of them), in the order in which they were added; then there are none.
+  // visit(each point), in the order in which they were added; then clears the buffer.
   template <class Visit>
   void take_out(const Visit& visit) {
     for (int i = 0; i < count_; ++i) visit(entry(points_, i));
@@ -66,7 +66,7 @@ class PairPoints {
 
  private:
   std::array<PairPoint, capacity> points_;
-  std::array<std::int64_t, capacity> order_;  // face, then place in points
+  std::array<std::int64_t, capacity> order_;  // face, then index in points
   int count_ = 0;
 };
 

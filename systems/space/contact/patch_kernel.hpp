@@ -1,12 +1,12 @@
-// Bicubic Bezier patches: points, slopes and curvatures, and the step of Newton's method towards the closest point.
+// Bicubic Bezier patches: points, slopes and curvatures, and the Newton step towards the closest point.
 //
 // Patch    x(u, v) = sum_ij B_i(u) B_j(v) p_(4 j + i), 0 <= u, v <= 1; outward normal x_u cross x_v
 // Closest  (x_s - x) . x_u = (x_s - x) . x_v = 0 for r = x_s - x, from the minimum of r.r/2:
 //            [x_u.x_u - r.x_uu   x_u.x_v - r.x_uv] [du]   [r.x_u]
 //            [      .            x_v.x_v - r.x_vv] [dv] = [r.x_v]
-//          Where the distance is not convex, the curvatures are left out (Gauss-Newton), which leads downhill.
-// Near     Close to the solution the patch is its Taylor polynomial of second order: a second step on that needs no patch.
-//          With steps below `near_step` of a patch what is left out moves the point by 1e-11 of it.
+//          If the distance is not convex, the curvatures are dropped (Gauss-Newton), which gives a descent direction.
+// Near     Close to the solution the patch is replaced by its second-order Taylor polynomial: a second step on that needs
+//          no patch. With steps below `near_step` of a patch the truncation moves the point by 1e-11 of it.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ struct PatchPoint {
   Vector<T> x, u, v, uu, uv, vv;
 };
 
-// Component `k` of all of it. control(k, p): component k of Bezier point p.
+// Component `k` of all quantities. control(k, p): component k of Bezier point p.
 template <class T, class Control>
 [[gnu::always_inline]] inline std::array<T, 6> component(const Control& control, int k,
                                                          const Basis<T>& u, const Basis<T>& v) {
@@ -78,7 +78,7 @@ template <class T, class Control>
           {x[3], y[3], z[3]}, {x[4], y[4], z[4]}, {x[5], y[5], z[5]}};
 }
 
-// Value and slopes alone.
+// Position and slopes only.
 template <class T>
 struct PatchSlopes {
   Vector<T> x, u, v;
@@ -106,7 +106,7 @@ template <class T, class Control>
 // ---- closest points -----------------------------------------------------------------------------------
 inline constexpr double near_step = 5e-4;  // of a patch
 
-// Newton's equations at a point of the patch, solved for any right side.
+// Newton's equations at a point of the patch, solved for any right-hand side.
 template <class T>
 struct Newton {
   T a, b, c, inv_det;  // [a b; b c]
@@ -120,7 +120,7 @@ struct Newton {
 
 template <class T>
 [[gnu::always_inline]] inline Newton<T> newton(const PatchPoint<T>& p, const Vector<T>& r) {
-  constexpr double least = 0.1;  // of the metric's, below which the distance counts as not convex
+  constexpr double least = 0.1;  // relative to the metric; below this the distance is not convex
   const T a = dot(p.u, p.u), b = dot(p.u, p.v), c = dot(p.v, p.v);
   const T full_a = a - dot(r, p.uu), full_b = b - dot(r, p.uv), full_c = c - dot(r, p.vv);
   const T det = fma(a, c, -(b * b)), full_det = fma(full_a, full_c, -(full_b * full_b));
@@ -129,7 +129,7 @@ template <class T>
           1.0 / select(convex, full_det, det)};
 }
 
-// The patch near a point of it.
+// Taylor expansion of the patch about one of its points.
 template <class T>
 [[gnu::always_inline]] inline PatchSlopes<T> taylor(const PatchPoint<T>& p, const T& du,
                                                     const T& dv) {

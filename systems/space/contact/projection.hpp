@@ -1,10 +1,10 @@
-// Projection: where eight points stand against the smooth surface of another particle.
+// Projection: closest points of eight points on the smooth surface of another particle.
 //
-// Method   Newton's (patch_kernel.hpp) from where a point was closest before; a step goes over one face at most, on to
-//          the next one. Steps are quartered each time they lead back over a side that they came over, since curvatures jump
-//          there; they double again. A point that even small ones send to and fro is closest to the side itself, or to its
-//          end, where surfaces have a crease: it moves along it then
-// Lanes    every point stops by itself, so that none depends on the others
+// Method   Newton's (patch_kernel.hpp) from the previous closest point; a step crosses at most one face, into
+//          the next one. The step limit is quartered each time a step goes back across a side just crossed, since curvatures
+//          jump there; it doubles again later. A point that oscillates even with small steps is closest to the side itself,
+//          or to its end, where surfaces have a crease: it then moves along it
+// Lanes    each point stops independently, so that no result depends on the other points
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace pulvis::space {
 
 using VectorLanes = kernels::Vector<Lane>;
 
-// The Bezier points of eight faces, one a lane.
+// The Bezier points of eight faces, one face per lane.
 struct PatchLanes {
   std::array<Lane, face_numbers> all;
   const Lane& operator()(int k, int p) const { return all[static_cast<std::size_t>(16 * k + p)]; }
@@ -34,19 +34,19 @@ struct PatchLanes {
     for (std::size_t p = 0; p < patch_points; ++p) {
       std::array<const double*, lane_count> row;
       for (std::size_t l = 0; l < lane_count; ++l) row[l] = first + number[l][p];
-      const auto columns = columns_of<4>(row);  // and the first number of the point after
+      const auto columns = columns_of<4>(row);  // plus the first number of the next point
       for (std::size_t k = 0; k < 3; ++k) all[16 * k + p] = columns[k];
     }
   }
 };
 
-// How a point stands against another surface.
+// Position of a point relative to another surface.
 struct Standing {
-  Lane gap;            // m, > 0 in penetration; else minus the distance
+  Lane gap;            // m, > 0 in penetration; otherwise minus the distance
   VectorLanes normal;  // outward, of the other surface
 };
 
-// Where the search for the closest points begins.
+// Starting point of the closest-point search.
 struct ProjectionStart {
   std::array<std::int32_t, 8> face;
   Lane u, v;
@@ -54,15 +54,15 @@ struct ProjectionStart {
 
 struct Projection {
   static constexpr int max_steps = 40;
-  static constexpr double least_sine2 = 0.05 * 0.05;  // between both slopes of a face, squared
-  static constexpr int crossings_of_crease = 7;       // over one side, to and fro
-  static constexpr int most_crossings = 16;           // round and round the end of a crease
+  static constexpr double least_sine2 = 0.05 * 0.05;  // of the angle between the slopes of a face
+  static constexpr int crossings_of_crease = 7;       // over one side, back and forth
+  static constexpr int most_crossings = 16;           // around the end of a crease
 
   const Shape* shape;   // of the other particle
   const double* first;  // its Bezier points
   VectorLanes point;    // m
   std::array<std::int32_t, 8> face;
-  Lane u, v;  // closest so far; when found, on its face
+  Lane u, v;  // closest so far; once converged, on its face
   unsigned done = 0;
 
   Projection(const Shape& other, const double* first_point, const VectorLanes& points,
@@ -103,7 +103,7 @@ struct Projection {
     return s;
   }
 
-  // What the faces carry, `from` the numbers of the particle's Bezier points, at the closest points.
+  // Interpolates a field on the faces at the closest points; `from`: its values at the particle's Bezier points.
   kernels::PatchSlopes<Lane> carried(const double* from) {
     const TwoPatches two = two_patches(from);
     if (faces_ == 1) return kernels::patch_slopes<Lane>(OnePatch{two.first}, u, v);
@@ -115,10 +115,10 @@ struct Projection {
   PatchLanes patch;
   kernels::PatchSlopes<Lane>
       slopes;          // of the surface at the closest point (x: before the last correction)
-  VectorLanes offset;  // m, from there to the point
+  VectorLanes offset;  // m, from the closest point to the point
 
  private:
-  // Points that stand against one face or two need no patches side by side.
+  // If the points face only one or two faces, the patches need not be gathered per lane.
   [[gnu::always_inline]] void gather() {
     faces_ = 1;
     unsigned of_second = 0;
@@ -168,12 +168,12 @@ struct Projection {
     const Lane only_v = along_v / max(cc - dot(r_, at_.vv), 0.25 * cc);
     du_ = select(u_held, zero, select(v_held, only_u, du_));
     dv_ = select(v_held, zero, select(u_held, only_v, dv_));
-    // No farther than the end of the side.
+    // Not beyond the end of the side.
     const LaneMask held = u_held | v_held;
     du_ = select(held, min(max(u + du_, zero), 1.0) - u, du_);
     dv_ = select(held, min(max(v + dv_, zero), 1.0) - v, dv_);
   }
-  // Lanes whose step is small and leads to no other face.
+  // Lanes whose step is small and does not leave the face.
   [[gnu::always_inline]] unsigned find_done() const {
     const Lane zero{}, one(1.0), next_u = u + du_, next_v = v + dv_;
     const LaneMask small = max(abs(du_), abs(dv_)) < Lane(kernels::near_step);
@@ -202,7 +202,7 @@ struct Projection {
     const SurfaceSpot to = across(*shape, from, side);
     const bool back = to.face == came_from_[lane] || to.face == from.face;
     crossings_[lane] = back ? crossings_[lane] + 1 : 1;
-    if (back) longest_[l] *= 0.125;  // of what it has become
+    if (back) longest_[l] *= 0.125;  // relative to the current limit
     came_from_[lane] = from.face;
     face[lane] = to.face;
     u[l] = to.u;
@@ -220,9 +220,9 @@ struct Projection {
     v[l] = on.v;
     (side % 2 == 1 ? held_u_ : held_v_) |= 1U << l;
   }
-  // The last, small step, and its own correction.
+  // The last, small step, and its correction.
   [[gnu::always_inline]] void settle() {
-    // Where a point was not found the next step may lead anywhere.
+    // For points that did not converge, the next step may lead anywhere.
     if (done != 0xffU) keep_steps(done, du_, dv_);
     slopes = kernels::taylor(at_, du_, dv_);
     offset = point - slopes.x;
@@ -238,18 +238,18 @@ struct Projection {
     u += du_;
     v += dv_;
     across_ = cross(slopes.u, slopes.v);
-    // A point is not found where the surface has no normal, as in the fold of a face that was crushed.
+    // A point does not converge where the surface has no normal, as in the fold of a crushed face.
     done &=
         ~(dot(across_, across_) < least_sine2 * (dot(slopes.u, slopes.u) * dot(slopes.v, slopes.v)))
              .bits();
   }
-  // Those of the lanes' bits alone.
+  // Only in the lanes whose bits are set.
   [[gnu::noinline]] static void keep_steps(unsigned lanes, Lane& along_u, Lane& along_v) {
     const LaneMask kept = LaneMask::of(lanes);
     along_u = select(kept, along_u, Lane{});
     along_v = select(kept, along_v, Lane{});
   }
-  // From a crease the way out leads to the point itself.
+  // On a crease the normal is the direction towards the point itself.
   [[gnu::noinline]] void look_to_crease(Standing& s) const {
     const Lane distance = sqrt(dot(offset, offset));
     const LaneMask held = LaneMask::of(held_u_ | held_v_) & (distance > 0.0);
@@ -258,13 +258,13 @@ struct Projection {
     s.gap = select(held, -(sign * distance), s.gap);
   }
 
-  int faces_ = 1;  // that the points stand against; 3: or more
+  int faces_ = 1;  // number of faces that the points project on; 3: or more
   std::int32_t second_ = 0;
   LaneMask on_second_;
   kernels::PatchPoint<Lane> at_;
   kernels::Newton<Lane> newton_;
   VectorLanes r_, across_;
-  Lane du_, dv_, longest_{1.0};  // steps, and how long they may be
+  Lane du_, dv_, longest_{1.0};  // steps, and their maximum length
   unsigned held_u_ = 0, held_v_ = 0;
   std::array<std::int32_t, 8> came_from_{-1, -1, -1, -1, -1, -1, -1, -1};
   std::array<std::int32_t, 8> crossings_{}, all_crossings_{};

@@ -1,9 +1,9 @@
-// skin_check: whether the contact rows must be made anew, in three dimensions: as systems/contact/skin_check.cpp, by how
-// far surfaces that are near each other have come nearer since the rows were made.
+// skin_check: whether the contact rows must be rebuilt, in three dimensions: as systems/contact/skin_check.cpp, from how
+// far neighbouring surfaces have approached each other since the last rebuild.
 //
 // Source   systems/space/contact/box.hpp
 // Runs     first of the contact systems; does nothing while Clock::travel is below `look_at`
-// Active   when anything can touch
+// Active   if there is contact
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -17,19 +17,19 @@
 namespace pulvis::space {
 namespace {
 
-constexpr double min_left = 0.2;  // of the skin: with less, looking costs more than new rows
+constexpr double min_left = 0.2;  // of the skin: with less, checking costs more than a rebuild
 
-// What the next step may use up, where steps are long beside the skin.
+// What the next step may use up, if steps are long compared to the skin.
 double look_ahead(const ContactIndex& index, double travel) {
   const double step = travel - index.travel_seen;
   return step > min_left * index.skin ? step : 0;
 }
 
-struct SurfaceMotion {  // of a particle since the rows were made
+struct SurfaceMotion {  // of a particle since the last rebuild
   Box before, displacement;
 };
 
-// Of its Bezier points, whose hull holds the surface.
+// From its Bezier points, whose hull contains the surface.
 SurfaceMotion motion_of(const double* before, const double* now, int points) {
   const auto at = [](const double* x) { return Box{{x[0], x[1], x[2]}, {x[0], x[1], x[2]}}; };
   SurfaceMotion motion{};
@@ -42,13 +42,13 @@ SurfaceMotion motion_of(const double* before, const double* now, int points) {
   return motion;
 }
 
-// What is left of the skin.
+// Remaining skin.
 struct Remaining {
   const Bodies& bodies;
   const ContactIndex& index;
   const std::vector<SurfaceMotion>& motion;  // [slots]
 
-  // Particles that were no neighbours: whichever of all moved most against each other.
+  // For particles that were not neighbours: the largest relative motion of any two.
   double of_non_neighbours(const std::vector<int>& slots,
                            const Optional<BorderOutlines<SurfacePosition>>& border) const {
     std::array<double, 6> farthest;
@@ -74,15 +74,15 @@ struct Remaining {
     for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
          ++k) {
       const int other = entry(index.neighbours, k);
-      if (other < slot && bodies.owns(other)) continue;  // seen from there
+      if (other < slot && bodies.owns(other)) continue;  // handled from the other side
       const SurfaceMotion& its = entry(motion, other);
       minimum = std::min(minimum, std::max(index.skin, kernels::gap(own.before, its.before)) -
                                       kernels::closing(own.displacement, its.displacement));
     }
     return minimum;
   }
-  // Towards a plane only what goes against its normal counts, so that a compact may slide along it; towards others all
-  // that a particle has moved against them.
+  // Towards a plane only motion against its normal counts, so that a compact may slide along it; towards other tools all
+  // relative motion counts.
   double of_tools(const ToolSurfaces& tools, int slot) const {
     double minimum = 1e300;
     for (int t = 0; t < tools.position.rows(); ++t) {

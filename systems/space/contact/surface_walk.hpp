@@ -1,4 +1,4 @@
-// Walking over the faces of a surface: where one comes in who leaves a face over a side.
+// Walking over the faces of a surface: where a point that leaves a face across a side enters the next one.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace pulvis::space {
 
-// A point of a particle's surface.
+// A point on the surface of a particle.
 struct SurfaceSpot {
   int face;
   double u, v;
@@ -19,7 +19,7 @@ struct SurfaceSpot {
 
 inline constexpr int no_side = -1;
 
-// Over which side of its face a point has gone, the one farther behind it where it is two.
+// The side across which a point has left its face; if there are two, the one it is farther beyond.
 inline int side_left(double u, double v) {
   const double out_u = std::max(-u, u - 1), out_v = std::max(-v, v - 1);
   if (std::max(out_u, out_v) <= 0) return no_side;
@@ -27,7 +27,7 @@ inline int side_left(double u, double v) {
   return v > 1 ? 2 : 0;
 }
 
-// How far along a side, counter-clockwise from 0 to 1, and how far beyond it.
+// Position along a side, counter-clockwise from 0 to 1, and distance beyond it.
 struct BesideSide {
   double along, beyond;
 };
@@ -43,7 +43,7 @@ inline BesideSide beside(int side, double u, double v) {
       return {1 - v, -u};
   }
 }
-// The point of a face `beyond` inside from its side.
+// The point of a face at distance `beyond` inwards from its side.
 inline SurfaceSpot inside(int face, int side, double along, double beyond) {
   switch (side) {
     case 0:
@@ -57,7 +57,7 @@ inline SurfaceSpot inside(int face, int side, double along, double beyond) {
   }
 }
 
-// Where a point that left its face over `side` stands in the next one, if there is one; else on the side.
+// Position in the next face of a point that left its face across `side`; on the side itself if there is no next face.
 inline SurfaceSpot across(const Shape& shape, const SurfaceSpot& spot, int side) {
   const Shape::Neighbour& next = entry(entry(shape.faces, spot.face).neighbour, side);
   const BesideSide at = beside(side, spot.u, spot.v);
@@ -66,7 +66,7 @@ inline SurfaceSpot across(const Shape& shape, const SurfaceSpot& spot, int side)
   return inside(next.face, next.side, 1 - along, std::clamp(at.beyond, 0.0, 1.0));
 }
 
-// Of all corners and middles of a particle's faces, the one nearest to a point. `first`: the particle's Bezier points.
+// Of all corners and centres of a particle's faces, the one nearest to a point. `first`: the particle's Bezier points.
 inline SurfaceSpot nearest_spot(const Shape& shape, const double* first, const Point& point) {
   constexpr double spots[5][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 0.5}};
   SurfaceSpot nearest{0, 0.5, 0.5};
@@ -84,7 +84,7 @@ inline SurfaceSpot nearest_spot(const Shape& shape, const double* first, const P
   return nearest;
 }
 
-// Cosine of the angle between a normal found on a face and that of the face as a whole, which its diagonals span.
+// Cosine of the angle between a normal found on a face and the mean normal of the face, spanned by its diagonals.
 inline double along_face(const PatchNumbers& face, const kernels::Vector<double>& normal) {
   const auto corner = [&](int p) {
     return kernels::Vector<double>{face(0, p), face(1, p), face(2, p)};

@@ -1,5 +1,5 @@
-// Systems of surfaces that meet in three dimensions. What a system reads and writes is what it declares here, once;
-// systems/space/step.cpp puts them in order, and each is described at the top of its own file.
+// Systems for contact of surfaces in three dimensions. Each declares here what it reads and writes;
+// systems/space/step.cpp defines their order, and the descriptions are at the top of the individual files.
 #pragma once
 
 #include "components/body.hpp"
@@ -23,7 +23,7 @@ struct contact_surface {
   void operator()(Chunk chunk) const;
 };
 
-// ---- which rows there are -----------------------------------------------------------------------
+// ---- contact rows -------------------------------------------------------------------------------
 struct skin_check {
   ShapedBodies bodies;
   Read<Clock> clock;
@@ -35,13 +35,13 @@ struct skin_check {
   void operator()() const;
 };
 
-// What the laws of a row follow from.
+// Input of the contact laws of a row.
 struct ContactStiffness {
   Read<ContactRules> rules;
   Read<BulkModulus> bulk;
   Read<Density> density;
 };
-// What is set when a row is made.
+// What is set when a row is created.
 template <class At>
 struct NewRows {
   Write<ContactPair<At>> pair;
@@ -80,13 +80,13 @@ struct bin_tool_faces {
   void operator()() const;
 };
 
-// ---- what they do ---------------------------------------------------------------------------------
+// ---- contact forces -------------------------------------------------------------------------------
 struct ContactFaces {
   Read<SurfacePosition> position;
-  Optional<Read<SurfaceVelocity>> velocity;  // with friction or damping
+  Optional<Read<SurfaceVelocity>> velocity;  // only with friction or damping
 };
 
-// Where some friction is more than Coulomb's coefficient.
+// If some friction is more than a Coulomb coefficient.
 template <class At>
 struct FrictionHistory {
   Write<SlipWeakening<At>> lost;
@@ -113,7 +113,7 @@ struct face_contact {
   void operator()(SmallTasks) const;
 };
 
-// What the narrow phase leaves of the rows of tools for those who look at those that touch.
+// Output of the narrow phase on the tool rows, for systems that look at touching rows.
 struct TouchingRows {
   Read<ContactPair<FaceToolContact>> pair;
   Read<ContactTouches<FaceToolContact>> touches;
@@ -139,7 +139,7 @@ struct contact_force {
   void operator()(Chunk chunk) const;
 };
 
-// ---- whether the run is still sound -----------------------------------------------------------------
+// ---- health of the run ------------------------------------------------------------------------------
 struct contact_health {
   ShapedBodies bodies;
   Read<Clock> clock;

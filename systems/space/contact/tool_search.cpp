@@ -12,7 +12,7 @@ Point point_of(const PatchNumbers& face, int p) { return {face(0, p), face(1, p)
 Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double product(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Height along an axis through a tool's position, and distance from it.
+// Height along the axis through a tool's position, and distance from that axis.
 struct AboutAxis {
   double height, radius;
   AboutAxis(const Point& at, const Point& axis) {
@@ -21,7 +21,7 @@ struct AboutAxis {
   }
 };
 
-// Of a convex set, both the most and, seen from the middle, bounds of the radius are found at its Bezier points.
+// For a convex set, extremes along the axis and bounds of the radius from the centre are at its Bezier points.
 bool near_meridian(const ToolSurface& meridian, const PatchNumbers& face, const Point& at,
                    const Point& axis, double reach) {
   const Point middle = difference(face_box(face).middle(), at);
@@ -91,7 +91,7 @@ BySlot<ToolCandidate> tool_candidates(const FaceLook& look) {
 
 void triangles_near(const TriangleMesh& mesh, const Box& box, double reach,
                     std::vector<std::int32_t>& list) {
-  std::array<std::int32_t, 64> open;  // nodes of the tree; as deep as it can be
+  std::array<std::int32_t, 64> open;  // nodes of the tree; sized for its maximum depth
   std::size_t count = 0;
   if (!mesh.tree.empty()) open[count++] = 0;
   while (count > 0) {

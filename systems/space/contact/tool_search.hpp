@@ -1,4 +1,4 @@
-// Which faces are near which tools: pure geometry, no columns but what it is given.
+// Finds which faces are near which tools: pure geometry, no columns except those passed in.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ struct FaceLook {
   const ToolSurfaces& tools;
   double skin;
 
-  // Whether the face can touch the tool before the skin is used up, or stands behind its surface: of punches and meshes by
-  // up to its own size. (Deeper than that no force would be right.)
+  // Whether the face can touch the tool before the skin is used up, or is behind its surface: for punches and meshes by
+  // up to its own size. (At greater depth no force would be meaningful.)
   bool can_touch(int slot, int face, int tool) const;
-  // Those of a mesh tool that can be nearest then.
+  // Adds the triangles of a mesh tool that can be the nearest until then.
   void add_triangles(const ToolCandidate& candidate, std::vector<std::int32_t>& list) const;
 };
 
-// All, sorted by (slot, face, tool).
+// All candidates, sorted by (slot, face, tool).
 BySlot<ToolCandidate> tool_candidates(const FaceLook& look);
 
 // The triangles whose boxes are within `reach` of a box, ascending.

@@ -1,11 +1,11 @@
-// Vectors of three dimensions whose components are doubles or lanes.
+// Three-dimensional vectors whose components are doubles or lanes.
 #pragma once
 
 #include "engine/lane.hpp"
 
 namespace pulvis::space::kernels {
 
-using pulvis::fma;  // of doubles and lanes, beside the one of vectors
+using pulvis::fma;  // for doubles and lanes, next to the vector version
 using pulvis::select;
 
 template <class T>

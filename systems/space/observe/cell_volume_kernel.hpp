@@ -1,10 +1,10 @@
-// Volumes of bodies in the cells of a regular grid, exact for bodies whose surface is made of triangles.
+// Volumes of bodies in the cells of a regular grid, exact for bodies bounded by triangles.
 //
-// Law      Gauss: the part of a triangle above (outward normal up: +) or below (-) a column of cells closes off what is under
+// Law      Gauss: the part of a triangle above (outward normal up: +) or below (-) a column of cells bounds the volume under
 //          it. Its piece in the cell [z_k, z_k+1] adds the integral of (z - z_k) over its projection on that column, and the
-//          whole height times the projection to all cells under it
-// Clipping a triangle is cut by the grid's planes across x, y, z in turn; pieces stay convex
-// Symbols  m; cells count from the low corner of the grid; triangles are counter-clockwise as seen from outside
+//          full height times the projection to all cells below
+// Clipping a triangle is cut by the grid planes normal to x, then y, then z; pieces stay convex
+// Symbols  m; cells count from the low corner of the grid; triangles are counter-clockwise seen from outside
 #pragma once
 
 #include <algorithm>
@@ -23,14 +23,14 @@ struct GridAxis {
   int count = 1;
 
   double line(int i) const { return low + i * cell; }
-  // -1 and `count` lie outside.
+  // -1 and `count` are outside.
   int cell_of(double x) const {
     return static_cast<int>(std::clamp(std::floor((x - low) / cell), -1.0, count * 1.0));
   }
 };
 using Grid = std::array<GridAxis, 3>;
 
-// Convex: a triangle that the two planes of a slab have cut across each of three axes.
+// Convex: a triangle cut by the two planes of a slab along each of the three axes.
 struct Piece {
   std::array<Point, 10> corner;
   std::size_t count = 0;
@@ -60,7 +60,7 @@ inline Halves cut(const Piece& piece, std::size_t axis, double at) {
   return halves;
 }
 
-// visit(i, piece of the slab i); slabs -1 and `count` go on without end.
+// visit(i, piece in slab i); slabs -1 and `count` are unbounded.
 template <class Visit>
 void for_slabs(const GridAxis& lines, std::size_t axis, Piece rest, const Visit& visit) {
   if (rest.count == 0) return;
@@ -75,8 +75,8 @@ void for_slabs(const GridAxis& lines, std::size_t axis, Piece rest, const Visit&
   if (rest.count > 2) visit(last, rest);
 }
 
-struct Shadow {       // of a piece, on a plane across z
-  double area = 0;    // m^2, < 0 where the outward normal looks down
+struct Shadow {       // projection of a piece on a plane normal to z
+  double area = 0;    // m^2, < 0 if the outward normal points down
   double moment = 0;  // m^3, integral of z over it
 };
 
@@ -92,18 +92,18 @@ inline Shadow projection_of(const Piece& piece) {
   return sum;
 }
 
-// The volumes of one body in the cells of a box of the grid, which it must not leave sideways or downwards without leaving
-// the grid.
+// The volumes of one body in the cells of a box within the grid. The body may leave the box sideways or downwards only
+// where it also leaves the grid.
 class CellVolumes {
  public:
-  // Of the body that reaches from `low` to `high`.
+  // For a body that extends from `low` to `high`.
   CellVolumes(const Grid& grid, const Point& low, const Point& high) : grid_(grid) {
     for (std::size_t k = 0; k < 3; ++k) {
       first_[k] = std::max(grid[k].cell_of(low[k]), 0);
       const int last = std::min(grid[k].cell_of(high[k]), grid[k].count - 1);
       count_[k] = std::max(0, last - first_[k] + 1);
     }
-    const auto layers = static_cast<std::size_t>(count_[2]) + 1;  // the last lies above the box
+    const auto layers = static_cast<std::size_t>(count_[2]) + 1;  // the last one is above the box
     volume_.assign(columns() * layers, 0);
     above_.assign(columns() * layers, 0);
   }
@@ -121,7 +121,7 @@ class CellVolumes {
     });
   }
 
-  // visit(cell, volume) for cells with any, counted x first, then y, then z.
+  // visit(cell, volume) for non-empty cells, numbered x first, then y, then z.
   template <class Visit>
   void finish(const Visit& visit) const {
     const double height = grid_[2].cell, least = 1e-12 * grid_[0].cell * grid_[1].cell * height;
@@ -156,7 +156,7 @@ class CellVolumes {
            static_cast<std::size_t>(i);
   }
   void add_piece(int i, int j, int k, const Piece& piece) {
-    if (k < first_[2]) return;  // under the grid
+    if (k < first_[2]) return;  // below the grid
     const int layer = std::min(k - first_[2], count_[2]);
     const Shadow of = projection_of(piece);
     const std::size_t cell = at(i - first_[0], j - first_[1], layer);
@@ -166,12 +166,12 @@ class CellVolumes {
 
   const Grid& grid_;
   std::array<int, 3> first_{}, count_{};
-  std::vector<double> volume_;  // m^3, of what ends in the cell
-  std::vector<double> above_;   // m^2, surface in it that closes off the cells under it
+  std::vector<double> volume_;  // m^3, from the surface in the cell
+  std::vector<double> above_;   // m^2, projected surface in it that bounds the cells below
 };
 
-// ---- the room in a round die ----------------------------------------------------------------------------
-// m^2: of a circle about the origin in [0, x] x [0, y], with the sign of x y.
+// ---- the space in a round die ---------------------------------------------------------------------------
+// m^2: area of a circle about the origin within [0, x] x [0, y], with the sign of x y.
 inline double circle_in_quadrant(double radius, double x, double y) {
   const double sign = (x < 0 ? -1.0 : 1.0) * (y < 0 ? -1.0 : 1.0);
   const double a = std::min(std::abs(x), radius), b = std::min(std::abs(y), radius);

@@ -1,11 +1,11 @@
-// contact_network: the points of all contact rows summed up into one contact for every pair of particles, and for every
-// particle and tool that touch.
+// contact_network: sums the points of all contact rows into one contact for every pair of particles, and for every
+// particle and tool in contact.
 //
-// Law      force = sum over the points of both half passes, as contact_force gives them to the bodies; the normal is the
-//          direction of the sum of their normal parts, so that it does not depend on where the mesh nodes lie. Area: current
-//          area that the points with a force stand for, mean of both sides
-// Runs     on sampled steps, after the narrow phases
-// Active   when the scene asks for contacts
+// Law      force = sum over the points of both half passes, as contact_force applies them to the bodies; the normal is the
+//          direction of the sum of their normal parts, so that it does not depend on node positions. Area: current
+//          area of the points with a force, mean of both sides
+// Runs     in sampled steps, after the narrow phases
+// Active   if the scene asks for contacts
 #include <algorithm>
 
 #include "engine/entry.hpp"
@@ -25,18 +25,18 @@ constexpr std::array<double, 4> weight_at{0.173927422568726928687, 0.32607257743
 
 double length_of(const VectorOfPoint& a) { return std::sqrt(dot(a, a)); }
 
-// A Gauss point that bears a force, `normal` into the sampled side.
+// A Gauss point with a force, `normal` into the sampled side.
 struct TouchingPoint {
   VectorOfPoint at, normal, force;
   double area;
 };
 
-// Sums of a contact while its points are gathered.
+// Sums over a contact while its points are collected.
 struct Gathered {
   ContactLink link;
   double weight = 0;
 
-  // `side` -1 where the sampled side is the link's second particle.
+  // `side` is -1 if the sampled side is the link's second particle.
   void add(const TouchingPoint& p, double side) {
     const double size = length_of(p.force), push = dot(p.force, p.normal);
     weight += size;
@@ -62,7 +62,7 @@ struct Gathered {
   }
 };
 
-// The contacts of one particle, found by their other side.
+// The contacts of one particle, by their other side.
 class Partners {
  public:
   explicit Partners(int first) : first_(first) {}
@@ -74,7 +74,7 @@ class Partners {
     all_.back().link.second = second;
     return all_.back();
   }
-  // Points may touch without a force, where the surfaces just meet: those make no contact.
+  // Points may touch without a force, where the surfaces just meet: those do not count as contact.
   void move_to(std::vector<ContactLink>& links, double sides) const {
     for (const Gathered& g : all_)
       if (g.weight > 0) links.push_back(g.finished(sides));
@@ -93,12 +93,12 @@ struct Looker {
   const contact_network& s;
 
   int number(int slot) const { return entry(s.bodies.bodies->slots, slot).number; }
-  // Point and slopes of a particle's surface.
+  // Point and slopes on a particle's surface.
   kernels::PatchSlopes<double> surface(int slot, int face, double u, double v) const {
     return kernels::patch_slopes<double>(s.bodies.patch(s.position.values(), slot, face), u, v);
   }
 
-  // Adds the points of a face that bear a force: force_at(g), and normal_at(g), which looks into the sampled particle.
+  // Adds the points of a face with a force: force_at(g), and normal_at(g), which points into the sampled particle.
   template <class ForceAt, class NormalAt>
   void add_points(int slot, int number, double side, const ForceAt& force_at,
                   const NormalAt& normal_at, Gathered& contact) const {
@@ -152,7 +152,7 @@ struct Looker {
     add_points(slot, face, 1, force_at, normal_at, contact);
   }
 
-  // Each pair belongs to its particle of lower number, whose rows and those against it are looked through.
+  // Each pair belongs to its particle with the lower number: searches the rows of that particle and those against it.
   void find_pairs(int slot, std::vector<ContactLink>& found) const {
     Partners partners(number(slot));
     for (const Row<FaceContact> row : RowRange<FaceContact>::of(s.index->sampled_begin, slot)) {

@@ -1,8 +1,8 @@
-// force_chains: which particles pass the load on to each other, in three dimensions.
+// force_chains: which particles form the force chains, in three dimensions.
 //
 // Source   systems/observe/force_chain_kernel.hpp
-// Runs     on sampled steps, after particle_stress and contact_network
-// Active   when the scene asks for contacts
+// Runs     in sampled steps, after particle_stress and contact_network
+// Active   if the scene asks for contacts
 #include "systems/observe/force_chain_kernel.hpp"
 
 #include "systems/space/observe/network_kernel.hpp"

@@ -1,10 +1,10 @@
-// local_density: how much of every cell of a grid between the tools is particle, in three dimensions.
+// local_density: volume of particles in every cell of a grid between the tools, in three dimensions.
 //
 // Source   systems/space/observe/cell_volume_kernel.hpp, room_kernel.hpp. The surface of a particle is that of its elements:
-//          four triangles between the corners of a face and their middle, which hold the volume of the bilinear face exactly.
-//          The grid spans the room as it is then; at a punch with a profile it reaches to the deepest point
-// Runs     on sampled steps
-// Active   when the scene asks for density cells
+//          four triangles between the corners of a face and its centre, which give the volume of the bilinear face exactly.
+//          The grid spans the current room; at a punch with a profile it reaches to the deepest point
+// Runs     in sampled steps
+// Active   if the scene asks for density cells
 #include <limits>
 
 #include "systems/contact/by_slot.hpp"
@@ -21,7 +21,7 @@ struct VolumeInCell {
   double volume;
 };
 
-// How far a face goes into the room, and how far it draws back: 0 where it is flat.
+// How far a face protrudes into the room, and how far it recedes: 0 if it is flat.
 std::array<double, 2> reach_of(const DensityGrid::Profile& face) {
   std::array<double, 2> ends{0, 0};
   for (const auto& [radius, height] : face) {
@@ -41,7 +41,7 @@ struct DensityLook {
     const DieRoom::Vector& along = s.grid->between.axis;
     return along[2] != 0 ? 2 : along[1] != 0 ? 1 : 0;
   }
-  // Ends of the room along its axis, from low to high, with the numbers of their faces.
+  // Ends of the room along its axis, from low to high, as indices of their faces.
   std::array<int, 2> ends() const {
     const DieRoom& room = s.grid->between;
     const bool up = room.axis[axis()] > 0;

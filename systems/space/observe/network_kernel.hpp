@@ -1,8 +1,8 @@
-// What a contact network in three dimensions is like as a whole, and where it carries the load.
+// Properties of a contact network in three dimensions as a whole, and the direction in which it carries the load.
 //
 // Source   fabric tensor: Satake, "Fabric tensor in granular materials" (1982); Oda, Soils & Foundations 22(4), 96 (1982)
-// Law      F_ij = mean over the contacts of n_i n_j: trace 1; anisotropy = sqrt(3/2 F' : F') with F' its deviator, 0 where
-//          all directions are alike, 1 where all contacts are parallel
+// Law      F_ij = mean over the contacts of n_i n_j: trace 1; anisotropy = sqrt(3/2 F' : F') with F' its deviator, 0 if
+//          isotropic, 1 if all contacts are parallel
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -44,7 +44,7 @@ inline pulvis::kernels::MajorCompression<3> major_compression(const std::array<d
   s << stress[0], stress[3], stress[5],  //
       stress[3], stress[1], stress[4],   //
       stress[5], stress[4], stress[2];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(s);  // least first
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(s);  // smallest first
   const Eigen::Vector3d way = principal.eigenvectors().col(0);
   return {-principal.eigenvalues()[0], {way.x(), way.y(), way.z()}};
 }

@@ -1,9 +1,9 @@
-// The room between the tools in the cells of a grid: of a box all of each cell, of a round die what lies in the circle and
-// between the faces of the punches.
+// The space between the tools in the cells of a grid: for a box the whole cell, for a round die the part inside the circle
+// and between the faces of the punches.
 //
-// Law      a ring of the die has the area in a cell that its two circles differ by; over it stands the part of the cell that
-//          is above the lower face and below the upper one. Faces are straight between the points of their profiles, as for
-//          the volume of the room; flat ones need one ring alone
+// Law      the area of a ring of the die in a cell is the difference of its two circles; its height is the part of the cell
+//          above the lower face and below the upper one. Faces are linear between the points of their profiles, as for
+//          the volume of the room; flat faces need only one ring
 #pragma once
 
 #include <algorithm>
@@ -26,14 +26,14 @@ inline double height_at(const DensityGrid::Profile& profile, double radius) {
 
 struct RoundRoom {
   double radius = 0;
-  std::size_t axis = 2;          // that of the grid which its own lies along
-  std::array<double, 2> centre;  // m, on the two following axes
-  double bottom = 0, top = 0;    // m, of the middles of the faces
+  std::size_t axis = 2;          // grid axis parallel to the die axis
+  std::array<double, 2> centre;  // m, on the next two axes
+  double bottom = 0, top = 0;    // m, at the centres of the faces
   const DensityGrid::Profile &low_face, &high_face;
 
   static constexpr int rings_of_a_profile = 256;
 
-  // m^3, in a cell that is as long as this along each axis.
+  // m^3, in a cell with these bounds along each axis.
   double in_cell(const std::array<std::array<double, 2>, 3>& cell) const {
     const std::array<double, 2>&b = cell[(axis + 1) % 3], &c = cell[(axis + 2) % 3];
     const std::array<double, 2> x{b[0] - centre[0], b[1] - centre[0]},

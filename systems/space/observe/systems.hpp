@@ -1,5 +1,5 @@
-// Systems of sampled steps that look at a powder in three dimensions as a whole. What a system reads and writes is what it
-// declares here, once; systems/space/step.cpp puts them in order, and each is described at the top of its own file.
+// Systems that observe a powder in three dimensions as a whole, in sampled steps. Each declares here what it reads and
+// writes; systems/space/step.cpp defines their order, and the descriptions are at the top of the individual files.
 #pragma once
 
 #include "components/observed.hpp"

@@ -1,4 +1,4 @@
-// Systems of the tools in three dimensions. What moves them, and the clock, is that of two dimensions
+// Systems of the tools in three dimensions. Tool motion and the clock are shared with two dimensions
 // (systems/tools/systems.hpp).
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace pulvis::space {
 
-// Where tools are meshes.
+// If tools are meshes.
 struct ToolTriangles {
   Read<TriangleRange> range;
   Read<TriangleLists> lists;
@@ -26,7 +26,7 @@ struct tool_contact {
     Write<Activation<FaceToolContact>> activation;
     Read<ContactLaw<FaceToolContact>> law;
     Write<PointForce> force;
-    Optional<Write<ElasticSlip>> slip;  // with friction
+    Optional<Write<ElasticSlip>> slip;  // only with friction
     Optional<FrictionHistory<FaceToolContact>> history;
   };
   Columns columns;

@@ -4,7 +4,7 @@
 // Stages   tool_standing.hpp -> contact_law.hpp, eight points at a time; one pass with the full stiffness, since a tool
 //          is not sampled
 // Runs     after bin_tool_faces and tool_motion, before contact_force
-// Active   when the scene has tools
+// Active   if the scene has tools
 #include "engine/prefetch.hpp"
 #include "systems/space/contact/blocks.hpp"
 #include "systems/space/contact/gauss_points.hpp"
@@ -14,7 +14,7 @@
 namespace pulvis::space {
 namespace {
 
-// Nothing of what a half's columns hold acts.
+// Zeroes the values of a half in the columns.
 void clear_half(const tool_contact::Columns& c, Row<FaceToolContact> row, int half) {
   const VectorLanes none{Lane{}, Lane{}, Lane{}};
   store_half(none, &c.force(row), half);
@@ -22,7 +22,7 @@ void clear_half(const tool_contact::Columns& c, Row<FaceToolContact> row, int ha
   if (c.history) Lane{}.store(&c.history->lost(row) + lane_count * half);
 }
 
-// How the halves of a candidate stand that touch (bit 0, bit 1); the others are apart.
+// Motion of the touching halves of a candidate (bit 0, bit 1); the others are separated.
 struct RowMotion {
   std::array<PointMotion, 2> half;
   unsigned touching = 0;
@@ -30,7 +30,7 @@ struct RowMotion {
   bool touches(int h) const { return (touching >> h & 1) != 0; }
 };
 
-// Where friction is more than a coefficient, else null.
+// If friction is more than a Coulomb coefficient, else null.
 const ContactRules::Friction* weakening_of(const tool_contact& s, Row<FaceToolContact> row) {
   if (!s.columns.history) return nullptr;
   const auto& slots = s.bodies.bodies->slots;
@@ -39,7 +39,7 @@ const ContactRules::Friction* weakening_of(const tool_contact& s, Row<FaceToolCo
   return friction.only_coulomb() ? nullptr : &friction;
 }
 
-// What the halves of a candidate that touch bear: law, columns, books.
+// Forces on the touching halves of a candidate: law, columns, sums.
 void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::Face& face,
          const RowMotion& motion, const ContactRules::Friction* weakening, double dt,
          FaceSums& sums) {
@@ -109,7 +109,7 @@ struct ToolPass {
   }
 
  private:
-  // A half that is apart rests until it can touch.
+  // A separated half stays inactive until it can touch.
   void stand(Row<FaceToolContact> row, int half, const PatchNumbers& face, double size,
              RowMotion& motion) const {
     double& activation = s.columns.activation(row, half);
@@ -126,7 +126,7 @@ struct ToolPass {
   Standing project(Row<FaceToolContact> row, const VectorLanes& at, double size) const {
     return standing_on_tool(s.tools, s.triangles, s.columns.pair(row, 2), row, at, size);
   }
-  // Against tools that do not turn.
+  // For tools that do not rotate.
   void set_rates(Row<FaceToolContact> row, const VectorLanes& velocity, PointMotion& m) const {
     const Row<Tool> tool(s.columns.pair(row, 2));
     const VectorLanes relative =

@@ -1,4 +1,4 @@
-// Projection on tools: where eight points stand against planes, dies, punches and meshes.
+// Projection on tools: positions of eight points relative to planes, dies, punches and meshes.
 //
 // Source   systems/tools/surface_kernel.hpp (the meridian of a punch), triangle_kernel.hpp
 #pragma once
@@ -14,7 +14,7 @@ namespace pulvis::space {
 
 inline VectorLanes everywhere(const Point& p) { return kernels::everywhere<Lane>(p); }
 
-// `from`: from the tool's position to the points, here and below.
+// `from`: vector from the tool's position to the points, also below.
 inline Standing on_plane(const Point& normal, const VectorLanes& from) {
   Standing s;
   s.normal = everywhere(normal);
@@ -24,7 +24,7 @@ inline Standing on_plane(const Point& normal, const VectorLanes& from) {
 
 struct RadiusAndHeight {
   Lane height, radius;
-  VectorLanes outward;  // away from the axis; nowhere on it
+  VectorLanes outward;  // away from the axis; zero on it
   RadiusAndHeight(const VectorLanes& from, const VectorLanes& axis) {
     height = dot(from, axis);
     const VectorLanes arm = fma(-height, axis, from);
@@ -53,7 +53,7 @@ inline Standing on_punch(const ToolSurface& meridian, const Point& axis, const V
   return s;
 }
 
-// Of the given triangles; points farther than `farthest` count as that far outside.
+// Only the given triangles; points farther than `farthest` are treated as that far outside.
 inline Standing on_mesh(const TriangleMesh& mesh, std::span<const std::int32_t> triangles,
                         const VectorLanes& from, double farthest) {
   kernels::NearestOfMesh<Lane> nearest{Lane(farthest * farthest), everywhere({}), everywhere({})};
@@ -63,7 +63,7 @@ inline Standing on_mesh(const TriangleMesh& mesh, std::span<const std::int32_t> 
   const Lane distance = sqrt(nearest.square);
   Standing s;
   s.gap = -(side * distance);
-  // On the surface itself, up to round-off, its own normal.
+  // On the surface itself, up to round-off, the normal of the surface is used.
   constexpr double round_off = 1e-12;
   const LaneMask apart = distance > Lane(round_off * farthest);
   s.normal = select(apart, (side / distance) * nearest.offset, nearest.outward);

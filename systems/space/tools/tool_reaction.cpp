@@ -1,4 +1,4 @@
-// tool_reaction: what the particles do to each tool in three dimensions, and the work that the tools have done.
+// tool_reaction: the forces of the particles on each tool in three dimensions, and the work done by the tools.
 //
 // Runs     after the narrow phase
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace pulvis::space {
 
-// Work by the trapezoidal rule: forces at both ends of the step, which is what keeps the energy balance of the leapfrog to
-// second order.
+// Work by the trapezoidal rule: mean of the forces at both ends of the step, which keeps the leapfrog's energy balance
+// second-order accurate.
 void tool_reaction::operator()() const {
   const auto power = [&] {
     double sum = 0;

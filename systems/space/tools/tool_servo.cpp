@@ -1,9 +1,9 @@
-// tool_servo: how fast tools that hold a force move in the next step, from the force that they bear now.
+// tool_servo: velocity of force-controlled tools in the next step, from their current reaction force.
 //
 // Source   systems/tools/servo_motion.hpp
 // Runs     after tool_reaction; tool_motion adds the displacement in the next step
-// Active   when a stage of the scene has a servo, or a drive that gives
-// Watches  that the force is held when its stage ends
+// Active   if a stage of the scene has a servo, or a compliant drive
+// Watches  that the force is reached when its stage ends
 #include <cmath>
 
 #include "systems/laws/normal_contact.hpp"
@@ -13,7 +13,7 @@
 namespace pulvis::space {
 namespace {
 
-// Of a row's points that press now, as if all pointed in the servo's direction.
+// Over the points of a row that currently press, as if all normals were in the servo's direction.
 kernels::TouchSums touching_of_row(const tool_servo& s, Row<FaceToolContact> row) {
   using Law = ContactLaw<FaceToolContact>;
   const Shape::Face& face =

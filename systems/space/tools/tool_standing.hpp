@@ -1,4 +1,4 @@
-// Where eight points of a face that may touch a tool stand against its surface, whatever its kind.
+// Positions of eight points of a face relative to the surface of a nearby tool of any kind.
 #pragma once
 
 #include "systems/space/tools/systems.hpp"
@@ -6,7 +6,7 @@
 
 namespace pulvis::space {
 
-// Of tools that are meshes: the triangles that each row can touch.
+// For mesh tools: the triangles that each row can touch.
 inline std::span<const std::int32_t> triangles_of(const ToolTriangles& of,
                                                   Row<FaceToolContact> row) {
   const std::span<const std::int32_t> all(of.lists->triangles);
@@ -14,7 +14,7 @@ inline std::span<const std::int32_t> triangles_of(const ToolTriangles& of,
   return all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
 }
 
-// `size`: m, of the face; points of a punch or a mesh that are farther count as that far.
+// `size`: m, of the face; points farther from a punch or mesh count as that far away.
 inline Standing standing_on_tool(const ToolSurfaces& tools,
                                  const Optional<ToolTriangles>& triangles, int tool,
                                  Row<FaceToolContact> row, const VectorLanes& at, double size) {

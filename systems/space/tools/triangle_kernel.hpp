@@ -1,7 +1,7 @@
-// The nearest point of a triangle, and on which side of a closed surface of triangles a point is.
+// The nearest point of a triangle, and on which side of a closed triangle surface a point is.
 //
-// Source   Ericson 2005, ch. 5.1.5 (regions of a triangle by products of its edges with the ways to its corners); Baerentzen
-//          & Aanaes 2005 (the sign of the product with the angle-weighted normal of the nearest face, edge or corner)
+// Source   Ericson 2005, ch. 5.1.5 (Voronoi regions of a triangle by dot products of edges and corner offsets); Baerentzen
+//          & Aanaes 2005 (sign of the dot product with the angle-weighted normal of the nearest face, edge or corner)
 #pragma once
 
 #include "components/space/tools.hpp"
@@ -11,7 +11,7 @@ namespace pulvis::space::kernels {
 
 template <class T>
 struct NearestOfMesh {
-  T square;           // m^2, of the distance
+  T square;           // m^2, squared distance
   Vector<T> offset;   // m, from the nearest point to the point
   Vector<T> outward;  // normal of the nearest face, edge or corner
 };

@@ -1,5 +1,5 @@
-"""What draws runs, studies and probes: `pulvis figure` from the command line, `run.plot` from Python.
+"""Plotting of runs, studies and probes: `pulvis figure` from the command line, `run.plot` from Python.
 
-Each function that draws takes a run and Options, and axes where it can draw into those of somebody else. It returns
-the Figure, whose `table` holds the numbers, or None where the run has not recorded what it would show.
+Each plotting function takes a run and Options, and optionally the axes to draw into. It returns the Figure, whose
+`table` holds the plotted data, or None if the run did not record that data.
 """

@@ -2,7 +2,7 @@
 import sys
 from pathlib import Path
 
-if not __package__:  # started as a file: its own folder must not hide modules of other names
+if not __package__:  # run as a script: its folder must not shadow other modules
     sys.path[0] = str(Path(__file__).resolve().parents[2])
 
 try:

@@ -14,18 +14,18 @@ COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, g
 
 
 def outer_faces(hexahedra):
-    """Faces that belong to one hexahedron only, and which one."""
+    """Faces that belong to only one hexahedron, and the index of that hexahedron."""
     seen = {}
     for cell, corners in enumerate(hexahedra):
         for face in FACES:
-            nodes = tuple(dict.fromkeys(corners[i] for i in face))  # of a tetrahedron three, two or one are left
+            nodes = tuple(dict.fromkeys(corners[i] for i in face))  # for a degenerate (tetrahedral) cell three, two or one remain
             if len(nodes) > 2:
                 seen.setdefault(tuple(sorted(nodes)), []).append((nodes, cell))
     return [faces[0] for faces in seen.values() if len(faces) == 1]
 
 
 def draw_solid(axis, position, faces, colours, title, ends=None):
-    """colours: one of each face; ends: corners of what is shown, m [2, 3], if it is not the solid's own box."""
+    """colours: one per face; ends: corners of the view, m [2, 3], if not the bounding box of the solid."""
     polygons = [position[list(nodes)] * 1e6 for nodes, _ in faces]
     axis.add_collection3d(Poly3DCollection(polygons, facecolors=colours, edgecolors="#00000030",
                                            linewidths=0.3))
@@ -41,7 +41,7 @@ def part_colours(run, faces):
 
 
 def progress_words(run):
-    """What the times of a lever's frames count."""
+    """What the times of a lever's frames count: actions or load cases."""
     return "actions completed" if run.has("scanner/z") else "load case"
 
 
@@ -69,7 +69,7 @@ EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4),
 
 
 def cut(position, y):
-    """The polygon in x and z where the plane y goes through a cell, its corners in turn; nothing elsewhere."""
+    """The polygon (x, z) in which the plane at y cuts a cell, corners in order; None if it does not."""
     side = position[:, 1] - y
     points = [position[a] + side[a] / (side[a] - side[b]) * (position[b] - position[a])
               for a, b in EDGES if side[a] * side[b] < 0]
@@ -81,7 +81,7 @@ def cut(position, y):
 
 
 def zone_of(run, strains):
-    """Around what has flowed: cells near it, which of them flowed, and half the size of the picture, m."""
+    """The plastic zone: cells near it, cells that have yielded, and half the size of the view, m."""
     cells, reference = run.mesh.cells, run.mesh.reference
     flowed = np.flatnonzero(np.max(strains, axis=0) > 1e-6)
     if not flowed.size:
@@ -93,7 +93,7 @@ def zone_of(run, strains):
 
 
 def draw_zone(axis, run, frame, strain, zone, drawing):
-    """The section of one frame; returns what the colours are of. drawing: largest strain, Options."""
+    """The section of one frame; returns the mappable for the colour bar. drawing: largest strain, Options."""
     (near, flowed, reach), (top, options) = zone, drawing
     position, polygons, colours = frame.nodes, [], []
     shift = position[run.mesh.cells[flowed]].reshape(-1, 3).mean(axis=0)
@@ -115,7 +115,7 @@ def draw_zone(axis, run, frame, strain, zone, drawing):
 
 
 def plastic_zones(run, options=None):
-    """A section through the tip along the lever, around what has flowed: under the largest force, and at the end."""
+    """Section through the tip along the lever, around the plastic zone: at the largest force, and at the end."""
     options = options or Options()
     if not run.frames or "plastic_strain" not in run.frames[0]:
         return None
@@ -141,13 +141,13 @@ def plastic_zones(run, options=None):
 
 
 def draw_motions(run, motions, keys, title, options, axes):
-    """motions: [(label, rows)]; keys: series of the abscissa and of the ordinate."""
+    """motions: [(label, rows)]; keys: series of the x and y axes."""
     x_key, y_key = keys
     figure, axes = sheet(options, (6.4, 4.2), axes)
     x, y = run.series(x_key), run.series(y_key)
     (x_factor, x_unit), (factor, unit) = unit_for(run.unit(x_key), x), unit_for(run.unit(y_key), y)
     for k, (words, rows) in enumerate(motions):
-        shown = np.full(y.shape, np.nan)  # what lies between two parts is no line
+        shown = np.full(y.shape, np.nan)  # no line between separate parts
         shown[rows] = factor * y[rows]
         axes.plot(x_factor * x, shown, label=words, color=LINES[k // 2 % len(LINES)] if len(motions) > 2
                   else LINES[k], linestyle="--" if k % 2 else "-")
@@ -160,7 +160,7 @@ def draw_motions(run, motions, keys, title, options, axes):
 
 
 def force_curve(run, options=None, axes=None, signal="probe/force_z"):
-    """Approach and retract apart; where nothing was retracted after a press, nothing."""
+    """Approach and retract as separate curves; the retract is omitted if there is none."""
     if not run.has("scanner/z") or not np.ptp(run.series("scanner/z")) > 0:
         return None
     moves = vertical_moves(run)
@@ -170,7 +170,7 @@ def force_curve(run, options=None, axes=None, signal="probe/force_z"):
 
 
 def friction_loop(run, options=None, axes=None, signal="force"):
-    """Trace and retrace of every loop that goes along the axis of the first."""
+    """Trace and retrace of every loop along the same axis as the first."""
     loops = run.loops
     if not loops:
         return None
@@ -194,7 +194,7 @@ LEVELS = ["none", "plane", "lines"]
 
 
 def levelled(values, level):
-    """`plane`: the least-squares plane is taken off; `lines`: of every line its median."""
+    """`plane`: subtracts the least-squares plane; `lines`: subtracts the median of each line."""
     if level == "lines":
         return values - np.median(values, axis=1, keepdims=True)
     if level != "plane":
@@ -206,8 +206,8 @@ def levelled(values, level):
 
 
 def maps_of(run, level):
-    """Every picture of every raster, levelled: (action, channel, direction, unit, values, (pixel width, height) in m or None).
-    The difference is half of trace less retrace, of friction: what topography puts into both is not in it."""
+    """Every image of every raster, levelled: (action, channel, direction, unit, values, (pixel width, height) in m or None).
+    The friction difference is half of trace minus retrace: topography contributes equally to both and cancels."""
     for action in sorted(run.file.get("images", [])):
         for channel in CHANNELS:
             traces = {}
@@ -235,7 +235,7 @@ def draw_map(figure, axis, one, options):
 
 
 def images(run, options=None):
-    """Rasters, trace above retrace; of friction half of their difference, too."""
+    """Rasters, trace above retrace; for friction also half of their difference."""
     options = options or Options()
     if "images" not in run.file:
         return None
@@ -256,7 +256,7 @@ def images(run, options=None):
 
 def simple_field(title, unit, values, size):
     """A Gwyddion Simple Field: magic line, header, one to four NULs up to a multiple of four bytes, 32-bit floats,
-    little end first. Its first row is the upper one: the last line of the raster."""
+    little-endian. Its first row is the top one: the last line of the raster."""
     lines, pixels = values.shape
     wide, tall = size or (1, 1)
     fields = [("XRes", pixels), ("YRes", lines), ("XReal", repr(float(wide * pixels))), ("YReal", repr(float(tall * lines))),
@@ -267,7 +267,7 @@ def simple_field(title, unit, values, size):
 
 
 def simple_fields(run, level):
-    """Of every picture: (name of the file, bytes)."""
+    """(file name, bytes) of every image."""
     for action, channel, direction, unit, values, size in maps_of(run, level):
         named = f"{action}-{channel}-{direction}" + ("" if level == "none" else f"-{level}")
         yield named, simple_field(f"{action}: {channel}, {direction}", unit, values, size)

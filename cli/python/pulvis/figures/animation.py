@@ -1,4 +1,4 @@
-"""A powder's field, or a lever, over all frames of a run, as MP4 or GIF."""
+"""Animations of a powder field or a lever over all frames of a run, as MP4 or GIF."""
 import shutil
 from pathlib import Path
 
@@ -16,12 +16,12 @@ from pulvis.figures.space import space_film
 
 SUFFIXES = (".mp4", ".gif")
 PER_SECOND = 12
-PER_SECOND_OF_LEVERS = 3  # they have a dozen of frames
-MOST_DPI = 150  # of a film: its pixels are an even number, and no more than a screen has
+PER_SECOND_OF_LEVERS = 3  # they have about a dozen frames
+MOST_DPI = 150  # of an animation: no more pixels than a screen has
 
 
 class NoEncoder(PulvisError):
-    """The machine lacks the program that writes films."""
+    """No video encoder is installed."""
 
 
 def writer_for(path, per_second=PER_SECOND):
@@ -32,13 +32,13 @@ def writer_for(path, per_second=PER_SECOND):
     if not shutil.which("ffmpeg"):
         raise NoEncoder(f"--animate {path}: MP4 needs the program ffmpeg (Debian: apt install ffmpeg); a GIF does not",
                         key="--animate")
-    even = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"]  # the encoder takes even numbers of pixels alone
+    even = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"]  # the encoder accepts only even numbers of pixels
     return animation.FFMpegWriter(fps=per_second, codec="libx264",
                                   extra_args=["-pix_fmt", "yuv420p", "-crf", "18", *even])
 
 
 def film(run, options=None, into=None):
-    """(figure, axes, a function that draws frame k, its bar or legend with it: they go with what is cleared)."""
+    """(figure, axes, function that draws frame k with its colour bar or legend: clearing removes those, too)."""
     options = options or Options()
     if not run.frames:
         raise PulvisError("--animate: this run has no frames")
@@ -68,12 +68,12 @@ def film(run, options=None, into=None):
 
 
 def animate(run, path, options=None, axes=None, per_second=None):
-    """Writes the film; returns (figure, axes) of its last frame."""
+    """Writes the animation; returns (figure, axes) of its last frame."""
     options, path = options or Options(), Path(path)
     writer = writer_for(path, per_second or (PER_SECOND_OF_LEVERS if run.is_solid else PER_SECOND))
     figure, axes, show = film(run, options, axes)
     figure.canvas.draw()
-    figure.set_layout_engine("none")  # laid out once: what follows stays in its place
+    figure.set_layout_engine("none")  # laid out once, so that nothing shifts between frames
     with writer.saving(figure, str(path), min(options.dpi, MOST_DPI)):
         for k in range(len(run.frames)):
             show(k)

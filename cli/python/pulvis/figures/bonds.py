@@ -1,4 +1,4 @@
-"""Pictures of bonds that break: cracks by their mode, pieces, what breaking took, sizes of the pieces."""
+"""Figures of breaking bonds: cracks by mode, fragments, fracture energy, fragment sizes."""
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection, PolyCollection
@@ -10,7 +10,7 @@ from pulvis.figures.colours import fragment_colours
 from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.tools import draw_tools, outlines
 
-BOND_FIELDS = ("damage", "fragment")  # over them bonds and cracks are drawn
+BOND_FIELDS = ("damage", "fragment")  # fields with bonds and cracks drawn on top
 MODES = LinearSegmentedColormap.from_list("modes", ["#d55e00", "#b89bc4", "#0072b2"])
 BOND_COLOUR = "#5b6672"
 
@@ -20,11 +20,11 @@ def lines_of(frame, group):
 
 
 def draw_bonds(run, figure, axes, frame, cell, alone=False):
-    """Thin lines along the bonds, and what is broken by the mode in which it broke; in `figure` their colours, if any:
-    below, or beside if they stand `alone`."""
+    """Thin lines along the bonds, and broken ones coloured by fracture mode; their colour bar, if any, goes into `figure`:
+    below the axes, or beside them if `alone`."""
     bonds, broken = lines_of(frame, "bonds"), lines_of(frame, "cracks")
     shear = run.file["cracks/shear"][:len(broken)]
-    broken = broken[:len(shear)]  # of a run that was killed the newest rows may be missing
+    broken = broken[:len(shear)]  # the newest rows may be missing if the run was killed
     if cell.here:
         bonds += 1e3 * cell.shift[frame["bonds/ids"][:, 0], None]
         broken += 1e3 * cell.shift[run.file["cracks/particle"][:len(broken)], None]
@@ -43,7 +43,7 @@ def draw_bonds(run, figure, axes, frame, cell, alone=False):
 
 
 def cracks(run, options=None, into=None):
-    """The pieces, each in a colour of its own, with bonds and cracks."""
+    """The fragments, each in a different colour, with bonds and cracks."""
     options = options or Options()
     frame = recorded(run, options, "cracks")
     if frame is None:
@@ -73,7 +73,7 @@ def cracks(run, options=None, into=None):
 
 
 def breaking(run, options=None):
-    """Crack length, energies of the bonds and the number of fragments over time."""
+    """Crack length, bond energies and number of fragments over time."""
     options = options or Options()
     if not run.has("bonds/crack_length"):
         return None
@@ -101,7 +101,7 @@ def breaking(run, options=None):
 
 
 def cumulative(area):
-    """Equivalent diameters in ascending order, and the shares of number and of area up to each."""
+    """Equivalent diameters in ascending order, with cumulative fractions by number and by area."""
     area = np.sort(area)
     count = np.arange(1, len(area) + 1) / len(area)
     return np.sqrt(4 * area / np.pi), count, np.cumsum(area) / area.sum()

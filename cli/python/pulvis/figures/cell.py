@@ -1,25 +1,25 @@
-"""The periodic cell in pictures: every particle inside, and pale images of those that lie across a border."""
+"""The periodic cell in figures: every particle inside, and pale periodic images of those that cross a boundary."""
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-PALE = 0.35  # share of its colour that an image keeps
+PALE = 0.35  # colour fraction that a periodic image keeps
 
 
 def paler(colours):
-    """Over white, so that neighbours leave no seam."""
+    """Blends with white instead of using alpha, so that adjacent elements show no seam."""
     return 1 - PALE * (1 - np.asarray(colours)[..., :3])
 
 
 class Cell:
-    """Where the particles of a frame are drawn. Of a frame without a cell: where they are, and no images."""
+    """Where the particles of a frame are drawn. Without a periodic cell: at their positions, without images."""
 
     def __init__(self, run, frame):
         self.here = "cell" in frame
         self.owner = run.file["mesh/node_particle"][()]
         self.quads, self.quad_owner = run.file["mesh/quads"][()], run.file["mesh/cell_particle"][()]
         self.position = frame["position"][()]
-        self.images = []  # positions of all nodes, particles that this image of the powder shows
-        self.shift = np.zeros((self.owner.max() + 1, 2))  # m, of each particle, into the cell
+        self.images = []  # positions of all nodes, particles visible in this image of the powder
+        self.shift = np.zeros((self.owner.max() + 1, 2))  # m, moves each particle into the cell
         if self.here:
             self.corner, self.vectors = frame["cell"][0], frame["cell"][1:]
             self._wrap()
@@ -45,8 +45,8 @@ class Cell:
         return np.linalg.solve(self.vectors.T, (points - self.corner).T).T
 
     def other_end(self, ids, centre, point):
-        """Of lines from the centres of the first particles through the points where they touch: the centres of those
-        images of the second ones that touch there. A particle is about as large as its neighbour."""
+        """For each contact: the centre of the periodic image of the second particle that touches the first one there.
+        Assumes that both particles have about the same size."""
         end = centre[ids[:, 1]]
         if not self.here or not len(ids):
             return end
@@ -54,7 +54,7 @@ class Cell:
         return end + np.round(self._in_vectors(there) - self._in_vectors(end)) @ self.vectors
 
     def limits(self):
-        """m, of all that is drawn: lower left, upper right."""
+        """Bounds of everything drawn, m: lower left, upper right."""
         drawn = [self.position, *(position[shown[self.owner]] for position, shown in self.images)]
         if self.here:
             drawn.append(self.outline())
@@ -67,7 +67,7 @@ class Cell:
         return np.array([corner, corner + a, corner + a + b, corner + b, corner])
 
     def draw(self, axes, colours=None, edges=None, seam=0.35):
-        """The border and the images. colours: of the quads [n, 3 or 4]; edges: pairs of nodes, of the outlines."""
+        """The cell boundary and the images. colours: of the quads [n, 3 or 4]; edges: node pairs of the outlines."""
         if not self.here:
             return
         for position, shown in self.images:

@@ -1,4 +1,4 @@
-"""How values of a field are coloured: on a scale with a bar, or each number by a colour of its own with a legend."""
+"""Colouring of field values: a continuous scale with a colour bar, or discrete colours with a legend."""
 import colorsys
 import difflib
 
@@ -12,14 +12,14 @@ from pulvis.figures.look import COLOURS, bar_beside, unit_for
 from pulvis.figures.names import label
 
 NO_VALUE = "#d5dbe2"  # what has no value is grey
-COUNTS = ("coordination", "tools_touched")  # whole numbers with an order
+COUNTS = ("coordination", "tools_touched")  # ordered integers
 MOST_IN_LEGEND = 12
 
 
 def fragment_colours(numbers):
-    """A pale colour for every fragment, of its number alone: it keeps it from frame to frame. [n, 3]
+    """A pale colour for every fragment, from its number only, so that it stays the same in all frames. [n, 3]
 
-    Hues and saturations follow a sequence that fills the plane evenly (Roberts' R2)."""
+    Hues and saturations follow a low-discrepancy sequence (Roberts' R2)."""
     return np.array([colorsys.hsv_to_rgb(number * 0.7548776662 % 1, 0.2 + 0.3 * (number * 0.5698402910 % 1), 0.95)
                      for number in np.asarray(numbers, float)]).reshape(-1, 3)
 
@@ -34,7 +34,7 @@ def colour_map(options, otherwise="viridis"):
 
 
 class Scale:
-    """Numbers on a scale; whole numbers with an order in steps."""
+    """Numbers on a continuous scale; ordered integers in steps."""
 
     def __init__(self, name, unit, components, values, options):
         values = np.asarray(values, float)
@@ -63,12 +63,12 @@ class Scale:
 
 
 class Kinds:
-    """Whole numbers that are names: a colour for each, and a legend where they are few."""
+    """Integers that stand for categories: one colour each, and a legend if there are few."""
 
     def __init__(self, name, values, names):
         self.words, self.names = label(name, ""), names
         self.known = np.unique(values)
-        self.none = 0 if name == "force_chain" else None  # in none
+        self.none = 0 if name == "force_chain" else None  # value that means "in none"
         listed = bool(names) or len(self.known) <= len(COLOURS) and name != "fragment"
         self.colours = {int(k): COLOURS[i % len(COLOURS)] for i, k in enumerate(range(len(names)) if names else self.known)} \
             if listed else None
@@ -95,7 +95,7 @@ class Kinds:
 
 
 def colours_of(field, values, options):
-    """field: fields.Field of one frame; values: those of all frames that are to have the same colours."""
+    """field: fields.Field of one frame; values: of all frames that share the colour scale."""
     if field.whole and field.name not in COUNTS:
         if options.limits or options.cmap:
             raise PulvisError(f"--range and --cmap are for fields with a continuous scale; {field.name} has a colour for each number")

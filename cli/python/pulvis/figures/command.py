@@ -1,11 +1,11 @@
-"""Figures of a run for papers and slides, and their numbers: the field of a frame, forces, stress ratio,
-energies, local densities, the contact network, cracks and fragments; of a lever the solid and its curves; of a study
-its charts; of a probe its surfaces. `pulvis figure` runs it.
+"""Draws figures of runs, studies and probes for papers and slides, and writes the plotted data.
+For a run: field of a frame, forces, stress ratio, energies, local densities, contact network, cracks and fragments;
+for a lever: mesh and curves; for a study: its charts; for a probe: yield surfaces. `pulvis figure` runs this module.
 
-All figures go into FOLDER/pictures/ (or the folder of -o); what a run has not recorded is left out, with a line that
-says so. With --series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its numbers in SI. With
---format gsf the images of a raster are written as Gwyddion Simple Fields, one a file.
-Exit codes: 2 for what is not there, 4 for a machine that lacks something.
+All figures go into FOLDER/pictures/ (or the folder given by -o). Figures without recorded data are skipped with a
+message. With --series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its data in SI units. With
+--format gsf, raster images are written as Gwyddion Simple Fields, one per file.
+Exit codes: 2 if the requested data does not exist, 4 if the machine lacks a required program.
 """
 import argparse
 import re
@@ -40,16 +40,16 @@ PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "energies": ener
 SPACE_FIGURES = {"section": section_picture, "local_density": density_slice, "density_profile": space_profile,
                  "contact_network": space_network, "force": forces, "stress_ratio": stress_ratio, "energies": energies}
 OF_A_FIELD = (field_picture, space_picture, section_picture)
-LIKE_EVERY_FIGURE = {"limits": None}  # a range of colours is of one field
+LIKE_EVERY_FIGURE = {"limits": None}  # colour limits apply to a single field
 
 
 def printable(text):
-    """A control character in a name would be an order to the terminal."""
+    """Escapes control characters, which the terminal would interpret."""
     return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in str(text))
 
 
 def write(figure, path, options):
-    """figure: a Figure, bytes, or a function that writes a file."""
+    """figure: a Figure, bytes, or a function that writes the file."""
     path.parent.mkdir(parents=True, exist_ok=True)
     if isinstance(figure, bytes):
         path.write_bytes(figure)
@@ -63,7 +63,7 @@ def write(figure, path, options):
 
 
 class Place:
-    """Where figures go. `pulvis figure` puts what is in its folder into place: it knows which old files it may replace."""
+    """Output folder. `pulvis figure` moves its files into place, since it knows which old files it may replace."""
 
     def __init__(self, asked, options):
         self.draw_into, self.options = asked.draw_into, options
@@ -89,7 +89,7 @@ def save_images(run, asked, options, place):
 
 
 def picture_for(run):
-    """What draws a field."""
+    """The function that draws a field."""
     return space_picture if run.in_space else field_picture
 
 
@@ -106,7 +106,7 @@ def save_all(run, asked, options, place):
 
 
 def save_group(figures, what, asked, options, place):
-    """Of a probe or a study."""
+    """Figures of a probe or a study."""
     if options.series or options.field or asked.animate or asked.across or asked.at or asked.format in ("csv", "gsf"):
         raise PulvisError(f"a {what} has its own figures: use it without --series, --field, --across, --at, --animate and csv")
     for name, figure in figures(asked.folder, options):
@@ -188,7 +188,7 @@ def options_of(asked):
                       title=not asked.no_title, cmap=asked.cmap, limits=asked.range, dpi=resolution(asked.dpi),
                       vector=(asked.output.suffix if asked.output and asked.output.suffix in FORMATS else f".{asked.format}")
                       in (".svg", ".pdf"))
-    colour_map(options)  # refuses one that is none, before anything is drawn
+    colour_map(options)  # rejects an unknown colormap before anything is drawn
     return options
 
 

@@ -1,4 +1,4 @@
-"""Curves of a run's history: forces, stress ratios, energies, and any series over any other."""
+"""Curves of a run's history: forces, stress ratios, energies, and any series against any other."""
 import re
 
 import numpy as np
@@ -9,7 +9,7 @@ from pulvis.figures.names import capital, name_of
 
 
 def matching(run, pattern):
-    """Series of that name that are anything but zero: [(match, values, unit)]."""
+    """Series whose names match and that are not all zero: [(match, values, unit)]."""
     found = [(re.fullmatch(pattern, name), name) for name in sorted(run.names)]
     found = [(match, run.series(name), run.unit(name)) for match, name in found if match]
     return [one for one in found if one[1].size and np.nanmax(np.abs(one[1])) > 0]
@@ -49,11 +49,11 @@ def energies(run, options=None, axes=None):
 
 
 def chosen_series(run, options=None, axes=None):
-    """The series that were asked for by name, over another one or over time."""
+    """The series requested by name, against another one or over time."""
     options = options or Options()
     against = options.against or "time"
     for name in [*options.series, against]:
-        run.dataset(name)  # refuses what is not there
+        run.dataset(name)  # raises if there is no such series
     units = {run.unit(name) for name in options.series}
     if len(units) > 1:
         raise PulvisError(f"series of different units in one figure: {', '.join(sorted(units))}")

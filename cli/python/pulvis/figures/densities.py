@@ -1,4 +1,4 @@
-"""Local densities of a run: maps at several times, and profiles along the height."""
+"""Local densities of a run: maps at several times, and profiles over the height."""
 import numpy as np
 from matplotlib import pyplot as plt
 
@@ -6,12 +6,12 @@ from pulvis.figures.colours import colour_map
 from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, sheet
 from pulvis.figures.names import label
 
-LETTERS = 20  # points that a density takes, written in
-MAPS = 4  # density maps side by side: evenly over the run, the last frame among them
+LETTERS = 20  # points of width that a printed density value takes
+MAPS = 4  # density maps side by side: evenly over the run, including the last frame
 
 
 def chosen_frames(run, options, count=MAPS):
-    """Of those with anything between the tools: a compact may have left its die."""
+    """Frames with particles between the tools: the compact may have been ejected from the die."""
     frames = [run.frame(number) for number in
               ([options.frame] if options.frame is not None else range(len(run.frames)))]
     frames = [frame for frame in frames if np.isfinite(frame["local_density"][()]).any()]
@@ -20,7 +20,7 @@ def chosen_frames(run, options, count=MAPS):
 
 
 def draw_map(axes, frame, ends, colours, room):
-    """The cells of one frame, with their densities written in where there is room: points along its width."""
+    """The cells of one frame, with density values printed if they fit; room: width of the map in points."""
     low, high = ends
     density = frame["local_density"][()].reshape(len(frame["density_grid/y"]) - 1, -1)
     x, y = 1e3 * frame["density_grid/x"][()], 1e3 * frame["density_grid/y"][()]
@@ -45,7 +45,7 @@ def density_table(frame):
 
 
 def local_density(run, options=None, axes=None):
-    """Maps at several times, or of the frame asked for."""
+    """Maps at several times, or of the requested frame."""
     options = options or Options()
     count = MAPS // 2 if options.narrow else MAPS
     frames = chosen_frames(run, options, count) if recorded(run, options, "local_density") is not None else []

@@ -1,4 +1,4 @@
-"""The field of a frame: particles with their elements coloured, outlines, tools, the periodic cell."""
+"""The field of a frame: particles with coloured elements, outlines, tools, the periodic cell."""
 from dataclasses import dataclass, field as of_dataclass
 
 import numpy as np
@@ -19,9 +19,9 @@ OUTLINE = "#1d2733"
 
 @dataclass
 class Field:
-    """What is drawn of one frame: a number for every cell."""
+    """The plotted field of one frame: one value per cell."""
 
-    key: str                  # as asked for: NAME or NAME:k
+    key: str                  # as requested: NAME or NAME:k
     values: np.ndarray
     unit: str
     components: int = 1
@@ -34,13 +34,13 @@ class Field:
 
 
 def drawable(run, frame):
-    """Names of what can be drawn."""
+    """Names of the fields that can be drawn."""
     return [*(name for name in frame.fields if frame[name].attrs["place"] in ("cell", "particle")),
             *run.file.get("particles", [])]
 
 
 def field_of(run, frame, key):
-    """A field of cells or particles, for every cell: NAME, or NAME:k for a component of several."""
+    """A cell or particle field as one value per cell: NAME, or NAME:k for a component."""
     name, _, component = key.partition(":")
     known = drawable(run, frame)
     if name not in known:
@@ -56,7 +56,7 @@ def field_of(run, frame, key):
 
 
 def paint(run, axes, frame, field, colours, options, limits=None):
-    """One frame into axes. limits: mm; of what is drawn if none."""
+    """Draws one frame into axes. limits: mm; by default those of the drawn objects."""
     cell, quads = Cell(run, frame), run.mesh.cells
     limits = 1e3 * cell.limits() if limits is None else limits
     edge = seam(options)
@@ -99,7 +99,7 @@ def field_picture(run, options=None, axes=None):
     try:
         field = field_of(run, frame, options.field or DEFAULT_FIELD)
     except PulvisError:
-        if options.field:  # asked for by name
+        if options.field:  # requested by name
             raise
         return None
     return draw_field(run, frame, field, options, axes)

@@ -1,4 +1,4 @@
-"""The film of a lever: its solid, frame by frame, above the forces on its tip."""
+"""Animation of a lever: its mesh, frame by frame, above the forces on its tip."""
 import math
 
 import numpy as np
@@ -13,18 +13,18 @@ from pulvis.figures.look import unit_for
 from pulvis.figures.names import capital, label, over
 
 PICTURES = ("solid", "plastic_strain")
-VISIBLE = 0.08  # of the solid's length: the largest displacement is drawn as large, if it is smaller
-FLAT = 1e-3  # of the largest force: one that changes less is not drawn
+VISIBLE = 0.08  # of the lever's length: smaller displacements are magnified to this size
+FLAT = 1e-3  # of the largest force: a force that varies less is not drawn
 
 
 def round_down(factor):
-    """To 1, 2 or 5 times a power of ten."""
+    """Rounds down to 1, 2 or 5 times a power of ten."""
     power = 10 ** math.floor(math.log10(factor))
     return power * max(digit for digit in (1, 2, 5) if digit * power <= factor * (1 + 1e-12))
 
 
 def magnification(run):
-    """How many times displacements are drawn; 1 where they can be seen, or are drawn larger than life already."""
+    """Magnification of displacements; 1 if they are visible, or were already magnified."""
     if progress_words(run) == "load case":
         return 1
     moved = max(np.linalg.norm(frame.nodes - run.mesh.reference, axis=1).max() for frame in run.frames)
@@ -33,14 +33,14 @@ def magnification(run):
 
 
 def forces_of(run):
-    """[(key, values)] of what acts on the tip and changes."""
+    """[(key, values)] of the tip forces that vary."""
     keys = [f"probe/force_{axis}" for axis in "zyx" if run.has(f"probe/force_{axis}")]
     ranges = {key: np.ptp(run.series(key)) for key in keys}
     return [(key, run.series(key)) for key in keys if ranges[key] > FLAT * max(ranges.values())]
 
 
 class Forces:
-    """Their curves, with what is done by the present frame marked."""
+    """The force curves, with the current frame marked."""
 
     def __init__(self, run, axes):
         self.times, self.lines = run.series("time"), []
@@ -68,7 +68,7 @@ def require_picture(run, key, into):
 
 
 def sheet_of(run, options):
-    """(figure, axes of the solid, Forces or None)"""
+    """(figure, axes of the mesh, Forces or None)"""
     with_forces = bool(run.has("probe/force_z") and forces_of(run))
     figure = plt.figure(figsize=options.size(7.2, 6.4 if with_forces else 4.4), constrained_layout=True)
     if not with_forces:
@@ -78,7 +78,7 @@ def sheet_of(run, options):
 
 
 def make_room(axes, ends):
-    """Few ticks along the short sides, and the solid as large as it goes."""
+    """Few ticks along the short sides, and the mesh as large as possible."""
     sides = np.ptp(ends, axis=0)
     for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max()):
         axis.set_major_locator(MaxNLocator(5 if share > 0.5 else 1 if share < 0.15 else 2))
@@ -87,7 +87,7 @@ def make_room(axes, ends):
 
 
 def lever_film(run, options, into=None):
-    """As animation.film: figure, axes, and the function that draws frame k."""
+    """Like animation.film: figure, axes, and the function that draws frame k."""
     key = options.field or PICTURES[0]
     require_picture(run, key, into)
     faces, reference, times = outer_faces(run.mesh.cells.tolist()), run.mesh.reference, magnification(run)

@@ -1,4 +1,4 @@
-"""What all figures have in common: their look, their size, units, and how lines are drawn."""
+"""Common to all figures: style, size, units, and line plots."""
 import csv
 import textwrap
 from dataclasses import dataclass, field as of_dataclass
@@ -16,7 +16,7 @@ STYLE = {"figure.dpi": 200, "font.size": 10, "axes.grid": True, "grid.color": "#
          "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
          "svg.fonttype": "none", "pdf.fonttype": 42, "lines.linewidth": 1.6, "legend.frameon": False, "axes.titlesize": 11,
          "axes.prop_cycle": plt.cycler(linestyle=["-", "--", ":"]) * plt.cycler(color=COLOURS)}
-# A column of a paper: letters and lines of a figure that is shrunk by nobody.
+# For one journal column: font and line sizes for a figure printed at actual size.
 NARROW = {"font.size": 8, "axes.titlesize": 8.5, "lines.linewidth": 1.2, "axes.linewidth": 0.6, "legend.fontsize": 7,
           "xtick.major.width": 0.6, "ytick.major.width": 0.6}
 NARROW_BELOW = 120 / 25.4  # inches
@@ -26,22 +26,22 @@ MANY_LINES = 5
 
 @dataclass
 class Options:
-    """What may be asked of a figure."""
+    """Options of a figure."""
 
-    frame: int = None        # number of the frame, the last if none
+    frame: int = None        # frame number; None: the last
     field: str = None
     series: list = of_dataclass(default_factory=list)
     against: str = None
-    level: str = "none"      # levelling of images
-    width: float = None      # inches, and height
+    level: str = "none"      # levelling of raster images
+    width: float = None      # inches, as is height
     height: float = None
     title: bool = True
     cmap: str = None
-    limits: object = None    # of the colours: "LOW:HIGH" with units, or (low, high) in SI; None: of the values
+    limits: object = None    # colour limits: "LOW:HIGH" with units, or (low, high) in SI; None: from the values
     dpi: float = 200
     vector: bool = False     # SVG or PDF
-    across: str = "y"        # axis that a section in space is across
-    at: float = None         # m, where; in the middle if none
+    across: str = "y"        # axis normal to a 3D section
+    at: float = None         # m, its position; None: the middle
 
     @property
     def narrow(self):
@@ -52,17 +52,17 @@ class Options:
         return {**STYLE, **(NARROW if self.narrow else {})}
 
     def context(self, axes=None):
-        """For plt.rc_context, in Python: axes of somebody else keep the look of their figure."""
+        """For plt.rc_context in Python: axes passed by the caller keep the style of their figure."""
         return {} if axes is not None else {**self.style(), "figure.dpi": self.dpi}
 
     def size(self, wide, tall, beside=0.0):
-        """Inches of a figure that is wide x tall by itself; `beside`: of its height what does not grow with its width."""
+        """Figure size in inches, default wide x tall; `beside`: part of the height that does not scale with width."""
         if not self.width:
             return wide, self.height or tall
         return self.width, self.height or (tall - beside) * self.width / wide + beside
 
     def clim(self, values, unit):
-        """Ends of the colours in SI: those asked for, and of `values` where one is open."""
+        """Colour limits in SI: as requested, or from `values` where one is open."""
         values = np.asarray(values, float)
         finite = values[np.isfinite(values)]
         ends = (finite.min(), finite.max()) if finite.size else (0.0, 1.0)
@@ -71,36 +71,36 @@ class Options:
     def head(self, axes, text, run=None):
         """The title of axes."""
         if self.title:
-            size = FontProperties(size=plt.rcParams["axes.titlesize"]).get_size_in_points()  # it may be "large"
+            size = FontProperties(size=plt.rcParams["axes.titlesize"]).get_size_in_points()  # may be "large"
             letters = int((self.width or 7.2) * 72 * 0.8 / (0.5 * size))
             lines = (text if run is None else f"{text}\n{run.title}").split("\n")
             axes.set_title("\n".join(textwrap.fill(line, letters) for line in lines), loc="left")
 
     def broken(self, text):
-        """The label of an axis, in two lines where it is longer than the side of a narrow figure."""
+        """The axis label, on two lines if it is longer than the side of a narrow figure."""
         return text.replace(" $", "\n$", 1) if self.narrow and len(plain(text)) > 24 else text
 
 
 def sheet(options, size, axes=None, beside=0.0):
-    """(figure, axes): those of `axes`, or new ones."""
+    """(figure, axes): the given `axes` and their figure, or new ones."""
     if axes is not None:
         return axes.figure, axes
     return plt.subplots(figsize=options.size(*size, beside), constrained_layout=True)
 
 
 def moment(frame):
-    """When a frame was taken, in words."""
+    """The time of a frame, in words."""
     return with_unit(frame.attrs["time"], "s")
 
 
 def shape_of(limits):
-    """Inches of a picture with these limits, and what of its height does not grow with its width."""
+    """Figure size in inches for these limits, and the part of the height that does not scale with the width."""
     shape = np.ptp(limits[:, 1]) / np.ptp(limits[:, 0])
     return (7.2, min(max(6.0 * shape, 2.4), 9.0) + 0.9), 0.9
 
 
 def seam(options):
-    """Width of the edges that close the gaps which smoothing leaves between elements: a pixel at least."""
+    """Width of the edges that close anti-aliasing gaps between elements: at least one pixel."""
     return 0.35 if options.vector else max(0.35, 1.3 * 72 / options.dpi)
 
 
@@ -110,7 +110,7 @@ def set_axes(axes, limits):
 
 
 def bar_beside(figure, axes, mappable, words, **more):
-    """A colour bar as high as its axes."""
+    """A colour bar of the same height as its axes."""
     place = axes.inset_axes([1.03, 0, 0.035, 1])
     bar = figure.colorbar(mappable, cax=place, label=words, **more)
     bar.outline.set_visible(False)
@@ -118,7 +118,7 @@ def bar_beside(figure, axes, mappable, words, **more):
 
 
 def close_up(figure, options, axes):
-    """Takes away what is empty above and below a picture whose sides have their own ratio; `axes`: whose figure it is."""
+    """Trims empty space above and below a plot with a fixed aspect ratio; not in `axes` given by the caller."""
     if axes is not None or options.height:
         return
     figure.canvas.draw()
@@ -126,14 +126,14 @@ def close_up(figure, options, axes):
 
 
 def recorded(run, options, name):
-    """The frame to draw, or none where the run has not recorded `name`."""
+    """The frame to draw, or None if the run did not record `name`."""
     if not run.frames or name not in run.frame(options.frame):
         return None
     return run.frame(options.frame)
 
 
 def write_csv(path, table):
-    """table: [(name, unit, values)] in SI, of any lengths."""
+    """table: [(name, unit, values)] in SI; lengths may differ."""
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow([f"{name} [{unit}]" for name, unit, _ in table])
@@ -142,7 +142,7 @@ def write_csv(path, table):
 
 
 def worded(name, unit):
-    """The label of an axis. name: a key of the table of names, or (words, symbol) of what has none."""
+    """An axis label. name: a key of the table of names, or (words, symbol) if it is not in the table."""
     if isinstance(name, str):
         return label(name, unit)
     words, symbol = name
@@ -150,7 +150,7 @@ def worded(name, unit):
 
 
 def place_legend(axes, count, options):
-    """Beside the curves where they are many, or below them where there is no room beside."""
+    """Puts the legend beside the curves if there are many, or below them if there is no room."""
     if count < MANY_LINES:
         axes.legend()
     elif options.narrow:
@@ -160,7 +160,7 @@ def place_legend(axes, count, options):
 
 
 def draw_lines(run, x, lines, ylabel, title, options=None, into=None):
-    """x: (key, values, unit); lines: [(label, values, unit)] of one unit; ylabel: a key of the table of names,
+    """x: (key, values, unit); lines: [(label, values, unit)] in one unit; ylabel: a key of the table of names,
     or (words, symbol)."""
     options = options or Options()
     below = 0.16 * ((len(lines) + 1) // 2) if options.narrow and len(lines) >= MANY_LINES else 0

@@ -1,6 +1,6 @@
-"""Words and symbols (matplotlib's mathtext) of keys as they stand in run.h5, summary.json and study.csv.
+"""Names and symbols (matplotlib mathtext) of the keys in run.h5, summary.json and study.csv.
 
-From its first brace on this is JSON, too: pages of reports have the same table (cli/report/page/names.js).
+From the first brace on this is also JSON: report pages use the same table (cli/report/page/names.js).
 """
 NAMES = {
  "keys": {

@@ -1,6 +1,6 @@
-"""What stands in figures instead of a key, by the table of names (name_table.py).
+"""Names shown in figures instead of keys, from the table of names (name_table.py).
 
-Each key has words and a symbol, the symbol as matplotlib's mathtext; `plain` gives it in plain text.
+Each key has words and a symbol, the symbol in matplotlib mathtext; `plain` converts it to plain text.
 """
 import re
 from collections import namedtuple
@@ -17,7 +17,7 @@ def worded(key):
 
 
 def name_of(key, components=1):
-    """Name of a series, a field (NAME:k for component k of `components`) or a value of a study."""
+    """The name of a series, a field (NAME:k for component k of `components`) or a study value."""
     if key in NAMES["keys"]:
         return Name(*NAMES["keys"][key])
     base, _, component = key.partition(":")
@@ -40,7 +40,7 @@ def name_of(key, components=1):
 
 
 def plain(symbol):
-    """A symbol, or words with some, without mathtext."""
+    """A symbol, or words with symbols, without mathtext."""
     for tex, letter in NAMES["letters"].items():
         symbol = symbol.replace(tex, letter)
     return symbol.replace("{", "").replace("}", "").replace("$", "").replace("_", "")
@@ -51,13 +51,13 @@ def capital(text):
 
 
 def shown_unit(unit):
-    """As it stands in print: "J/m^3" is J/m³."""
+    """Typographic form: "J/m^3" becomes J/m³."""
     unit = re.sub(r"\^(-?\d)", lambda power: power[1].translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")), unit)
     return unit.replace(" ", "\u2009")
 
 
 def label(key, unit, components=1, words=None):
-    """ "Effective stress σ_eff / MPa", for an axis or a colour bar; `words` instead of those of the table."""
+    """ "Effective stress σ_eff / MPa", for an axis or a colour bar; `words` replace those of the table."""
     name = name_of(key, components)
     text = capital(words or name.words)
     if name.symbol:
@@ -66,7 +66,7 @@ def label(key, unit, components=1, words=None):
 
 
 def over(text, unit):
-    """What is a quantity, over its unit: numbers stand on the axis."""
+    """Quantity over unit, so that the axis shows plain numbers."""
     if unit in ("", "-", None):
         return text
     unit = shown_unit(unit)

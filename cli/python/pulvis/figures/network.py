@@ -1,4 +1,4 @@
-"""The contact network: forces as lines between centres, and the directions of the contacts' normals."""
+"""The contact network: forces as lines between centres, and the directions of the contact normals."""
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection, PolyCollection
@@ -11,7 +11,7 @@ from pulvis.figures.tools import draw_tools, outlines
 
 
 def network_lines(frame, cell):
-    """Lines of the contacts, from centre to centre or to where a tool acts, and their forces."""
+    """Contact lines, from centre to centre or to the contact point on a tool, and their forces."""
     centre = frame["particle_centre"][()]
     pairs, tools = frame["contacts/ids"][()], frame["tool_contacts/ids"][()]
     end = cell.other_end(pairs, centre, frame["contacts/point"][()])
@@ -36,7 +36,7 @@ def contact_network(run, options=None, into=None):
     inches, beside = shape_of(limits)
     figure, axes = sheet(options, inches, into, beside)
     wide = (options.width or inches[0]) / 1.2 if into is None else into.get_window_extent().width / figure.dpi
-    points = 72 * wide / np.ptp(limits[:, 0]) * 0.28 * size  # of the strongest line
+    points = 72 * wide / np.ptp(limits[:, 0]) * 0.28 * size  # width of the line for the largest force
     low, high = options.clim(np.append(force, 0), "N")
     axes.add_collection(PolyCollection(1e3 * position[chained], color="#fbdccb", linewidths=seam(options)))
     edges = outlines(quads)
@@ -73,7 +73,7 @@ def rose(run, options=None):
     axes.bar(middle, 100 * np.tile(number, 2), width, fill=False, edgecolor="#d55e00", linewidth=1.4,
              label="of the number")
     axes.set_rlabel_position(25)
-    axes.yaxis.set_major_locator(MaxNLocator(4))  # labels of more would lie on each other
+    axes.yaxis.set_major_locator(MaxNLocator(4))  # more labels would overlap
     axes.yaxis.set_major_formatter("{x:g} %")
     options.head(axes, f"Directions of the contact normals at {moment(frame)}", run)
     axes.legend(loc="lower right", bbox_to_anchor=(1.1, -0.08))

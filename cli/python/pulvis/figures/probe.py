@@ -1,4 +1,4 @@
-"""Pictures of a probe: yield surfaces in the p-q plane and in the plane of the stresses, moduli and parameters of the cap."""
+"""Figures of a probe: yield surfaces in the p-q plane and in the stress plane, moduli and cap parameters."""
 import json
 
 import numpy as np
@@ -32,7 +32,7 @@ def all_points(states, criterion, key):
 
 
 def draw_invariants(axes, states, criterion, colour, factor):
-    """p and q: points by the sign of q as they are, the surfaces of the models on both sides."""
+    """p and q: points with their sign of q, model surfaces on both sides."""
     for state in states:
         shade, mine = colour[state["asked"]], state["yield"][criterion]
         axes.plot([factor * point["p"] for point in mine["points"]], [factor * point["q"] for point in mine["points"]],
@@ -50,7 +50,7 @@ def draw_invariants(axes, states, criterion, colour, factor):
 
 
 def draw_stresses(axes, states, criterion, colour, factor):
-    """Pressures yy over xx, with the direction of the plastic strain at each point."""
+    """Pressure yy against xx, with the plastic strain direction at each point."""
     for state in states:
         points, shade = state["yield"][criterion]["points"], colour[state["asked"]]
         x = -factor * np.array([point["stress"][0] for point in points])
@@ -91,7 +91,7 @@ def surfaces(summary, criterion, options):
 
 
 def models(summary, options):
-    """The densest state of each path beside what theories of powders say, each with its strength fitted."""
+    """The densest state of each path compared with powder models, each with its fitted strength."""
     paths = [path for path in paths_of(summary) if of_path(summary, path)[-1]["yield"]["dissipation"]["models"]]
     if not paths:
         return None
@@ -164,7 +164,7 @@ def draw_parameter(axes, states, name, line, path):
 
 
 def figures_of_probe(folder, options=None):
-    """Name and figure of each; None for one whose yield points are too few."""
+    """Name and figure of each; None if there are too few yield points."""
     options = options or Options()
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     return [("yield_surfaces", surfaces(summary, "offset_strain", options)),

@@ -1,4 +1,4 @@
-"""Quantities as they are given on the command line or in Python: "85 mm", "0:400 MPa"."""
+"""Quantities as given on the command line or in Python: "85 mm", "0:400 MPa"."""
 import re
 
 import numpy as np
@@ -8,12 +8,12 @@ from pulvis.errors import PulvisError
 PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")]
 SCALED = {"m", "N", "Pa", "J", "s", "m/s", "N/m", "V"}
 INCHES = {"mm": 1 / 25.4, "cm": 1 / 2.54, "m": 1 / 0.0254, "in": 1.0, "inch": 1.0, "pt": 1 / 72}
-SHORTEST, LONGEST = 10 / 25.4, 2 / 0.0254  # of a figure's sides
+SHORTEST, LONGEST = 10 / 25.4, 2 / 0.0254  # inches, limits of the figure size
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 
 
 def unit_for(unit, values):
-    """The factor from SI to a unit an engineer would read, and that unit's name."""
+    """The factor from SI to a convenient unit, and the name of that unit."""
     values = np.asarray(values, float)
     finite = np.abs(values[np.isfinite(values)]) if np.size(values) else np.array([])
     most = finite.max() if finite.size else 0
@@ -34,7 +34,7 @@ def with_unit(value, unit):
 
 
 def inches(option, given):
-    """A length of a figure: "85mm", "3.35 in", "8.5 cm", "240 pt", or a number of inches."""
+    """A figure dimension: "85mm", "3.35 in", "8.5 cm", "240 pt", or a number of inches."""
     if given is None:
         return None
     match = re.fullmatch(rf"\s*({NUMBER})\s*([A-Za-z]*)\s*", str(given))
@@ -50,7 +50,7 @@ def inches(option, given):
 
 
 def length(option, given):
-    """A place in the powder, m: "2mm", "-35 µm"."""
+    """A coordinate in the powder, m: "2mm", "-35 µm"."""
     if given is None:
         return None
     match = re.fullmatch(rf"\s*({NUMBER})\s*(\S*)\s*", str(given))
@@ -61,7 +61,7 @@ def length(option, given):
 
 
 def factor_of(unit, si):
-    """From a unit to the SI unit `si`, by its prefix; None where it is none of it."""
+    """The factor from a unit to the SI unit `si`, by its prefix; None if it is not a multiple of it."""
     if unit in ("", si) or si in ("-", "") and unit in ("", "-"):
         return 1.0
     if unit == "%" and si in ("-", ""):
@@ -73,7 +73,7 @@ def factor_of(unit, si):
 
 
 def limits_of(given, si):
-    """(low, high) in SI of "LOW:HIGH", each end a number with a unit or nothing, or of a pair of those."""
+    """(low, high) in SI from "LOW:HIGH", where each end is a number with a unit or empty, or from such a pair."""
     if given is None:
         return None, None
     ends = [str(end) if end is not None else "" for end in given] if isinstance(given, (tuple, list)) else str(given).split(":")
@@ -82,7 +82,7 @@ def limits_of(given, si):
     matches = [re.fullmatch(rf"\s*(?:({NUMBER})\s*([^\d\s]\S*)?)?\s*", end) for end in ends]
     if len(ends) != 2 or not all(matches):
         raise PulvisError(f"--range {shown}: {allowed}; either end may be omitted", key="--range")
-    shared = matches[1][2] or ""  # 0:400 MPa: of both
+    shared = matches[1][2] or ""  # 0:400 MPa: the unit applies to both
     values = []
     for match in matches:
         factor = factor_of(match[2] or shared, si)

@@ -1,6 +1,6 @@
-"""Pictures of particles in three dimensions: all of them from a corner, a section through them, the contact network, the density along z.
+"""Figures of particles in three dimensions: view from a corner, section, contact network, density profile along z.
 
-Faces are drawn from the far ones to the near ones, in parallel projection, true to scale."""
+Faces are drawn back to front (painter's algorithm), in orthographic projection, to scale."""
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
@@ -16,18 +16,18 @@ from pulvis.figures.tools import TOOL_EDGE, TOOL_FACE
 
 TURN, TILT = -np.pi / 4, np.arctan(np.sqrt(0.5))  # the isometric view, as in the report
 LIGHT = np.array([-0.35, 0.5, -0.8]) / np.linalg.norm([-0.35, 0.5, -0.8])
-DARKEST = 0.6  # share of its colour that a face away from the light keeps
-PROFILES = 4  # times at which the density along z is drawn
+DARKEST = 0.6  # brightness of faces turned away from the light
+PROFILES = 4  # number of times at which the density along z is drawn
 
 
 def isometric():
-    """Rows: to the right, up, away."""
+    """Rotation matrix, rows: right, up, away from the viewer."""
     ct, st, cu, su = np.cos(TURN), np.sin(TURN), np.cos(TILT), np.sin(TILT)
     return np.array([[ct, -st, 0], [su * st, su * ct, cu], [cu * st, cu * ct, -su]])
 
 
 def limits_of(run, frames):
-    """mm, of the projections of all frames: lower left, upper right."""
+    """Bounds of the projections of all frames, mm: lower left, upper right."""
     seen = [points @ isometric()[:2].T for frame in frames
             for points in (frame["position"][()], pieces(run, frame)[0].reshape(-1, 3)) if len(points)]
     low, high = np.min([one.min(axis=0) for one in seen], axis=0), np.max([one.max(axis=0) for one in seen], axis=0)
@@ -36,7 +36,7 @@ def limits_of(run, frames):
 
 
 def draw_tools(run, axes, frame):
-    """Pieces whose inside is seen, behind the powder; and where surfaces end."""
+    """Tool faces seen from the inside, behind the powder; and the borders of the surfaces."""
     rows, (corners, _) = isometric(), pieces(run, frame)
     if not len(corners):
         return
@@ -47,7 +47,7 @@ def draw_tools(run, axes, frame):
 
 
 def draw_scale(axes, limits):
-    """Directions of the axes and a length, below the picture."""
+    """Axis directions and a scale bar, below the plot."""
     rows, wide = isometric(), np.ptp(limits[:, 0])
     corner, long = limits[0] + 0.055 * wide, 0.045 * wide
     for k, name in enumerate("xyz"):
@@ -62,7 +62,7 @@ def draw_scale(axes, limits):
 
 
 def shaded(faces, light):
-    """Paints what has been coloured darker where it turns away from the light."""
+    """Shades faces that are turned away from the light."""
     rgb = faces.get_facecolor()[:, :3] * light[:, None]
     faces.set_array(None)
     faces.set_facecolor(rgb)
@@ -70,7 +70,7 @@ def shaded(faces, light):
 
 
 def paint(run, axes, frame, field, colours, options, limits, sides=None):
-    """One frame into axes. sides: outer_sides of the mesh."""
+    """Draws one frame into axes. sides: outer_sides of the mesh."""
     rows, position = isometric(), frame["position"][()]
     quads, cells = sides or outer_sides(run.mesh.cells)
     normal = normals(position[quads]) @ rows.T
@@ -95,7 +95,7 @@ def title_of(field):
 
 
 def asked_field(run, options):
-    """(frame, field) or None where the run has neither and nothing was asked for by name."""
+    """(frame, field), or None if the run has neither and no field was requested by name."""
     if not run.frames:
         return None
     frame = run.frame(options.frame)
@@ -127,7 +127,7 @@ def space_picture(run, options=None, axes=None):
 
 
 def network_lines(frame):
-    """Lines of the contacts, m [contacts, 2, 3], from centre to centre or to where a tool acts, and their normal forces."""
+    """Contact lines, m [contacts, 2, 3], from centre to centre or to the contact point on a tool, and normal forces."""
     centre = frame["particle_centre"][()]
     pairs, tools = frame["contacts/ids"][()], frame["tool_contacts/ids"][()]
     lines = np.concatenate([np.stack([centre[pairs[:, 0]], centre[pairs[:, 1]]], axis=1),
@@ -136,7 +136,7 @@ def network_lines(frame):
 
 
 def space_network(run, options=None, axes=None):
-    """Normal forces of the contacts as lines between the centres, seen from a corner; particles of force chains shaded."""
+    """Normal contact forces as lines between centres, seen from a corner; particles in force chains are shaded."""
     options = options or Options()
     frame = recorded(run, options, "contacts")
     if frame is None or len(frame["contacts/ids"]) + len(frame["tool_contacts/ids"]) == 0:
@@ -153,7 +153,7 @@ def space_network(run, options=None, axes=None):
     order = np.argsort(-(lines @ rows[2]).mean(axis=1), kind="stable")
     wide = (options.width or size[0]) / 1.2 if axes is None else axes.get_window_extent().width / figure.dpi
     diameter = 1e3 * np.cbrt(np.prod(np.ptp(position, axis=0)) / len(frame["particle_centre"]))
-    points = 72 * wide / np.ptp(limits[:, 0]) * 0.14 * diameter  # of the strongest line
+    points = 72 * wide / np.ptp(limits[:, 0]) * 0.14 * diameter  # width of the line for the largest force
     low, high = options.clim(np.append(force, 0), "N")
     factor, unit = unit_for("N", force)
     drawn = LineCollection(1e3 * lines[order] @ rows[:2].T, array=factor * force[order], cmap=colour_map(options, "viridis_r"),
@@ -173,7 +173,7 @@ def space_network(run, options=None, axes=None):
 
 
 def fullest(run, position, axis):
-    """m: of places in the middle third, where a plane cuts the most cells: none is drawn between two layers."""
+    """The position in the middle third where a plane cuts the most cells, m: avoids gaps between two layers."""
     low, high = position[:, axis].min(), position[:, axis].max()
     corners = position[run.mesh.cells, axis]
     begin, end = np.sort(corners.min(axis=1)), np.sort(corners.max(axis=1))
@@ -182,8 +182,8 @@ def fullest(run, position, axis):
 
 
 def section_picture(run, options=None, axes=None):
-    """The cells that a plane through the powder cuts: across `options.across` at `options.at` (m), near its middle if
-    not said."""
+    """The cells cut by a plane through the powder, normal to `options.across` at `options.at` (m); by default near
+    the middle."""
     options = options or Options()
     asked = asked_field(run, options)
     if asked is None:
@@ -217,7 +217,7 @@ def section_picture(run, options=None, axes=None):
 
 
 def space_profile(run, options=None, axes=None):
-    """Relative density along z, at several times or in the frame asked for."""
+    """Relative density along z, at several times or in the requested frame."""
     options = options or Options()
     if not run.frames:
         return None
@@ -236,7 +236,7 @@ def space_profile(run, options=None, axes=None):
 
 
 def space_film(run, options, into):
-    """As animation.film."""
+    """Like animation.film."""
     key, sides = options.field or DEFAULT_FIELD, outer_sides(run.mesh.cells)
     fields = [field_of(run, frame, key) for frame in run.frames]
     colours = colours_of(fields[0], np.concatenate([field.values for field in fields]), options)

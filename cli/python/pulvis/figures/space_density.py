@@ -1,4 +1,4 @@
-"""Local densities in three dimensions: a layer of cells across an axis."""
+"""Local densities in three dimensions: one layer of cells normal to an axis."""
 import numpy as np
 from matplotlib.collections import LineCollection
 
@@ -9,18 +9,18 @@ from pulvis.figures.quantities import with_unit
 from pulvis.figures.space_tools import cut, pieces
 from pulvis.figures.tools import TOOL_EDGE
 
-WRITTEN_UP_TO = 10  # cells side by side whose densities are written in
+WRITTEN_UP_TO = 10  # up to this many cells side by side, density values are printed
 
 
 def layer_of(lines, at):
-    """The layer of cells that a place lies in, the middle one without a place."""
+    """The layer of cells at a coordinate; by default the middle one."""
     middle = (lines[0] + lines[-1]) / 2 if at is None else at
     return int(np.clip(np.searchsorted(lines, middle, side="right") - 1, 0, len(lines) - 2))
 
 
 def density_slice(run, options=None, axes=None):
-    """The cells across `options.across` at `options.at` (m), in the middle if not said; the colours are those of the whole
-    frame."""
+    """The layer of cells normal to `options.across` at `options.at` (m), by default in the middle; the colour scale is
+    that of the whole frame."""
     options = options or Options()
     frame = recorded(run, options, "local_density")
     if frame is None or not np.isfinite(frame["local_density"][()]).any():
@@ -28,7 +28,7 @@ def density_slice(run, options=None, axes=None):
     values, lines = frame.density()
     axis, others = "xyz".index(options.across), [k for k in range(3) if "xyz"[k] != options.across]
     layer = layer_of(lines[axis], options.at)
-    cells = np.take(values, layer, axis).T  # rows: the second of the other axes
+    cells = np.take(values, layer, axis).T  # rows: the second of the two remaining axes
     low, high = options.clim(values, "-")
     low, high = (low, high) if high - low > 1e-6 else (low - 0.01, high + 0.01)
     across, up = (1e3 * lines[k] for k in others)

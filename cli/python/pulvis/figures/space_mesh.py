@@ -1,7 +1,7 @@
-"""Hexahedra in numbers: their outer sides, sections by a plane, and the density along z."""
+"""Geometry of hexahedral meshes: outer faces, plane sections, and density along z."""
 import numpy as np
 
-# Corners of a hexahedron's sides, counter-clockwise from outside, and its edges; corners in the order of VTK.
+# Corners of a hexahedron's faces, counter-clockwise from outside, and its edges; corners in VTK order.
 SIDES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
 EDGES = np.array([[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]])
 NATURAL = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
@@ -9,7 +9,7 @@ SLICES = 20
 
 
 def outer_sides(hexahedra):
-    """(faces [n, 4] of nodes, cells [n]): sides that one hexahedron alone has."""
+    """(faces [n, 4] of nodes, cells [n]): faces that belong to only one hexahedron."""
     faces = hexahedra[:, SIDES].reshape(-1, 4)
     key = np.sort(faces, axis=1)
     order = np.lexsort(key.T)
@@ -19,7 +19,7 @@ def outer_sides(hexahedra):
 
 
 def section(hexahedra, position, axis, at):
-    """(polygons, cells): where the plane across `axis` at `at` cuts cells; polygons [corners, 2] along the other axes."""
+    """(polygons, cells): section by the plane normal to `axis` at `at`; polygons [corners, 2] in the other axes."""
     away = position[:, axis] - at
     above = away[hexahedra] > 0
     cells = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
@@ -39,14 +39,14 @@ def section(hexahedra, position, axis, at):
 
 
 def parts(hexahedra, position):
-    """(volumes, low z, high z) of the eight parts of each hexahedron that halving it along its natural directions makes:
-    [cells, 8]; by the Jacobian at their middles."""
+    """(volumes, low z, high z) of the eight parts of each hexahedron, halved along its natural coordinates:
+    [cells, 8]; by the Jacobian at their centres."""
     corners = position[hexahedra]
     volume, low, high = (np.empty((len(hexahedra), 8)) for _ in range(3))
     for part, place in enumerate(NATURAL / 2):
         shape = np.prod(1 + NATURAL * place, axis=1) / 8
         slope = np.stack([NATURAL[:, k] * np.prod(np.delete(1 + NATURAL * place, k, axis=1), axis=1) / 8 for k in range(3)])
-        sides = np.einsum("kn,cnx->ckx", slope, corners)  # a part is one long in natural coordinates
+        sides = np.einsum("kn,cnx->ckx", slope, corners)  # each part has length one in natural coordinates
         middle, half = corners[..., 2] @ shape, np.abs(sides[..., 2]).sum(axis=1) / 2
         volume[:, part] = np.linalg.det(sides)
         low[:, part], high[:, part] = middle - half, middle + half
@@ -54,7 +54,7 @@ def parts(hexahedra, position):
 
 
 def density_along_z(hexahedra, position, area, slices=SLICES):
-    """(density [slices], z [slices + 1], m): solid volume of equally thick slices over that of their room."""
+    """(density [slices], z [slices + 1], m): solid volume over available volume in slices of equal thickness."""
     volume, low, high = (values.ravel() for values in parts(hexahedra, position))
     z = np.linspace(position[:, 2].min(), position[:, 2].max(), slices + 1)
     below = np.clip((z[:, None] - low) / np.maximum(high - low, 1e-30), 0, 1) @ volume

@@ -1,11 +1,11 @@
-"""The tools of a run in three dimensions: pieces of surfaces, seen from the powder counter-clockwise."""
+"""The tools of a run in three dimensions: surface quads, counter-clockwise seen from the powder."""
 import numpy as np
 
 UPRIGHT = 1e-3
 
 
 def pieces(run, frame):
-    """(corners [n, 4, 3] m, kinds [n]) of all pieces in a frame."""
+    """(corners [n, 4, 3] m, kinds [n]) of all surface quads in a frame."""
     if "tools/quads" not in run.file or "tools/outline" not in frame:
         return np.empty((0, 4, 3)), np.empty(0, str)
     of_tool = run.file["tools/quad_tool"]
@@ -20,7 +20,7 @@ def normals(corners):
 
 
 def rims(run, frame):
-    """Edges that one piece alone has: [n, 2, 3] m."""
+    """Edges that belong to only one quad: [n, 2, 3] m."""
     if "tools/quads" not in run.file or "tools/outline" not in frame:
         return np.empty((0, 2, 3))
     quads = run.file["tools/quads"][()]
@@ -30,7 +30,7 @@ def rims(run, frame):
 
 
 def cut(corners, axis, at):
-    """Where the plane across `axis` cuts pieces: lines [n, 2, 2] along the other axes."""
+    """Where the plane normal to `axis` cuts the quads: lines [n, 2, 2] in the other axes."""
     lines = []
     for piece in corners:
         away = piece[:, axis] - at
@@ -45,8 +45,8 @@ def cut(corners, axis, at):
 
 
 def cross_section(run, frame, position):
-    """m^2, of the room across z: of a round die, or of the box that upright walls make, as wide as the powder where there
-    is none."""
+    """Cross-section normal to z, m^2: of a round die, or of the box between the vertical walls; the width of the powder
+    where there is no wall."""
     corners, kinds = pieces(run, frame)
     normal = normals(corners)
     upright = np.abs(normal[:, 2]) < UPRIGHT

@@ -1,6 +1,6 @@
-"""Pictures of a study: every chart of its report, one curve a variation, and its fitted laws.
+"""Figures of a study: every chart of its report, one curve per variation, and its fitted laws.
 
-The band of a variation with several seeds lies between the smallest and the largest, its bars are the standard deviation.
+The band of a variation with several seeds spans the smallest to the largest value; its bars are the standard deviation.
 """
 import json
 import re
@@ -92,7 +92,7 @@ def draw_powers(fit, groups, title, options):
 
 
 def plain_ticks(axes):
-    """On an axis of less than a decade: numbers instead of powers of ten."""
+    """On a log axis of less than a decade: plain numbers instead of powers of ten."""
     for set_formatter in (axes.xaxis.set_major_formatter, axes.xaxis.set_minor_formatter):
         set_formatter(plt.FuncFormatter(lambda value, _: f"{value:g}"))
 
@@ -121,12 +121,12 @@ def draw_fit(fit, title, options):
 
 
 def titled(text):
-    """Keys in the title of a chart are told by their names."""
+    """Replaces keys in a chart title by their names."""
     return capital(" ".join(name_of(word).words if "/" in word or "_" in word else word for word in text.split(" ")))
 
 
 def figures_of_study(folder, options=None):
-    """Name and figure of each; no figure where no run has what it would show."""
+    """Name and figure of each; None if no run has the data."""
     options = options or Options()
     curves = json.loads((folder / "curves.json").read_text(encoding="utf-8"))
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))

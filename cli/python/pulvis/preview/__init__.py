@@ -1,2 +1,2 @@
-"""The set-up of a scene, drawn and labelled before it runs: `pulvis preview` writes what is to be drawn as JSON (with
+"""Draws and labels the set-up of a scene before it runs: `pulvis preview` writes the set-up as JSON (with
 -o FILE.json), and this package draws it."""

@@ -1,4 +1,4 @@
-"""From the JSON of a set-up to one picture."""
+"""Draws a set-up given as JSON."""
 import argparse
 import json
 from pathlib import Path
@@ -14,7 +14,7 @@ def footer_rows(setup):
 
 
 def draw(setup):
-    """The figure of a set-up, as `pulvis preview -o FILE.json` writes it."""
+    """The figure of a set-up as written by `pulvis preview -o FILE.json`."""
     plt.rcParams.update(STYLE)
     drawing = space.SpaceDrawing if setup.get("dimension") == 3 else powder.PowderDrawing
     scene = lever.LeverDrawing(setup) if setup["family"] == "afm" else drawing(setup)
@@ -44,7 +44,7 @@ def main():
     options = parser.parse_args()
     figure = draw(json.loads(options.setup.read_text(encoding="utf-8")))
     place = options.output
-    if options.draw_into:  # `pulvis preview` puts it into place: it knows which old files it may replace
+    if options.draw_into:  # `pulvis preview` moves it into place: it knows which old files it may replace
         place = options.draw_into / f"preview{options.output.suffix}"
     figure.savefig(place, facecolor="white")
     if options.draw_into:

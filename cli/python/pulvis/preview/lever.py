@@ -1,4 +1,4 @@
-"""A lever of an atomic force microscope before it runs: from above, from the side, and its tip on the surface."""
+"""Set-up of an AFM lever: top view, side view, and the path of the tip on the surface."""
 import math
 
 import numpy as np
@@ -11,7 +11,7 @@ from pulvis.preview.sheet import (FAINT, INK, MARGIN, MATERIAL_COLOURS, SIDE, WI
 
 PARTS = ("glue", "tip", "coating", "lever")
 CLAMP, SAMPLE, LASER = "#8d97a2", "#d9d2c3", "#d7263d"
-LEAST_THICKNESS = 0.022  # of the lever's length, as it is drawn from the side
+LEAST_THICKNESS = 0.022  # minimum drawn thickness in the side view, as a fraction of the lever's length
 DRAWING = WIDTH - 2 * MARGIN - SIDE - 0.35 - 0.55  # inches
 
 
@@ -38,9 +38,9 @@ class LeverDrawing:
         self.column, self.programme = self.written(), self.actions()
         self.measure()
 
-    # ---- where everything lies ----------------------------------------------------------------------
+    # ---- layout ------------------------------------------------------------------------------------
     def turned(self, points):
-        """From the lever's frame into that of the sample: x along it, z up."""
+        """Transforms from the lever frame to the sample frame: x along the sample, z up."""
         c, s = math.cos(self.lever["tilt"]), math.sin(self.lever["tilt"])
         x, z = np.reshape(points, (-1, 2)).T
         return np.column_stack([c * x + s * z, c * z - s * x])
@@ -52,7 +52,7 @@ class LeverDrawing:
         return points
 
     def round_ball(self):
-        """Its mesh has few corners."""
+        """Draws the ball as a true sphere: its mesh is coarse."""
         angle, radius, end = np.linspace(0, 2 * np.pi, 91), self.tip["radius"], np.array(self.tip["end"])
         circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
         self.parts["tip"] = {"plan": [circle + end[:2]], "side": circle + [end[0], end[2] + radius],
@@ -66,7 +66,7 @@ class LeverDrawing:
         self.sides = {name: self.turned(self.thickened(part["side"]) if name in ("lever", "coating") else part["side"])
                       for name, part in self.parts.items()}
         self.end = self.turned([self.tip["end"][0], self.tip["end"][2]])[0]
-        if self.tip["shape"] == "sphere":  # of a tilted one another point is the lowest
+        if self.tip["shape"] == "sphere":  # a tilted ball has its lowest point elsewhere
             self.end = self.sides["tip"][np.argmin(self.sides["tip"][:, 1])]
         z = np.vstack(list(self.sides.values()))[:, 1]
         self.z = np.array([min(z.min(), self.end[1]) - (0.19 if self.pressed() is not None else 0.09) * length, z.max() + 0.08 * length])
@@ -79,7 +79,7 @@ class LeverDrawing:
         self.height = self.plan_height + self.side_height + self.detail_height + 0.55 * (3 if self.detail_height else 2)
 
     def pressed(self):
-        """The number of the first action that presses to a force."""
+        """The index of the first action that presses to a given force."""
         return next((i for i, action in enumerate(self.setup["actions"]) if "force" in action), None)
 
     def draw(self, sheet, left, top):
@@ -103,7 +103,7 @@ class LeverDrawing:
     def face(self, part):
         return {"facecolor": self.colour.get(self.material[part], "#cccccc"), "edgecolor": "#4a5561", "linewidth": 0.8}
 
-    # ---- from above ---------------------------------------------------------------------------------
+    # ---- top view -----------------------------------------------------------------------------------
     def draw_plan(self, axes):
         labels = self.prepare(axes, self.x, self.y, ("along x", "across y"), "From above")
         plan = self.parts["lever"]["plan"]
@@ -170,7 +170,7 @@ class LeverDrawing:
             labels.put(name, head, reach=5, color=stage_colour(1), fontweight="bold",
                        steps=[direction, (direction[1], direction[0])])
 
-    # ---- from the side ------------------------------------------------------------------------------
+    # ---- side view ----------------------------------------------------------------------------------
     def draw_side(self, axes):
         note = f", thickness drawn × {self.thicker}" if self.thicker > 1 else ", to scale"
         labels = self.prepare(axes, self.x, self.z, ("along x", "up z"), f"From the side{note}")
@@ -220,7 +220,7 @@ class LeverDrawing:
 
     # ---- the surface --------------------------------------------------------------------------------
     def path(self):
-        """[(number of the action, begin, end)] of the tip on the surface, (x, y) from where it begins; rasters apart."""
+        """Path of the tip: [(action index, begin, end)], (x, y) relative to its start; rasters are kept separately."""
         place, scans, rasters = np.zeros(2), [], []
         for i, action in enumerate(self.setup["actions"]):
             if action["kind"] not in ("scan", "raster"):
@@ -293,7 +293,7 @@ class LeverDrawing:
         factor, unit = words.prefix_for(reach, "m")
         width, height = DRAWING, self.detail_height - 0.45
         axes = sheet.axes(left, top + 0.1, width, height)
-        flat = 2 * reach * height / width  # m, as high as the drawing is to scale
+        flat = 2 * reach * height / width  # m, height of the drawing if to scale
         higher = round_factor(0.12 * flat / rise) if rise > 1e-6 * reach else 1
         tip = tip - [0, self.clearance(tip, profile)]
         ground = np.vstack([profile, [profile[-1, 0], -9 * flat], [profile[0, 0], -9 * flat]])
@@ -318,7 +318,7 @@ class LeverDrawing:
         labels.put(self.surface_text(), (-0.97 * factor * reach, -0.31 * factor * flat), steps=[(0, 0)], ha="left")
 
     def profile_reach(self, scans, axis, profile, tip):
-        """As far as scans and what rises go; on a plane the tip's own width shows its shape."""
+        """Range of the scans and of the surface features; on a plane, the width of the tip."""
         reach = max((abs(place[axis]) for _, *ends in scans for place in ends), default=0)
         surface = self.setup["surface"]
         if "wavelength" in surface:
@@ -328,7 +328,7 @@ class LeverDrawing:
         return max(reach, 0.6 * np.ptp(tip[:, 0]))
 
     def draw_tip(self, axes, labels, scale, tip, ground):
-        """A sharp tip touches with one point, or the rounding around it, whatever stands around that."""
+        """A sharp tip touches with its apex or the rounding around it, whatever the surrounding profile."""
         ball, (factor, higher) = self.tip["shape"] == "sphere", scale
         stretch = factor * np.array([1, higher])
         axes.add_patch(Polygon(stretch * tip, closed=True, zorder=4, gid="tip-on-surface", alpha=1 if ball else 0.4,
@@ -344,7 +344,7 @@ class LeverDrawing:
         labels.put("touches here", place, leader=True, reach=18, steps=[(-1, 1), (1, 1)])
 
     def tip_outline(self, direction):
-        """Of tip and glue, from the tip's end: (sideways, up)."""
+        """Outline of tip and glue relative to the apex: (sideways, up)."""
         parts = [self.parts[name] for name in ("tip",) if name in self.parts]
         if not parts:
             return 1e-2 * self.length * np.array([[0, 0], [0.2, 1], [-0.2, 1]])
@@ -353,13 +353,13 @@ class LeverDrawing:
         return np.array(parts[0]["front"]) - [self.tip["end"][1], self.tip["end"][2]]
 
     def clearance(self, tip, profile):
-        """How far the tip has to come down to touch the profile: with its end, a ball anywhere."""
+        """Distance to lower the tip until it touches the profile: a sharp tip with its apex, a ball anywhere."""
         if self.tip["shape"] != "sphere":
             return -np.interp(0, *profile.T)
         close = np.vstack([tip + share * (np.roll(tip, -1, axis=0) - tip) for share in (0, 0.25, 0.5, 0.75)])
         return np.min(close[:, 1] - np.interp(close[:, 0], *profile.T))
 
-    # ---- what is written ----------------------------------------------------------------------------
+    # ---- text ---------------------------------------------------------------------------------------
     def surface_text(self):
         surface = self.setup["surface"]
         parts = [surface["shape"]]

@@ -1,4 +1,4 @@
-"""A set-up of particles: die, tools, particles, bonds, cell, and how the tools move."""
+"""Set-up of a particle scene: die, tools, particles, bonds, cell, and tool motion."""
 import math
 
 import numpy as np
@@ -46,7 +46,7 @@ class PowderDrawing:
     def outer_points(self):
         return np.vstack([np.reshape(one["loops"][0], (-1, 2)) for one in self.setup["particles"]])
 
-    # ---- where everything lies ----------------------------------------------------------------------
+    # ---- layout ------------------------------------------------------------------------------------
     def layout(self):
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         cell = self.setup["cell"]
@@ -92,11 +92,11 @@ class PowderDrawing:
             thin = 0.5 if len(paths) < 500 else 0.25
             drawn = PathCollection(paths, facecolor=colour, edgecolor="#4a5561", linewidth=thin, zorder=2)
             drawn.set_gid(f"particles-{material}")
-            drawn.set_rasterized(len(self.setup["particles"]) > 5000)  # an SVG of more is slow to open
+            drawn.set_rasterized(len(self.setup["particles"]) > 5000)  # a larger SVG is slow to open
             axes.add_collection(drawn)
 
     def images(self):
-        """Outlines of the particles as the cell's borders repeat them, those that can be seen."""
+        """Outlines of the visible periodic images of the particles."""
         vectors = np.array(self.setup["cell"]["vectors"])
         for i, j in [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]:
             shift = i * vectors[0] + j * vectors[1]
@@ -160,7 +160,7 @@ class PowderDrawing:
         dimension(axes, self.factor * np.array([place[0], bottom]), self.factor * np.array([place[0], top]),
                   words.quantity(top - bottom, "m"), labels, [(0, 0)])
 
-    # ---- what is written ----------------------------------------------------------------------------
+    # ---- text ---------------------------------------------------------------------------------------
     def written(self):
         setup, column = self.setup, Column()
         column.heading(f"{words.counted(setup['count'], 'particle')}"

@@ -1,5 +1,5 @@
-"""The sheet that a set-up is drawn on: places in inches from its upper left corner, text that is wrapped, labels that
-give way to each other."""
+"""The sheet on which a set-up is drawn: coordinates in inches from the upper left corner, wrapped text, and labels
+that avoid each other."""
 import textwrap
 
 import matplotlib
@@ -16,8 +16,8 @@ STYLE = {"figure.dpi": 150, "savefig.dpi": 200, "font.size": 9, "svg.fonttype": 
 INK, FAINT, WARNING = "#1d2733", "#5b6672", "#a63603"
 MATERIAL_COLOURS = ["#a6c8e4", "#f6c391", "#b5dba9", "#cfc0e4", "#f2e08c", "#e8b3c2", "#9fd8d2", "#d2c3b0"]
 STAGE_COLOURS = ["#0072b2", "#d55e00", "#007f5f", "#b0418f", "#8c6d1f", "#5a4fcf", "#555555", "#882255"]
-WIDTH, MARGIN, SIDE = 11.4, 0.3, 3.55  # inches: of the sheet, its border, and its column of text
-LINE = 0.165  # inches, from line to line
+WIDTH, MARGIN, SIDE = 11.4, 0.3, 3.55  # inches: sheet width, margin, and text column
+LINE = 0.165  # inches, line spacing
 
 
 def stage_colour(index):
@@ -25,7 +25,7 @@ def stage_colour(index):
 
 
 def wrapped(text, inches, size=8.5):
-    """Lines of that width; letters of the sheet's font are a little over half as wide as they are high."""
+    """Text wrapped to this width; letters of the sheet's font are a little over half as wide as high."""
     return textwrap.wrap(text, max(12, int(inches * 72 / (0.56 * size)))) or [""]
 
 
@@ -39,7 +39,7 @@ class Sheet:
                                      height / self.height))
 
     def text(self, left, top, text, **style):
-        # A dollar sign of a scene is no formula.
+        # A dollar sign in a scene is not mathtext.
         self.figure.text(left / WIDTH, 1 - top / self.height, text.replace("$", r"\$"),
                          **{"va": "top", "color": INK, "fontsize": 8.5, **style})
 
@@ -49,7 +49,7 @@ class Sheet:
 
 
 class Column:
-    """Text beside a drawing: headings, lines, lines with a swatch. Measured before it is written."""
+    """Text beside a drawing: headings, lines, lines with a colour swatch. Measured before drawing."""
 
     def __init__(self, width=SIDE):
         self.width, self.rows = width, []
@@ -85,7 +85,7 @@ def clash(box, others):
 
 
 class Labels:
-    """Names in a drawing, each beside its place, where it covers nothing that was written before."""
+    """Labels in a drawing, each next to its point, placed so that it covers no earlier label."""
     AROUND = [(0, 0), (0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)]
 
     def __init__(self, axes):
@@ -93,7 +93,7 @@ class Labels:
         self.renderer = axes.figure.canvas.get_renderer()
 
     def extent(self, text):
-        """Of the text alone, without its leader."""
+        """Bounding box of the text alone, without its leader line."""
         text.update_positions(self.renderer)
         return Text.get_window_extent(text, self.renderer).expanded(1.04, 1.1)
 
@@ -101,7 +101,7 @@ class Labels:
         self.taken.append(box)
 
     def put(self, text, place, steps=None, reach=14, leader=False, **style):
-        """`steps`: directions to try, best first; `reach`: points from the place; `leader`: a line from there."""
+        """`steps`: directions to try, best first; `reach`: offset in points; `leader`: draw a leader line."""
         if leader:
             style["arrowprops"] = {"arrowstyle": "-", "color": style.get("color", FAINT), "linewidth": 0.7,
                                    "shrinkA": 0, "shrinkB": 2}
@@ -130,7 +130,7 @@ class Labels:
 
 
 def number_mark(axes, place, index, **style):
-    """A stage's number, in its colour."""
+    """The number of a stage, in its colour."""
     return axes.annotate(f"{index + 1}", place, ha="center", va="center", fontsize=7.5, color="white",
                          fontweight="bold", zorder=11, annotation_clip=False,
                          bbox={"boxstyle": "circle,pad=0.22", "facecolor": stage_colour(index), "edgecolor": "none"},
@@ -138,7 +138,7 @@ def number_mark(axes, place, index, **style):
 
 
 def dimension(axes, begin, end, text, labels, steps):
-    """A line with arrows at both ends, and what it measures."""
+    """A dimension line with arrows at both ends and its value."""
     axes.annotate("", begin, end, arrowprops={"arrowstyle": "<->", "color": FAINT, "linewidth": 0.8, "shrinkA": 0,
                                               "shrinkB": 0}, annotation_clip=False, zorder=8)
     middle = [(a + b) / 2 for a, b in zip(begin, end)]
@@ -148,12 +148,12 @@ def dimension(axes, begin, end, text, labels, steps):
 
 
 class Programme:
-    """Stages or actions: a bar of their durations, and a row of text each."""
+    """Stages or actions: a bar with their durations, and one row of text each."""
     MOST = 14
     PLACES = 0.32, 2.35, 3.35, 4.55  # inches: name, kind, duration, what happens
 
     def __init__(self, title, rows, total="", shares=None):
-        """rows: [(name, kind, duration, text)]; shares: of the bar, or none."""
+        """rows: [(name, kind, duration, text)]; shares: fractions of the bar, or None."""
         self.title, self.total = title, total
         self.shares = shares
         kept = list(enumerate(rows))

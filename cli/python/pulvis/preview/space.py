@@ -1,4 +1,4 @@
-"""A set-up of particles in three dimensions: from a corner and from two sides, with tools and how they move."""
+"""Set-up of a 3D particle scene: view from a corner and from two sides, with tools and their motion."""
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
@@ -13,7 +13,7 @@ GAP = 0.35  # inches between the views
 
 
 def view_from(turn, tilt):
-    """Rows: to the right, up, away."""
+    """Rotation matrix, rows: right, up, away from the viewer."""
     ct, st, cu, su = np.cos(turn), np.sin(turn), np.cos(tilt), np.sin(tilt)
     return np.array([[ct, -st, 0], [su * st, su * ct, cu], [cu * st, cu * ct, -su]])
 
@@ -89,7 +89,7 @@ class SpaceDrawing(PowderDrawing):
         rgb = np.array([[int(self.colour[name][k:k + 2], 16) / 255 for k in (1, 3, 5)] for name in self.owner[front][order]])
         drawn = PolyCollection(self.factor * seen[order][..., :2], facecolors=rgb * light[:, None], edgecolors="face", linewidths=0.3, zorder=2)
         drawn.set_gid("particles")
-        drawn.set_rasterized(len(order) > 20000)  # an SVG of more is slow to open
+        drawn.set_rasterized(len(order) > 20000)  # a larger SVG is slow to open
         axes.add_collection(drawn)
 
     def draw_tools(self, axes, rows):
@@ -100,7 +100,7 @@ class SpaceDrawing(PowderDrawing):
             axes.add_collection(LineCollection(self.factor * rims(pieces) @ rows[:2].T, colors=drawn_tools.EDGE, linewidths=0.7, zorder=1.1))
 
     def draw_moves(self, axes, rows):
-        """Arrows from the middle of a tool's surface, by number of the stage."""
+        """Arrows from the middle of a tool's surface, numbered by stage."""
         middles = {tool["name"]: pieces.reshape(-1, 3).mean(axis=0) for tool, pieces in zip(self.setup["tools"], self.pieces) if len(pieces)}
         shown = {}
         for index, stage in enumerate(self.setup["stages"]):
@@ -118,7 +118,7 @@ class SpaceDrawing(PowderDrawing):
                               arrowprops={"arrowstyle": "-|>", "color": stage_colour(index), "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0})
                 number_mark(axes, self.factor * begin, index)
 
-    # ---- what is written ----------------------------------------------------------------------------
+    # ---- text ---------------------------------------------------------------------------------------
     def sizes(self):
         elements = [one["elements"] for one in self.setup["particles"]]
         return (f"{words.counted(sum(elements), 'element')}, {min(elements)}"
@@ -136,7 +136,7 @@ class SpaceDrawing(PowderDrawing):
 
 
 def rims(pieces):
-    """Edges that one piece alone has: [n, 2, 3]."""
+    """Edges that belong to only one quad: [n, 2, 3]."""
     edges = np.stack([pieces, np.roll(pieces, -1, axis=1)], axis=2).reshape(-1, 2, 3)
     edges = edges[np.abs(edges[:, 0] - edges[:, 1]).sum(axis=1) > 0]
     scale = np.ptp(edges.reshape(-1, 3), axis=0).max() if len(edges) else 1

@@ -1,4 +1,4 @@
-"""Tools as finite bodies, their moves and forces as arrows, and the part of the plane that all of it needs."""
+"""Tools as finite bodies, their moves and forces as arrows, and the extent of the drawing."""
 import math
 
 import numpy as np
@@ -9,7 +9,7 @@ from pulvis.preview import words
 from pulvis.preview.sheet import INK, number_mark, stage_colour
 
 FACE, EDGE, HELD = "#c3c9d0", "#5b6672", "#e69f00"
-THICK, ARROW, MOST_ARROWS = 0.075, 0.13, 4  # shares of the set-up's size; arrows of one tool
+THICK, ARROW, MOST_ARROWS = 0.075, 0.13, 4  # fractions of the set-up's size; maximum arrows per tool
 
 
 def face_colour(tool):
@@ -21,7 +21,7 @@ def turned(vector):
 
 
 class Body:
-    """A tool as it is drawn: where its face is, how far it reaches along it, and what it does."""
+    """A tool as drawn: position and extent of its face, and its actions."""
 
     def __init__(self, tool, stages):
         self.tool, self.name = tool, tool["name"]
@@ -46,19 +46,19 @@ class Body:
         return bool(self.moves or self.servos)
 
     def level(self):
-        """Of its face along its normal: where most of it is in the powder."""
+        """Position of its face along its normal, at the point deepest in the powder."""
         return max(self.points @ self.normal) if self.polyline else self.point @ self.normal
 
     def lowest(self):
-        """The same where it is least so, as far as that is drawn."""
+        """The same at the shallowest point, limited to the drawn depth."""
         return max(min(self.points @ self.normal), self.level() - self.depth) if self.polyline else self.level()
 
     def at(self, along, behind=0.0):
-        """A point of its face, or so far behind it."""
+        """A point on its face, or at a distance behind it."""
         return along * self.along + (self.lowest() - behind if behind else self.level()) * self.normal
 
     def furthest(self):
-        """The displacement at the end of the stage in which its face is furthest in the powder."""
+        """The displacement at the end of the stage at which its face is deepest in the powder."""
         sums = np.cumsum([d for _, d, _ in self.moves], axis=0) if self.moves else np.zeros((1, 2))
         best = sums[np.argmax(sums @ self.normal)]
         return best if best @ self.normal > 0 else None
@@ -83,9 +83,9 @@ class Tools:
     def distance(self, body):
         return abs(self.middle @ body.normal - body.level())
 
-    # ---- where everything lies ----------------------------------------------------------------------
+    # ---- layout ------------------------------------------------------------------------------------
     def content(self):
-        """The box of powder, faces and held nodes."""
+        """The bounding box of powder, tool faces and constrained nodes."""
         places = [*self.powder]
         for body in self.near:
             places.append(self.middle - (self.middle @ body.normal - body.level()) * body.normal)
@@ -98,7 +98,7 @@ class Tools:
         self.low, self.high = np.min(places, axis=0), np.max(places, axis=0)
 
     def reach_of(self, body):
-        """Along its face: punches between the walls, walls past the punches, targets past everything."""
+        """Extent along its face: punches between the walls, walls past the punches, targets past everything."""
         corners = np.array([[x, y] for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])])
         places = corners @ body.along
         low, high = places.min(), places.max()
@@ -108,7 +108,7 @@ class Tools:
             if other is body or other.upright == body.upright or abs(other.normal @ body.normal) > 1e-6:
                 continue
             side = np.sign(other.normal @ body.along)
-            level = other.level() * side  # of its face, along this one
+            level = other.level() * side  # position of the other face along this one
             if body.upright:  # a wall
                 level -= 0 if other.slides or other.polyline else side * self.thick
             low, high = (level, high) if side > 0 else (low, level)
@@ -137,7 +137,7 @@ class Tools:
         self.low, self.high = low - pad, high + pad
 
     def dimension_places(self):
-        """x of the height's line, y of the width's."""
+        """x of the height dimension line, y of the width dimension line."""
         return self.dimension_at
 
     def acts(self, tool):
@@ -151,7 +151,7 @@ class Tools:
             self.draw_arrows(axes, labels, body, factor)
         for tool in self.held:
             self.draw_held(axes, labels, tool, factor)
-        for text, place, style in self.texts:  # where all arrows are known
+        for text, place, style in self.texts:  # after all arrows have been placed
             labels.put(text, place, **style)
 
     def draw_body(self, axes, body, factor):
@@ -228,12 +228,12 @@ class Tools:
             axes.add_patch(Rectangle(low, *(high - low), fill=False, edgecolor=HELD, linewidth=1.1, linestyle="--",
                                      zorder=7))
         middle = nodes.mean(axis=0)
-        if tool["holds"] == "radial":  # at one of them for all
+        if tool["holds"] == "radial":  # one symbol stands for all
             middle = nodes[np.argmax(nodes[:, 0])]
         self.draw_held_moves(axes, labels, tool, middle / factor, factor)
 
     def acts_of(self, tool):
-        """[(stage, direction, text)] of a tool's moves and forces."""
+        """[(stage, direction, text)] of the moves and forces of a tool."""
         acts = []
         for i, stage in enumerate(self.stages):
             acts += [(i, np.array(move["displacement"], float), words.quantity(math.hypot(*move["displacement"]), "m")
@@ -258,7 +258,7 @@ class Tools:
     def place_of_name(self, body):
         if not body.polyline:
             return body.at(sum(body.reach) / 2, self.thick / 2)
-        # Behind the middle of what is seen of its face.
+        # Behind the middle of the visible part of its face.
         shares = np.linspace(0, 1, 9)[:, None]
         begin, end = body.points[:-1], body.points[1:]
         faces = np.vstack([a + shares * (b - a) for a, b in zip(begin, end)])

@@ -1,11 +1,11 @@
-"""Numbers with units as an engineer reads them, and what happens in a stage or an action, in words."""
+"""Numbers with engineering units, and descriptions of stages and actions in words."""
 import math
 
 PREFIXES = [(1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")]
 
 
 def prefix_for(value, unit):
-    """The factor from SI and the unit with its prefix."""
+    """The factor from SI, and the prefixed unit."""
     size = abs(value)
     if unit == "" or not 0 < size < math.inf:
         return 1, unit
@@ -21,7 +21,7 @@ SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def number(value):
-    """Four digits."""
+    """A number with four significant digits."""
     if value == 0 or not math.isfinite(value):
         return f"{value:g}"
     power = math.floor(math.log10(abs(value)))
@@ -40,7 +40,7 @@ def quantity(value, unit):
 
 
 def span(low, high, unit):
-    """One value, or a range in one unit."""
+    """One value, or a range, in a single unit."""
     if abs(high - low) <= 1e-6 * max(abs(low), abs(high)):
         return quantity(high, unit)
     factor, named = prefix_for(high, unit)
@@ -56,7 +56,7 @@ def counted(count, what):
 
 
 def way(vector):
-    """An arrow for a direction of the plane; of space its largest component, or all of them."""
+    """An arrow for a direction in 2D; in 3D its largest component, or all components."""
     size = math.hypot(*vector)
     if size == 0:
         return "·"

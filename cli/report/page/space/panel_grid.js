@@ -1,7 +1,7 @@
-// Local densities of particles in three dimensions: the layer of cells across an axis that the reader chooses.
+// Local densities in 3D: one layer of cells normal to an axis chosen by the user.
 "use strict";
 
-// {cells, x, y} of a layer, as drawCells takes them; its axes are the two others in their order.
+// {cells, x, y} of a layer, as expected by drawCells; its axes are the other two, in order.
 function layerOf(grid, axis, layer) {
   const count = [..."xyz"].map(name => grid[name].length - 1), [first, second] = [0, 1, 2].filter(k => k !== axis), cells = [];
   const at = [0, 0, 0];

@@ -1,4 +1,4 @@
-// The density along z of particles in three dimensions, of the frame that is shown.
+// The density along z in 3D, for the current frame.
 "use strict";
 
 const PROFILE_ROOMS = {die: "the inside of the die", walls: "the inside of the walls", powder: "bounded by the powder"};

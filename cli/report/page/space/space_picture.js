@@ -1,5 +1,5 @@
-// Draws particles in space with WebGL 2 (library/twgl.js): surfaces straight from the page's numbers, which lie in textures;
-// sections and tools as triangles and lines that are made anew for each picture.
+// Draws particles in 3D with WebGL 2 (library/twgl.js): surfaces directly from the page's data, stored in textures;
+// sections and tools as triangles and lines that are rebuilt for each image.
 "use strict";
 
 const TEXTURE_WIDE = 2048;
@@ -61,7 +61,7 @@ class SpacePicture {
     this.put("cells", surface.cell, gl.R32UI);
   }
 
-  // Numbers as a texture, a texel each (four bytes a texel in RGBA8).
+  // Values as a texture, one per texel (four bytes per texel in RGBA8).
   put(name, values, internalFormat) {
     const {gl} = this, each = internalFormat === gl.RGBA8 ? 4 : 1, height = Math.max(1, Math.ceil(values.length / each / TEXTURE_WIDE));
     const src = new values.constructor(each * TEXTURE_WIDE * height);
@@ -72,7 +72,7 @@ class SpacePicture {
     else this.textures.set(name, twgl.createTexture(gl, options));
   }
 
-  // view: SpaceView; colours: packed, of the cells; plane: {normal, offset} or null.
+  // view: SpaceView; colours: packed, one per cell; plane: {normal, offset} or null.
   show(view, colours, plane) {
     const {gl, canvas} = this, {room, height, ratio} = view.place;
     canvas.width = Math.max(1, Math.round(room * ratio));
@@ -95,7 +95,7 @@ class SpacePicture {
 
   uniforms({place: {rows, unit, room, height}, middle, moved}) {
     return {turn: [0, 1, 2].flatMap(k => rows.map(row => row[k])), middle, moved, zoom: [2 * unit / room, 2 * unit / height],
-            deep: 0.1, nearer: 0};  // tools may stand far out
+            deep: 0.1, nearer: 0};  // tools may extend far outside
   }
 
   drawSurface(uniforms, view, plane) {
@@ -109,7 +109,7 @@ class SpacePicture {
     gl.drawArrays(gl.TRIANGLES, 0, 6 * this.surface.cell.length);
   }
 
-  // Places, three numbers each, with colours of four.
+  // Positions with three components each, colours with four.
   drawPlain(uniforms, mode, position, colour, more = {}) {
     if (!position.length) return;
     const {gl, programs: {plain}} = this;
@@ -140,7 +140,7 @@ class SpacePicture {
     gl.disable(gl.BLEND);
   }
 
-  // Before all particles, the nearer before the farther, as bands that face the reader with a seam of white around them.
+  // In front of all particles, nearer bands over farther ones, as bands that face the viewer, with a white outline.
   drawNetwork(uniforms, view, plane) {
     const {gl} = this, away = view.place.rows[2], bands = view.networkBands(plane);
     gl.clear(gl.DEPTH_BUFFER_BIT);
@@ -151,7 +151,7 @@ class SpacePicture {
         const along = to.map((x, k) => x - from[k]);
         const side = [0, 1, 2].map(k => along[(k + 1) % 3] * away[(k + 2) % 3] - along[(k + 2) % 3] * away[(k + 1) % 3]);
         const long = Math.hypot(...side);
-        if (!long) continue;  // straight at the reader
+        if (!long) continue;  // parallel to the view direction
         const [a, b, c, d] = [[from, 1], [to, 1], [to, -1], [from, -1]].map(([end, sign]) =>
           end.map((x, k) => x + sign * (half + wider) / long * side[k]));
         at.push(...a, ...b, ...c, ...a, ...c, ...d);
@@ -162,8 +162,8 @@ class SpacePicture {
     gl.disable(gl.BLEND);
   }
 
-  // Seen through, with lines where a surface ends. Only what shows the reader its inside is filled: the particles keep
-  // their colours behind the rest.
+  // Transparent, with lines along the borders of surfaces. Only faces seen from the inside are filled, so that the
+  // particles behind the others keep their colours.
   drawTools(uniforms, view) {
     const {gl} = this, ink = isDark() ? [170, 184, 200] : [70, 84, 100], faces = [], rims = [], places = view.toolPlaces();
     const at = row => places.slice(3 * row, 3 * row + 3), rim = new Map();

@@ -1,14 +1,14 @@
-// Hexahedra cut by a plane, and the surface of the particles: what is drawn of cells in three dimensions.
+// Hexahedra cut by a plane, and the surface of the particles: the drawn geometry of 3D cells.
 "use strict";
 
 // As in cli/report/report_space_mesh.hpp: counter-clockwise from outside.
 const HEXAHEDRON_SIDES = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
-// Two corners, then the two sides that meet there.
+// Two corners, then the two faces that meet at this edge.
 const HEXAHEDRON_EDGES = [[0, 1, 0, 2], [1, 2, 0, 3], [2, 3, 0, 4], [3, 0, 0, 5], [4, 5, 1, 2], [5, 6, 1, 3], [6, 7, 1, 4],
                           [7, 4, 1, 5], [0, 4, 2, 5], [1, 5, 2, 3], [2, 6, 3, 4], [3, 7, 4, 5]];
 
 class SpaceSurface {
-  // faces: four nodes each; cell: of each face; isOuter: of each side of each cell.
+  // faces: four nodes each; cell: of each face; isOuter: for each side of each cell.
   static of({surface, cells}) {
     const faces = new Uint32Array(4 * surface.length), cell = new Uint32Array(surface.length);
     const isOuter = new Uint8Array(6 * cells.length / 8);
@@ -20,7 +20,7 @@ class SpaceSurface {
     return {faces, cell, isOuter};
   }
 
-  // Unit normals of the nodes: means over the faces around them, by area. As numbers of 0 to 255.
+  // Unit node normals: area-weighted means over the adjacent faces. Encoded as 0 to 255.
   static normals({faces}, position) {
     const sum = new Float32Array(position.length), coded = new Uint8Array(position.length / 3 * 4).fill(128);
     for (let f = 0; f < faces.length; f += 4) {
@@ -38,7 +38,7 @@ class SpaceSurface {
   }
 }
 
-// Two unit vectors across a normal.
+// Two unit vectors orthogonal to a normal.
 function acrossOf(normal) {
   const least = normal.reduce((best, part, k) => Math.abs(part) < Math.abs(normal[best]) ? k : best, 0);
   const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
@@ -47,8 +47,8 @@ function acrossOf(normal) {
   return [unit, cross(normal, unit)];
 }
 
-// What the plane makes of the cells. cell: of each polygon; begin: its first point, and the end of the last; points:
-// three numbers each, shares; outer: of the edge that begins at each point, whether it is on the surface.
+// The section of the cells by a plane. cell: of each polygon; begin: its first point, and the end of the last; points:
+// three fractions each; outer: whether the edge that starts at each point is on the surface.
 function sectionOf(cells, position, {normal, offset}, isOuter) {
   const nodes = position.length / 3, away = new Float32Array(nodes), [u, v] = acrossOf(normal);
   for (let n = 0; n < nodes; ++n) {
@@ -71,7 +71,7 @@ function sectionOf(cells, position, {normal, offset}, isOuter) {
   return section;
 }
 
-// In the order in which they stand around their middle.
+// Sorted by angle around their centre.
 function addPolygon(section, cell, corners, u, v, isOuter) {
   if (corners.length < 3) return;
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2], count = corners.length;

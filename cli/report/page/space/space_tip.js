@@ -1,4 +1,4 @@
-// What is under the pointer in the picture of particles in space: the foremost cell of surface or section, or a tool.
+// Tooltip in the 3D view: the frontmost cell of surface or section under the pointer, or a tool.
 "use strict";
 
 Object.assign(SpaceView.prototype, {
@@ -16,7 +16,7 @@ Object.assign(SpaceView.prototype, {
     return force.every(Number.isFinite) ? `: force ${withUnit(Math.hypot(...force), "N")}` : "";
   },
 
-  // Of all nodes, once a picture.
+  // Projects all nodes, once per image.
   nodesSeen() {
     if (this.projected) return this.projected;
     const {position} = this, seen = this.projected = new Float32Array(position.length);
@@ -25,7 +25,7 @@ Object.assign(SpaceView.prototype, {
     return seen;
   },
 
-  // {cell, at} of what is seen there.
+  // {cell, at} of the visible cell at this point.
   foremostAt(x, y) {
     const {faces, cell} = this.surface, plane = this.plane(), {section} = this;
     let best = null, nearest = Infinity;
@@ -58,13 +58,13 @@ Object.assign(SpaceView.prototype, {
     }
   },
 
-  // Corners of the tools, as shares.
+  // Corners of the tools, as fractions.
   toolPlaces() {
     const {low} = this.run.head;
     return Array.from(this.corners, (value, i) => (value - low[i % 3]) / this.width);
   },
 
-  // Position of a tool under the pointer, or null.
+  // Index of the tool under the pointer, or null.
   toolUnder(x, y) {
     const {toolQuads: quads, toolOfQuad} = this.run;
     if (!this.showTools || !this.corners) return null;
@@ -77,7 +77,7 @@ Object.assign(SpaceView.prototype, {
   },
 });
 
-// Shares of the corners of a triangle at (x, y), or null outside.
+// Barycentric coordinates of (x, y) in a triangle, or null outside.
 function sharesIn(x, y, seen, a, b, c) {
   const ax = seen[a] - x, ay = seen[a + 1] - y, bx = seen[b] - x, by = seen[b + 1] - y, cx = seen[c] - x, cy = seen[c + 1] - y;
   const u = bx * cy - by * cx, v = cx * ay - cy * ax, w = ax * by - ay * bx;

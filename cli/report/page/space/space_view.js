@@ -1,9 +1,9 @@
-// The moving picture of particles in three dimensions: turned by dragging, cut by a plane, coloured as the plane one is.
-// Lengths here are shares of the widest extent of the powder, from its lowest corner over all frames; `seen` has them to
-// the right, up and away.
+// Animated view of particles in 3D: rotated by dragging, cut by a plane, coloured like the 2D view.
+// Lengths here are fractions of the largest extent of the powder, from its lowest corner over all frames; `seen` gives
+// them to the right, up and away from the viewer.
 "use strict";
 
-const SPACE_STEPS = 65534;  // of a position
+const SPACE_STEPS = 65534;  // quantisation steps of a position
 const SPACE_VIEWS = {
   isometric: ["Isometric", -Math.PI / 4, Math.atan(Math.SQRT1_2)],
   x: ["Along x", -Math.PI / 2, 0],
@@ -42,15 +42,15 @@ class SpaceView extends FieldView {
     this.place = {ratio, width, room, height, unit, scale: unit / this.width, rows: this.direction};
   }
 
-  // In pixels of the canvas; the third is how far away, as a share.
+  // In canvas pixels; the third component is the depth, as a fraction.
   seen([x, y, z]) {
     const {rows, unit, room, height} = this.place, [a, b, c] = this.middle, [dx, dy, dz] = [x - a, y - b, z - c];
     const [right, up, away] = rows.map(row => row[0] * dx + row[1] * dy + row[2] * dz);
     return [room / 2 + unit * (right + this.moved[0]), height / 2 - unit * (up + this.moved[1]), away];
   }
 
-  // {normal, offset}: what lies beyond it is cut away; null: nothing is. What is across an axis is open to the reader,
-  // from whichever side that is.
+  // {normal, offset}: everything beyond is cut away; null: nothing is. A cut normal to an axis always opens towards the
+  // viewer, from whichever side.
   plane() {
     const axis = "xyz".indexOf(this.cut);
     if (!this.cut) return null;
@@ -58,10 +58,10 @@ class SpaceView extends FieldView {
     const normal = axis < 0 ? this.cutNormal : [0, 1, 2].map(k => k === axis ? side : 0);
     const reach = this.box.map((length, k) => length * normal[k]), low = reach.reduce((sum, part) => sum + Math.min(0, part), 0);
     const high = reach.reduce((sum, part) => sum + Math.max(0, part), 0), share = side > 0 ? this.cutAt : 1 - this.cutAt;
-    return {normal, side, offset: low + share * (high - low) + 1e-6};  // through no node of a lattice
+    return {normal, side, offset: low + share * (high - low) + 1e-6};  // avoids passing through nodes of a lattice
   }
 
-  // The contact forces as {from, to, half}, half of their widths, which is as their force; without what a plane cuts away.
+  // The contact forces as {from, to, half}: half the band width, proportional to force; without those cut away.
   networkBands(plane) {
     const {lines, width, box, run: {head: {low, mesh}}} = this, bands = [];
     const most = this.mostForce = largest(lines.filter((_, i) => i % 7 === 6)) || 1;
@@ -117,7 +117,7 @@ class SpaceView extends FieldView {
     Object.assign(ctx, {strokeStyle: theme().soft, fillStyle: theme().soft, lineWidth: 1, textAlign: "center"});
     [..."xyz"].forEach((name, k) => {
       const [x, y] = [rows[0][k], rows[1][k]];
-      if (Math.hypot(x, y) < 0.1) return;  // straight at the reader
+      if (Math.hypot(x, y) < 0.1) return;  // parallel to the view direction
       ctx.beginPath();
       ctx.moveTo(x0, y0);
       ctx.lineTo(x0 + long * x, y0 - long * y);
@@ -154,7 +154,7 @@ class SpaceView extends FieldView {
     this.tilt = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, this.tilt + tilt));
     this.draw();
   }
-  // factor: of what is seen, as in the plane picture.
+  // factor: of the zoom, as in the 2D view.
   zoomBy(factor, px = this.place.room / 2, py = this.place.height / 2) {
     const {unit, room, height} = this.place, [x, y] = [(px - room / 2) / unit, (height / 2 - py) / unit];
     this.zoom /= factor;
@@ -202,7 +202,7 @@ class SpaceView extends FieldView {
   }
 }
 
-// What stands above the picture in space beside the field: view, cut, tools, edges.
+// Controls above the 3D view besides the field: view, cut, tools, edges.
 function spaceControls(view) {
   const note = element("output", {className: "told"}), change = what => { view.show(what).then(() => { note.textContent = view.cutInWords(); }); };
   const select = (id, entries, onchange) => {
