@@ -5,8 +5,8 @@
 //          metric C_p^-1 (as in Simo 1992), so that the stress follows from F alone and cannot drift;
 //          and the trace after the return follows from det b_e = 1 instead of being kept, so that the
 //          stored energy is consistent with the stress. The plastic work is theta sigma_y d eps per undeformed
-//          volume (systems/laws/rate.hpp); the exact dissipation differs from it by the square of the
-//          elastic deviator.
+//          volume (systems/laws/rate.hpp); the exact dissipation differs from it in the first order of the
+//          elastic deviator, by det dev b.
 // Symbols  C      C_p^-1 - 1 [-] (xx yy zz xy; zero when virgin);  b = J^(-2/3) F C_p^-1 F^T [-]
 //          mu, K  shear and bulk modulus [Pa];  theta element dilatation [-]
 //          s      deviatoric Cauchy stress [Pa] = mu dev b / theta;  p mean stress [Pa]

@@ -152,7 +152,7 @@ def test_a_lever_has_its_curves(loop, pull_off):
         ["trace", "retrace"], ["action 1, trace", "action 1, retrace"])
     _, axes = pulvis.open(pull_off).plot.force_curve()
     assert [line.get_label() for line in axes.lines] == ["approach", "retract"]
-    assert axes.get_xlabel() == "Scanner $z$ / nm" and axes.get_ylabel().startswith("Force on the tip $F_z$ / ")
+    assert axes.get_xlabel() == "Scanner $z$ / µm" and axes.get_ylabel().startswith("Force on the tip $F_z$ / ")
 
 
 def test_a_notebook_shows_a_table_and_a_picture(compact, pull_off):

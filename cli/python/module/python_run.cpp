@@ -189,7 +189,6 @@ bool PythonRun::go(const Session::Target& target) {
   Session& run = session();
   if (is_going_) throw NotNow("a callback cannot take steps of its own simulation");
   if (is_closed_) throw NotNow("the simulation is closed");
-  if (outcome_.starts_with("failed: ")) throw RunFailure(outcome_.substr(8));
   if (!outcome_.empty()) return true;
   Interruptible interruptible;
   stop_ = false;

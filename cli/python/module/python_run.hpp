@@ -49,7 +49,7 @@ class PythonRun {
 
   // Throws NotNow while another thread takes steps.
   Session& session();
-  // For changes of state: between two steps, in `every` or outside all callbacks.
+  // For changes of state: between two steps, in `every` or when no `run` call is active.
   Session& session_between_steps(const char* what);
   const std::string& outcome() const { return outcome_; }
   const std::vector<double>& times() const { return times_; }

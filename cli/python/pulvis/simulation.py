@@ -98,7 +98,7 @@ class Simulation:
     def every(self, steps: int, call: Callable[[Simulation], Any] | None = None) -> Callable[..., Any]:
         """Calls ``call(simulation)`` between two steps, whenever the step number is a multiple of `steps`.
 
-        Here, and outside all callbacks, columns may be modified and tools driven.
+        Here, and when no `run` call is active, columns may be modified and tools driven.
         """
         if call is None:
             return lambda call: self.every(steps, call)
@@ -137,7 +137,7 @@ class Simulation:
 
     @property
     def outcome(self) -> str:
-        """"done", "stopped as expected: ...", "failed: ..."; empty while the run goes on."""
+        """"done", "stopped as expected: ...", "failed: ..."; empty while the run is in progress."""
         return self._run.outcome
 
     @property
@@ -207,9 +207,9 @@ class Simulation:
 
         ``with sim.writable("velocity") as velocity: velocity[3][:, 1] -= 2.0``
 
-        Only between two steps: in `every` callbacks and outside all callbacks. Velocities may be modified, and of
-        particles ``yield_stress``, ``hardening_modulus`` and ``mass_damping``. The energy balance of the run does
-        not include these changes.
+        Only between two steps: in `every` callbacks and when no `run` call is active. Velocities may be modified,
+        and of particles ``yield_stress``, ``hardening_modulus`` and ``mass_damping``. The energy balance of the run
+        does not include these changes.
         """
         return Column(self._run, name, writable=True)
 
