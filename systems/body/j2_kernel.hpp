@@ -5,8 +5,7 @@
 //          metric C_p^-1 (as in Simo 1992), so that the stress follows from F alone and cannot drift;
 //          and the trace after the return follows from det b_e = 1 instead of being kept, so that the
 //          stored energy is consistent with the stress. The plastic work is theta sigma_y d eps per undeformed
-//          volume (systems/laws/rate.hpp); the exact dissipation differs from it in the first order of the
-//          elastic deviator, by det dev b.
+//          volume (systems/laws/rate.hpp), times work_of_large_strain.
 // Symbols  C      C_p^-1 - 1 [-] (xx yy zz xy; zero when virgin);  b = J^(-2/3) F C_p^-1 F^T [-]
 //          mu, K  shear and bulk modulus [Pa];  theta element dilatation [-]
 //          s      deviatoric Cauchy stress [Pa] = mu dev b / theta;  p mean stress [Pa]
@@ -212,12 +211,20 @@ Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const Hardening& 
   return {t.norm * x, max(fma(-t.two_mu_bar, x, 1.0), T{}), select(open, residual, T{})};
 }
 
+// Plastic work over theta sigma_y d eps: what a return takes of the stored energy, mu/2 (tr b - 3), over what the linear
+// relation of stress and strain would. Of the first order in the elastic deviator d, with q = d:d / 2.
+template <class T>
+T work_of_large_strain(T mean, T beta, T q, T det) {
+  return mean * fma(T{} - 1.5, beta * det / max(q, 1e-300), 1.0);
+}
+
 // ---- the return map ------------------------------------------------------------------------------------
 // Returns the trial state of a Gauss point to the yield surface; lanes that do not yield are left unchanged.
 // Numbered as box 9.1, whose steps 1, 2 and 5 trial_stress has already done: the configuration and its F, the
 // elastic predictor s_trial, the mean stress. `r2` = J^(-2/3). `coupled` is returned with the deviator.
 template <class T>
 struct Returned : J2State<T> {
+  T work;      // -, work_of_large_strain
   T residual;  // Multiplier::residual
 };
 
@@ -250,6 +257,7 @@ Returned<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T 
   const T beta2 = beta * beta;
   const T m = mean_of_unit_determinant(beta2 * q, beta2 * beta * det);
   const T shift = fma(-beta, mean, m);
+  next.work = work_of_large_strain(m, beta, q, det);
   const T j = determinant(f);
   const T pull = shift * (r2 * r2);  // J^(2/3) / J^2
   const T cxx = fma(f.xy, f.xy, f.yy * f.yy), cyy = fma(f.xx, f.xx, f.yx * f.yx);

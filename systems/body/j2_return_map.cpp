@@ -58,8 +58,8 @@ void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKine
   v.metric(e, 4 * g + 2) = next.c.zz;
   v.metric(e, 4 * g + 3) = next.c.xy;
   v.strain(e, g) = next.eps;
-  sums.beyond_hardening +=
-      at.area * kernels::work_beyond_hardening(v.law, before, next.eps - before, at.theta);
+  sums.beyond_hardening += at.area * kernels::work_beyond_hardening(
+                                         v.law, before, next.eps - before, at.theta * next.work);
   if constexpr (!kernels::is_closed_form<Law>) keep_worst(next.residual, e, sums);
 }
 

@@ -128,7 +128,7 @@ struct PlasticMaterial {
     store(metric, at.element, at.g,
           kernels::returned_metric(metric_at(metric, at.element, at.g), r, at.adj, at.r2));
     strain(at.element, at.g) = r.eps;
-    sums.beyond_hardening += at.volume * rule.work_beyond(before, r.eps - before, at.j);
+    sums.beyond_hardening += at.volume * rule.work_beyond(before, r.eps - before, at.j * r.work);
     if constexpr (Rule::iterated) keep_worst_return(r.residual, at.element, sums);
   }
 
