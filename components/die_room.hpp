@@ -1,9 +1,11 @@
 // The space enclosed by the tools in three dimensions: the reference of relative density.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 
 namespace pulvis {
 
@@ -14,12 +16,13 @@ struct DieRoom {
   using Vector = std::array<double, 3>;
 
   Kind kind = Kind::box;
-  std::array<int, 6> tool{};   // by side
-  int die = -1;                // tool number of a round die
-  Vector axis{0, 0, 1};        // from bottom to top
-  double diameter = 0;         // m, of a round die
-  double in_faces = 0;         // m^3 of the room occupied by the profiles of punches
-  double particle_volume = 0;  // m^3, undeformed, of all particles
+  std::array<int, 6> tool{};         // by side
+  int die = -1;                      // tool number of a round die
+  Vector axis{0, 0, 1};              // from bottom to top
+  double diameter = 0;               // m, of a round die
+  std::optional<double> mouth = {};  // m, height of its end above its position
+  double in_faces = 0;               // m^3 of the room occupied by the profiles of punches
+  double particle_volume = 0;        // m^3, undeformed, of all particles
 
   // m, distance between two sides. `at`: at(tool, component) is the current position of a tool.
   template <class At>
@@ -47,10 +50,18 @@ struct DieRoom {
     if (kind == Kind::box) return width(at) * depth(at);
     return std::numbers::pi / 4 * diameter * diameter;
   }
-  // m^2, inner surface of a round die between the two other tools.
+  // m^2, inner surface of a round die between the two other tools, up to its mouth.
   template <class At>
   double wall(const At& at) const {
-    return std::numbers::pi * diameter * height(at);
+    double length = height(at);
+    if (mouth) {
+      double above_bottom = *mouth;
+      for (std::size_t k = 0; k < 3; ++k)
+        above_bottom +=
+            (at(die, static_cast<int>(k)) - at(tool[bottom], static_cast<int>(k))) * axis[k];
+      length = std::clamp(above_bottom, 0.0, length);
+    }
+    return std::numbers::pi * diameter * length;
   }
   template <class At>
   double volume(const At& at) const {

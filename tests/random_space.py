@@ -100,10 +100,21 @@ class Scene:
     def plane(self, name, point, normal):
         return f'[[tool]]\nname = "{name}"\nshape = "plane"\npoint = {point}\nnormal = {normal}\n'
 
+    def height(self):
+        """Of the powder, about: particles fill half of the cube of their size."""
+        return self.cells[2] * self.size if self.lattice else \
+            0.5 * self.count * len(self.materials) * self.size**3 / (self.width * self.depth * self.packed)
+
+    def leaves(self):
+        """Whether the compact is ejected past the mouth of its die."""
+        return self.round_die and self.action == "press and eject"
+
     def tools(self):
         text = self.plane("bottom", metres(0, 0, 0), [0, 0, 1])
         if self.round_die:
             text += f'[[tool]]\nname = "die"\nshape = "die"\npoint = {metres(0, 0, 0)}\ndiameter = "{self.width:.9g} m"\n'
+            if self.leaves():
+                text += f'height = "{1.2 * self.height():.9g} m"\nrounding = "{0.2 * self.size:.9g} m"\n'
         else:
             for name, axis, at, sign in (("left", 0, 0, 1), ("right", 0, self.width, -1), ("front", 1, 0, 1),
                                          ("back", 1, self.depth, -1)):
@@ -121,9 +132,7 @@ class Scene:
             f'[[stage.move]]\ntool = "{tool}"\ndisplacement = {metres(0, 0, z)}\nramp = 0.03\n' for tool, z in moves)
 
     def stages(self):
-        # Of the powder, about: particles fill half of the cube of their size.
-        height = self.cells[2] * self.size if self.lattice else \
-            0.5 * self.count * len(self.materials) * self.size**3 / (self.width * self.depth * self.packed)
+        height = self.height()
         if self.action == "throw":
             return self.stage("throw", "settle", height)
         if self.action == "hold":
@@ -136,7 +145,8 @@ class Scene:
                           f"[stage.until]\nrelative_density = {self.pressed:.4g}\n")
         text += self.stage("lift", "unload", 0.1 * height, [("top", 0.1 * height)])
         if self.action == "press and eject":
-            text += self.stage("push", "eject", 0.3 * height, [("top", 0.5 * height), ("bottom", 0.3 * height)])
+            up = (1.3 if self.leaves() else 0.3) * height
+            text += self.stage("push", "eject", up, [("top", up + 0.2 * height), ("bottom", up)])
         return text
 
     def text(self):

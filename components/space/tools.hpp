@@ -36,12 +36,13 @@ struct TriangleMesh {
 struct ToolShapes {
   static constexpr const char* resource_name = "space_tool_shapes";
   static constexpr bool fixed = true;
-  // A die is the inside of a round hole along the tool's normal, a punch a body of revolution about that normal.
-  enum class Kind { plane, die, punch, mesh };
+  // A hole is round, along the tool's normal, without an end. A body of revolution is about that normal: a punch, a die
+  // with a mouth.
+  enum class Kind { plane, hole, revolution, mesh };
   struct Shape {
     Kind kind = Kind::plane;
-    double radius = 0;     // m, of a die
-    ToolSurface meridian;  // of a punch: x is the radius, y along the normal, mirrored at the axis
+    double radius = 0;     // m, of a hole
+    ToolSurface meridian;  // of a body of revolution: x is the radius, y along the normal
     TriangleMesh mesh;
   };
   std::vector<Shape> of_tool;

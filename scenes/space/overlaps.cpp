@@ -85,7 +85,8 @@ class BodyOverlaps {
   }
 
   static bool is_solid(const ToolSpec& tool) {
-    return tool.shape == ToolSpec::Shape::punch || tool.shape == ToolSpec::Shape::stl;
+    return tool.shape == ToolSpec::Shape::punch || tool.shape == ToolSpec::Shape::stl ||
+           tool.height;
   }
 
   // If flipped, the plane would have every particle in front of it.
@@ -111,7 +112,7 @@ class BodyOverlaps {
     return touch ? -pair.distance(touch->normal) : 0;
   }
 
-  // For a plane or a die; in diameters.
+  // For a plane or a die without a mouth; in diameters.
   double depth_behind(const ToolSpec& tool, const Vec3& along, std::size_t i) const {
     const V3 normal = vector_of(along), at = poses_[i].at - vector_of(tool.point / unit_);
     if (tool.shape == ToolSpec::Shape::plane) {
@@ -157,9 +158,8 @@ class BodyOverlaps {
   const SpaceScene& scene_;
   const std::vector<BodySpec>& bodies_;
   ToolShapes tools_;
-  std::vector<std::vector<Vec3>>
-      points_;       // m, on the classes' surfaces, empty until needed
-  double unit_ = 1;  // m
+  std::vector<std::vector<Vec3>> points_;  // m, on the classes' surfaces, empty until needed
+  double unit_ = 1;                        // m
   std::vector<RigidShape> shapes_;
   std::vector<RigidPose> poses_;
   std::size_t pairs_ = 0;

@@ -1,5 +1,9 @@
 #include "scenes/space/space_warnings.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "scenes/checks/setup_warnings.hpp"
 #include "scenes/space/class_shape.hpp"
 #include "scenes/space/overlaps.hpp"
@@ -23,6 +27,23 @@ FastTool fastest_in_space(const Scene& scene) {
   return fast;
 }
 
+// Of dies with a mouth: particles whose centres lie beyond it.
+std::vector<std::string> mouth_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  std::vector<std::string> lines;
+  for (const ToolSpec& die : scene.space->tools) {
+    if (!die.height) continue;
+    const auto beyond = std::ranges::count_if(bodies, [&](const BodySpec& body) {
+      return (body.position - die.point).dot(die.normal) > *die.height;
+    });
+    if (beyond > 0)
+      lines.push_back(fmt::format(
+          "{} of {} particles start beyond the mouth of die '{}', which does not hold them: use a "
+          "larger height",
+          beyond, bodies.size(), die.name));
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
@@ -30,6 +51,7 @@ std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<Bo
   for (std::string& line : contact_overlap_warnings(scene, bodies))
     lines.push_back(std::move(line));
   for (std::string& line : travel_warnings(scene, bodies)) lines.push_back(std::move(line));
+  for (std::string& line : mouth_warnings(scene, bodies)) lines.push_back(std::move(line));
   const FastTool fast = fastest_in_space(scene);
   if (!(fast.speed > 0)) return lines;
   const std::string& name = scene.space->tools[static_cast<std::size_t>(fast.tool)].name;

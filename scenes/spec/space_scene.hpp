@@ -81,8 +81,11 @@ struct MeshSpec {
     if (grid == Grid::extruded) return 2 * (n * n + 4 * n * rings) + 4 * n * m;
     return 2 * n * n + 4 * n * m;
   }
-  std::int64_t surface_nodes() const { return faces() + 2; }  // Euler's formula for four-sided faces
-  std::int64_t surface_points() const {  // of Bezier patches, approximately: at nodes, on sides and inside
+  std::int64_t surface_nodes() const {
+    return faces() + 2;
+  }  // Euler's formula for four-sided faces
+  std::int64_t surface_points()
+      const {  // of Bezier patches, approximately: at nodes, on sides and inside
     return surface_nodes() + 8 * faces();
   }
   std::int64_t nodes() const {
@@ -100,7 +103,7 @@ struct ParticleSpec {  // a class of identical particles
   bool random_mesh_phase = false;  // spheres: every particle's mesh is randomly rotated
   SourceMark mark;
   int class_of =
-      -1;            // for one size of a packing: the class that is scaled, in SpaceScene::particles
+      -1;  // for one size of a packing: the class that is scaled, in SpaceScene::particles
   double scale = 1;  // factor on that class's shape
 };
 
@@ -128,10 +131,10 @@ struct PackingSpec {
   enum class Dense { given, touching, densest };
   int particle = 0;
   std::array<int, 3> cells{1, 1, 1};  // along x, y, z
-  double spacing = 0;             // m, edge of the cubic cell; hexagonal: nearest-neighbour distance
-  ContainerSpec container;        // for lattices: only `corner`
-  std::optional<double> height;   // m
-  std::optional<int> count;       // if the classes give fractions
+  double spacing = 0;            // m, edge of the cubic cell; hexagonal: nearest-neighbour distance
+  ContainerSpec container;       // for lattices: only `corner`
+  std::optional<double> height;  // m
+  std::optional<int> count;      // if the classes give fractions
   std::optional<double> density;  // -
   Dense dense = Dense::given;
   std::string file;                   // relative to the scene's folder
@@ -154,6 +157,9 @@ struct ToolSpec {
   bool on_packing = false;      // point.z is the top of the highest packing
   Vec3 normal = Vec3::UnitZ();  // unit vector, from the tool into the powder; of a punch: its axis
   double diameter = 0;          // m, of a die, of a punch
+  std::optional<double> height =
+      {};               // m, of a die whose hole ends: its mouth, from `point` along the normal
+  double rounding = 0;  // m, radius of the edge of that mouth
   std::vector<Vec2> profile =
       {};  // m, of a punch: radius, height along the normal; from the axis outward
   std::string file = {}, unit = {};

@@ -191,7 +191,8 @@ class SpaceParts : public ResultParts {
 
   template <class At>
   double die_stress(const At& at) const {
-    return normal_force_on_die(world_, room_->die, room_->axis) / room_->wall(at);
+    const double wall = room_->wall(at);
+    return wall > 0 ? normal_force_on_die(world_, room_->die, room_->axis) / wall : 0;
   }
   template <class At>
   std::vector<double> wall_stresses(const At& at) const {

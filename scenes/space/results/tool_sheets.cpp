@@ -15,6 +15,9 @@ using Box = Eigen::AlignedBox3d;
 constexpr int sectors = 48;
 constexpr double parallel = 1e-9;       // of unit vectors
 constexpr double share_of_punch = 0.2;  // drawn height of a punch over its diameter
+constexpr double share_of_face =
+    0.2;  // drawn width of the face around a mouth over the diameter of the hole
+constexpr int steps_of_edge = 6;  // of the quarter circle of a rounded edge
 
 const char* kind_of(const ToolSpec& tool) {
   static constexpr const char* kinds[] = {"plane", "die", "punch", "stl"};
@@ -93,7 +96,8 @@ void ToolSheets::add_tool(const SpaceScene& scene, const ToolSpec& tool) {
       if (const ToolSpec* die = die_across(scene, tool)) {
         const Vec3 apart = die->point - tool.point;
         const Vec3 centre = apart - tool.normal.dot(apart) * tool.normal;
-        add_between(Ring(sectors, centre), ring(centre, tool.normal, die->diameter / 2));
+        add_between(
+            std::array{Ring(sectors, centre), ring(centre, tool.normal, die->diameter / 2)});
       } else {
         add_sheet(tool);
       }
@@ -123,26 +127,36 @@ void ToolSheets::add_piece(std::span<const Vec3> corners) {
   faces_.points = corners_.size();
 }
 
-// Rings run counter-clockwise as seen from the powder.
-void ToolSheets::add_between(const Ring& inner, const Ring& outer) {
+// Rings run counter-clockwise as seen from the powder. Quads share the points of the rings between them, so that pictures
+// draw no edge there.
+void ToolSheets::add_between(std::span<const Ring> rings) {
   const int tool = static_cast<int>(faces_.names.size()) - 1;
-  const auto first = static_cast<std::int32_t>(corners_.size());
-  const auto count = static_cast<std::int32_t>(inner.size());
-  const bool is_tip = inner[0] == inner[1];
-  corners_.insert(corners_.end(), inner.begin(), is_tip ? inner.begin() + 1 : inner.end());
-  const auto begin = static_cast<std::int32_t>(corners_.size());
-  corners_.insert(corners_.end(), outer.begin(), outer.end());
+  const auto count = static_cast<std::int32_t>(rings.front().size());
+  const bool has_tip = rings.front()[0] == rings.front()[1];
+  std::int32_t first = -1;  // point of the last ring
+  for (const Ring& ring : rings) {
+    const bool is_tip = first < 0 && has_tip;
+    const auto begin = static_cast<std::int32_t>(corners_.size());
+    corners_.insert(corners_.end(), ring.begin(), is_tip ? ring.begin() + 1 : ring.end());
+    if (first >= 0) add_quads(first, begin, count, begin - first == 1);
+    first = begin;
+  }
   tool_.resize(corners_.size(), tool);
+  faces_.points = corners_.size();
+}
+
+// Between two rings of points; the first one may be a single point.
+void ToolSheets::add_quads(std::int32_t inner, std::int32_t outer, std::int32_t count,
+                           bool is_tip) {
   for (std::int32_t i = 0; i < count; ++i) {
     const std::int32_t next = (i + 1) % count;
     if (is_tip)
-      faces_.corners.insert(faces_.corners.end(), {first, begin + i, begin + next, begin + next});
+      faces_.corners.insert(faces_.corners.end(), {inner, outer + i, outer + next, outer + next});
     else
       faces_.corners.insert(faces_.corners.end(),
-                            {first + i, begin + i, begin + next, first + next});
-    faces_.tool.push_back(tool);
+                            {inner + i, outer + i, outer + next, inner + next});
+    faces_.tool.push_back(static_cast<int>(faces_.names.size()) - 1);
   }
-  faces_.points = corners_.size();
 }
 
 void ToolSheets::add_sheet(const ToolSpec& plane) {
@@ -157,8 +171,22 @@ void ToolSheets::add_sheet(const ToolSpec& plane) {
 void ToolSheets::add_die(const ToolSpec& die) {
   const Reach along = reach_of(box_, die.normal, die.point);
   const double radius = die.diameter / 2;
-  add_between(ring(along.low * die.normal, die.normal, radius),
-              ring(along.high * die.normal, die.normal, radius));
+  std::vector<Vec2> wall;  // distance from the axis and height
+  if (die.height) {
+    const double r = die.rounding, foot = *die.height - r;
+    wall.emplace_back(radius, std::min(along.low, foot - share_of_face * die.diameter));
+    const int steps = r > 0 ? steps_of_edge : 0;
+    for (int i = 0; i <= steps; ++i) {
+      const double angle = steps > 0 ? std::numbers::pi / 2 * i / steps : 0;
+      wall.emplace_back(radius + r * (1 - portable::cos(angle)), foot + r * portable::sin(angle));
+    }
+    wall.emplace_back(radius + r + share_of_face * die.diameter, *die.height);
+  } else {
+    wall = {{radius, along.low}, {radius, along.high}};
+  }
+  std::vector<Ring> rings;
+  for (const Vec2& at : wall) rings.push_back(ring(at.y() * die.normal, die.normal, at.x()));
+  add_between(rings);
 }
 
 void ToolSheets::add_punch(const ToolSpec& punch) {
@@ -173,7 +201,7 @@ void ToolSheets::add_punch(const ToolSpec& punch) {
     return point.x() > 0 ? ring(centre, punch.normal, point.x()) : Ring(sectors, centre);
   };
   for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-    add_between(at(profile[i]), at(profile[i + 1]));
+    add_between(std::array{at(profile[i]), at(profile[i + 1])});
 }
 
 void ToolSheets::add_triangles(const ToolSpec& tool) {

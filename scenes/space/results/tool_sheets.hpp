@@ -30,7 +30,8 @@ class ToolSheets {
   void add_punch(const ToolSpec& punch);
   void add_triangles(const ToolSpec& tool);
   void add_piece(std::span<const Vec3> corners);  // three or four, relative to the tool's position
-  void add_between(const Ring& inner, const Ring& outer);
+  void add_between(std::span<const Ring> rings);
+  void add_quads(std::int32_t inner, std::int32_t outer, std::int32_t count, bool is_tip);
 
   Eigen::AlignedBox3d box_;
   ToolFaces faces_;

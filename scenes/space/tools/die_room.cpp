@@ -57,6 +57,7 @@ std::optional<DieRoom> round_of(const SpaceScene& scene) {
   room.die = static_cast<int>(die - scene.tools.begin());
   room.axis = {die->normal.x(), die->normal.y(), die->normal.z()};
   room.diameter = die->diameter;
+  room.mouth = die->height;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];
     if (static_cast<int>(t) == room.die) continue;

@@ -35,10 +35,10 @@ void ToolDepth::look_about(const Vec3& centre, double reach) {
 
 ToolDepth::Place ToolDepth::at(const Vec3& point) const {
   const Vec3 from = point - tool_.point;
-  return shape_.kind == ToolShapes::Kind::mesh ? in_mesh(from) : in_punch(from);
+  return shape_.kind == ToolShapes::Kind::mesh ? in_mesh(from) : in_revolution(from);
 }
 
-ToolDepth::Place ToolDepth::in_punch(const Vec3& from) const {
+ToolDepth::Place ToolDepth::in_revolution(const Vec3& from) const {
   const Vec3& axis = tool_.normal;
   const double height = from.dot(axis);
   const Vec3 arm = from - height * axis;

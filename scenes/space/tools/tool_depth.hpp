@@ -24,7 +24,7 @@ class ToolDepth {
   Place at(const Vec3& point) const;
 
  private:
-  Place in_punch(const Vec3& from) const;
+  Place in_revolution(const Vec3& from) const;
   Place in_mesh(const Vec3& from) const;
 
   const ToolSpec& tool_;

@@ -25,9 +25,9 @@ Kind kind_of(const ToolSpec& tool) {
     case ToolSpec::Shape::plane:
       return Kind::plane;
     case ToolSpec::Shape::die:
-      return Kind::die;
+      return tool.height ? Kind::revolution : Kind::hole;
     case ToolSpec::Shape::punch:
-      return Kind::punch;
+      return Kind::revolution;
     case ToolSpec::Shape::stl:
       break;
   }
@@ -43,6 +43,16 @@ void move_by(const Vec2& shift, ToolSurface& surface) {
     piece.corner_y += shift.y();
   }
   index_pieces(surface);
+}
+
+// Up the wall, which has no lower end, and outwards along the face at the mouth.
+ToolSurface die_meridian(const ToolSpec& die) {
+  const double radius = die.diameter / 2, far = std::max(radius, 1.0);
+  const std::vector<Vec2> chain{
+      {radius, *die.height - far}, {radius, *die.height}, {radius + far, *die.height}};
+  ToolSurface meridian = make_surface(chain, die.rounding);
+  move_by(chain.front(), meridian);
+  return meridian;
 }
 
 }  // namespace
@@ -69,8 +79,11 @@ ToolShapes tool_shapes(const SpaceScene& scene) {
   for (const ToolSpec& tool : scene.tools) {
     ToolShapes::Shape& shape = shapes.of_tool.emplace_back();
     shape.kind = kind_of(tool);
-    if (shape.kind == Kind::die) shape.radius = tool.diameter / 2;
-    if (shape.kind == Kind::punch) shape.meridian = punch_meridian(tool, fills_a_die(tool, scene));
+    if (shape.kind == Kind::hole) shape.radius = tool.diameter / 2;
+    if (shape.kind == Kind::revolution)
+      shape.meridian = tool.shape == ToolSpec::Shape::die
+                           ? die_meridian(tool)
+                           : punch_meridian(tool, fills_a_die(tool, scene));
     if (shape.kind == Kind::mesh) shape.mesh = triangle_mesh(tool.triangles);
   }
   return shapes;

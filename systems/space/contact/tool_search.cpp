@@ -56,12 +56,12 @@ bool FaceLook::can_touch(int slot, int face, int tool) const {
       for (int p = 0; p < 16; ++p)
         if (product(difference(point_of(points, p), at), normal) < skin) return true;
       return false;
-    case ToolShapes::Kind::die:
+    case ToolShapes::Kind::hole:
       for (int p = 0; p < 16; ++p)
         if (AboutAxis(difference(point_of(points, p), at), normal).radius > shape.radius - skin)
           return true;
       return false;
-    case ToolShapes::Kind::punch:
+    case ToolShapes::Kind::revolution:
       return near_meridian(shape.meridian, points, at, normal, reach);
     case ToolShapes::Kind::mesh:
       break;

@@ -21,8 +21,8 @@ struct FaceLook {
   const ToolSurfaces& tools;
   double skin;
 
-  // Whether the face can touch the tool before the skin is used up, or is behind its surface: for punches and meshes by
-  // up to its own size. (At greater depth no force would be meaningful.)
+  // Whether the face can touch the tool before the skin is used up, or is behind its surface: for bodies of revolution
+  // and meshes by up to its own size. (At greater depth no force would be meaningful.)
   bool can_touch(int slot, int face, int tool) const;
   // Adds the triangles of a mesh tool that can be the nearest until then.
   void add_triangles(const ToolCandidate& candidate, std::vector<std::int32_t>& list) const;

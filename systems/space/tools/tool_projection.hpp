@@ -1,6 +1,6 @@
-// Projection on tools: positions of eight points relative to planes, dies, punches and meshes.
+// Projection on tools: positions of eight points relative to planes, round holes, bodies of revolution and meshes.
 //
-// Source   systems/tools/surface_kernel.hpp (the meridian of a punch), triangle_kernel.hpp
+// Source   systems/tools/surface_kernel.hpp (meridians), triangle_kernel.hpp
 #pragma once
 
 #include <span>
@@ -33,7 +33,7 @@ struct RadiusAndHeight {
   }
 };
 
-inline Standing in_die(double radius, const Point& axis, const VectorLanes& from) {
+inline Standing in_hole(double radius, const Point& axis, const VectorLanes& from) {
   const RadiusAndHeight at(from, everywhere(axis));
   Standing s;
   s.normal = -at.outward;
@@ -41,8 +41,8 @@ inline Standing in_die(double radius, const Point& axis, const VectorLanes& from
   return s;
 }
 
-inline Standing on_punch(const ToolSurface& meridian, const Point& axis, const VectorLanes& from,
-                         double farthest) {
+inline Standing on_revolution(const ToolSurface& meridian, const Point& axis,
+                              const VectorLanes& from, double farthest) {
   const VectorLanes along = everywhere(axis);
   const RadiusAndHeight at(from, along);
   const auto nearest = pulvis::kernels::nearest_on_surface(

@@ -24,10 +24,10 @@ inline Standing standing_on_tool(const ToolSurfaces& tools,
   switch (shape.kind) {
     case ToolShapes::Kind::plane:
       return on_plane(normal, from);
-    case ToolShapes::Kind::die:
-      return in_die(shape.radius, normal, from);
-    case ToolShapes::Kind::punch:
-      return on_punch(shape.meridian, normal, from, size);
+    case ToolShapes::Kind::hole:
+      return in_hole(shape.radius, normal, from);
+    case ToolShapes::Kind::revolution:
+      return on_revolution(shape.meridian, normal, from, size);
     case ToolShapes::Kind::mesh:
       break;
   }

@@ -118,6 +118,20 @@ TEST(OverlapsInSpace, OfARoundDieAlongAnyAxis) {
   EXPECT_THAT(problems[0].message, HasSubstr("reaches 0.0002 m behind tool 'wall'"));
 }
 
+// Above the mouth of a die there is room beside it; a ball that stands in its face or in its edge does not fit.
+TEST(OverlapsInSpace, OfARoundDieEndAtItsMouth) {
+  Scene scene = placed({SphereShape{10 * mm}}, {{0, {50, 0, 25.1}}, {0, {0, 50, 24.9}}});
+  ToolSpec die = plane_at({0, 0, 0}, {0, 0, 1});
+  die.shape = ToolSpec::Shape::die;
+  die.diameter = 60 * mm;
+  die.height = 20 * mm;
+  scene.space->tools = {die};
+  const auto problems = problems_of(scene);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].message, HasSubstr("particle 1"));
+  EXPECT_THAT(problems[0].message, HasSubstr("reaches 0.0001 m into tool 'wall'"));
+}
+
 // An edge-on tablet in a die: its rim touches at two points that are not on the line through axis and centre.
 TEST(OverlapsInSpace, OfATabletInADieAreThoseOfItsRim) {
   const Rotation on_edge(std::sqrt(0.5), std::sqrt(0.5), 0, 0);  // its axis along y

@@ -86,6 +86,30 @@ TEST(ToolSheets, EveryPieceLooksAtThePowder) {
   }
 }
 
+// Frustums of the quarter circle with a radius of 0.5 about its edge: their area comes near that of the torus, and the ring
+// of the face is as wide as a fifth of the hole.
+TEST(ToolSheets, ADieEndsAtItsMouth) {
+  SpaceScene scene;
+  scene.tools.push_back(tool(ToolSpec::Shape::die, Vec3(1, 1.5, 0), Vec3::UnitZ(), 8));
+  scene.tools[0].height = 2;
+  scene.tools[0].rounding = 0.5;
+  double highest = -1, widest = 0, edge = 0;
+  for (const Piece& piece : pieces_of(scene)) {
+    for (const Vec3& corner : piece.corners) {
+      highest = std::max(highest, corner.z());
+      widest = std::max(widest, std::hypot(corner.x() - 1, corner.y() - 1.5));
+      EXPECT_GE(std::hypot(corner.x() - 1, corner.y() - 1.5), 4 - 1e-12);
+    }
+    if (piece.middle().z() > 1.5 && piece.middle().z() < 2 - 1e-9) edge += piece.area().norm();
+    const Vec3 inward = Vec3(1, 1.5, 10) - piece.middle();
+    EXPECT_GT(piece.area().dot(inward), 0) << piece.middle().transpose();
+  }
+  EXPECT_DOUBLE_EQ(highest, 2);
+  EXPECT_NEAR(widest, 4.5 + 0.2 * 8, 1e-12);
+  const double pi = std::numbers::pi, torus = 0.5 * pi * (pi * 4.5 - 2 * 0.5);
+  EXPECT_NEAR(edge, torus, 0.01 * torus);
+}
+
 TEST(ToolSheets, GoWithTheirTools) {
   const SpaceScene scene = box_of_planes();
   const Vec3 shift(0.1, -0.2, 0.3);

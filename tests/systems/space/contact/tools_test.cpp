@@ -30,10 +30,49 @@ TEST(SpaceTools, ADieIsTheInsideOfACylinder) {
   for (int i = 0; i < 200; ++i) {
     const Vec3 p = points(2);
     const Vec3 arm = p - p.dot(axis) * axis;
-    const Standing s = in_die(1.5, {axis.x(), axis.y(), axis.z()}, everywhere_at(p));
+    const Standing s = in_hole(1.5, {axis.x(), axis.y(), axis.z()}, everywhere_at(p));
     EXPECT_NEAR(s.gap[0], arm.norm() - 1.5, 1e-14);
     EXPECT_LT((normal_of(s) + arm.normalized()).norm(), 1e-13);
   }
+}
+
+ToolSpec die_with_mouth(double radius, double height, double rounding) {
+  ToolSpec tool;
+  tool.shape = ToolSpec::Shape::die;
+  tool.diameter = 2 * radius;
+  tool.height = height;
+  tool.rounding = rounding;
+  return tool;
+}
+
+// The solid outside a hole and below its mouth, whose edge is a quarter of a torus.
+TEST(SpaceTools, ADieEndsAtItsMouth) {
+  constexpr double radius = 1.5, height = 0.4, rounding = 0.25;
+  SpaceScene scene;
+  scene.tools = {die_with_mouth(radius, height, rounding)};
+  const ToolShapes shapes = tool_shapes(scene);
+  RandomPoints points;
+  int at_edge = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 p = points(2.5);
+    const double r = std::hypot(p.x(), p.y());
+    const double out = r - radius, up = p.z() - height;  // from the sharp edge
+    const double u = out - rounding, v = up + rounding;  // from the centre of the arc
+    const bool arc = u < 0 && v > 0;
+    // Outside the solid, or nearer to one of its sides than the other: inside, the nearest part of the surface.
+    const double side = v < 0 ? out : 1e30, face = u > 0 ? -up : 1e30;
+    const double gap =
+        arc ? rounding - std::hypot(u, v) : (std::abs(side) < std::abs(face) ? side : face);
+    const Standing s = on_revolution(shapes.of_tool[0].meridian, {0, 0, 1}, everywhere_at(p), 10);
+    EXPECT_NEAR(s.gap[0], gap, 1e-12) << p.transpose();
+    if (arc) {
+      const Vec3 outward(p.x() / r, p.y() / r, 0);
+      const Vec3 normal = (u * outward + v * Vec3::UnitZ()).normalized();
+      EXPECT_LT((normal_of(s) - normal).norm(), 1e-11);
+      ++at_edge;
+    }
+  }
+  EXPECT_GT(at_edge, 100);
 }
 
 ToolSpec punch(std::vector<Vec2> profile) {
@@ -49,7 +88,7 @@ TEST(SpaceTools, APunchThatFillsItsDieIsFlatBeyondItsRim) {
   const ToolSurface meridian = punch_meridian(punch({}), true);
   for (int i = 0; i < 200; ++i) {
     const Vec3 p = points(1.9);
-    const Standing s = on_punch(meridian, {0, 0, 1}, everywhere_at(p), 10);
+    const Standing s = on_revolution(meridian, {0, 0, 1}, everywhere_at(p), 10);
     EXPECT_NEAR(s.gap[0], -p.z(), 1e-14);
     EXPECT_LT((normal_of(s) - Vec3::UnitZ()).norm(), 1e-13);
   }
@@ -63,7 +102,7 @@ TEST(SpaceTools, APunchAloneHasASide) {
     const Vec3 p = points(1.9);
     const double out = std::hypot(p.x(), p.y()) - 1, up = p.z();
     const double expected = out > 0 && up > 0 ? std::hypot(out, up) : std::max(out, up);
-    EXPECT_NEAR(on_punch(meridian, {0, 0, 1}, everywhere_at(p), 10).gap[0], -expected, 1e-13);
+    EXPECT_NEAR(on_revolution(meridian, {0, 0, 1}, everywhere_at(p), 10).gap[0], -expected, 1e-13);
   }
 }
 
@@ -80,7 +119,7 @@ TEST(SpaceTools, APunchWithAProfile) {
     const double mantle = (z + slope * r) / std::hypot(1, slope);
     const bool tip = along < 0 && mantle > 0;
     at_tip += tip ? 1 : 0;
-    EXPECT_NEAR(on_punch(meridian, {0, 0, 1}, everywhere_at(p), 10).gap[0],
+    EXPECT_NEAR(on_revolution(meridian, {0, 0, 1}, everywhere_at(p), 10).gap[0],
                 -(tip ? p.norm() : mantle), 1e-13);
   }
   EXPECT_GT(at_tip, 10);
@@ -180,17 +219,10 @@ TEST(SpaceTools, ToolsWithTheSameSurfaceBearTheSame) {
   EXPECT_NEAR(forces[2], forces[0], 1e-11 * forces[0]);
 }
 
-// Forces of a ball in a die are the slope of its energy.
-TEST(SpaceTools, ForcesInADieAreTheSlopeOfTheEnergy) {
+void expect_forces_are_the_slope_of_the_energy(const ToolSpec& die) {
   constexpr double diameter = 10e-3, h = 1e-8;
   TouchingBodies w({make_shape(sphere_of(diameter))}, {body_at(Vec3(2.15e-3, 0.4e-3, 0))},
-                   [](Scene& s) {
-                     ToolSpec die;
-                     die.name = "die";
-                     die.shape = ToolSpec::Shape::die;
-                     die.diameter = 14e-3;
-                     s.space->tools = {die};
-                   });
+                   [&](Scene& s) { s.space->tools = {die}; });
   w.update();
   const Vec3 force = w.force_on(0);
   ASSERT_GT(force.norm(), 100);
@@ -204,6 +236,33 @@ TEST(SpaceTools, ForcesInADieAreTheSlopeOfTheEnergy) {
     energy_at(h);
     EXPECT_NEAR(-(above - below) / (2 * h), force[k], 1e-5 * force.norm());
   }
+}
+
+TEST(SpaceTools, ForcesInADieAreTheSlopeOfTheEnergy) {
+  ToolSpec die = die_with_mouth(7e-3, 0, 0);
+  die.height.reset();
+  expect_forces_are_the_slope_of_the_energy(die);
+}
+
+// A ball that bears on the wall, and on the edge of the mouth.
+TEST(SpaceTools, ForcesAtTheMouthOfADieAreTheSlopeOfTheEnergy) {
+  expect_forces_are_the_slope_of_the_energy(die_with_mouth(7e-3, 1.5e-3, 1e-3));
+  expect_forces_are_the_slope_of_the_energy(die_with_mouth(7e-3, 0.6e-3, 1e-3));
+}
+
+// Far below its mouth a die acts as one without an end.
+TEST(SpaceTools, ADieIsTheSameFarBelowItsMouth) {
+  ToolSpec endless = die_with_mouth(7e-3, 0, 0);
+  endless.height.reset();
+  std::vector<Vec3> forces;
+  for (const ToolSpec& die : {endless, die_with_mouth(7e-3, 20e-3, 1e-3)}) {
+    TouchingBodies w({make_shape(sphere_of(10e-3))}, {body_at(Vec3(2.15e-3, 0.4e-3, 0))},
+                     [&](Scene& s) { s.space->tools = {die}; });
+    w.update();
+    forces.push_back(w.force_on(0));
+  }
+  ASSERT_GT(forces[0].norm(), 100);
+  EXPECT_LT((forces[1] - forces[0]).norm(), 1e-10 * forces[0].norm());
 }
 
 }  // namespace
