@@ -118,27 +118,28 @@ StepList step_list_of(World& w) {
 }
 
 // What touches at the start is known only after the contact search.
-void add_first_bonds(World& w, SystemList& start) {
-  const bool pairs = w.has<CurveAnchor>(), tools = w.has<ToolAnchor>();
-  const bool bonds = pairs || tools;
-  const bool rows = bonds && w.has<ContactPair<Contact>>();
+void add_first_contacts(World& w, SystemList& start) {
+  const bool pairs = w.has<ContactPair<Contact>>(), tools = w.has<ContactPair<ToolContact>>();
+  const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
   const bool ranks = w.has<RankLink>();
-  start.add<skin_check>("skin_check", bonds);
-  start.add<find_border<Plane>>("find_border", rows && ranks);
-  start.add<bin_edges>("bin_edges", rows);
-  start.add<bin_tool_edges>("bin_tool_edges", bonds && w.has<ContactPair<ToolContact>>());
-  start.add<list_border_rows>("list_border_rows", rows && ranks);
+  start.add<skin_check>("skin_check", pairs || tools);
+  start.add<find_border<Plane>>("find_border", pairs && ranks);
+  start.add<bin_edges>("bin_edges", pairs);
+  start.add<bin_tool_edges>("bin_tool_edges", tools);
+  start.add<list_border_rows>("list_border_rows", pairs && ranks);
   start.add<edge_contact>("edge_contact", pairs);
-  start.add<initial_bonds>("initial_bonds", pairs);
-  start.add<initial_tool_bonds>("initial_tool_bonds", tools);
-  start.add<initial_bond_totals>("initial_bond_totals", bonds && ranks);
+  start.add<tool_contact>("tool_contact", tools);
+  start.add<initial_bonds>("initial_bonds", pair_bonds);
+  start.add<initial_tool_bonds>("initial_tool_bonds", tool_bonds);
+  start.add<initial_bond_totals>("initial_bond_totals", (pair_bonds || tool_bonds) && ranks);
+  start.add<first_penetration>("first_penetration", pairs || tools);
 }
 
 template <class F>
 std::vector<System> start_list_of(World& w) {
   SystemList start(w);
   start.add<contact_curve>("contact_curve", w.has<CurvePosition>());
-  add_first_bonds(w, start);
+  add_first_contacts(w, start);
   start.add<stable_time_step<F::points>>("stable_time_step");
   start.add<highest_mode<F::points>>("highest_mode", w.has<HighestMode>());
   start.add<first_time_step>("first_time_step");

@@ -89,8 +89,18 @@ Steps steps_with(World& w) {
 
 template <class F>
 std::vector<System> start_with(World& w) {
+  const Touches touches(w);
+  const bool ranks = w.has<RankLink>() && touches.pairs;
   SystemList start(w);
-  start.add<contact_surface>("contact_surface", Touches(w).any());
+  start.add<contact_surface>("contact_surface", touches.any());
+  start.add<skin_check>("skin_check", touches.any());
+  start.add<find_border<Space>>("find_border", ranks);
+  start.add<bin_faces>("bin_faces", touches.pairs);
+  start.add<bin_tool_faces>("bin_tool_faces", touches.tools);
+  start.add<list_border_pairs>("list_border_pairs", ranks);
+  start.add<face_contact>("face_contact", touches.pairs);
+  start.add<tool_contact>("tool_contact", touches.tools);
+  start.add<first_penetration>("first_penetration", touches.any());
   start.add<stable_time_step<F>>("stable_time_step");
   start.add<first_time_step>("first_time_step");
   return start.taken();

@@ -181,6 +181,14 @@ struct SurfaceSpeeds {
   Optional<Read<PeriodicCell>> cell;
 };
 
+struct first_penetration {  // once, at the start, for surfaces that overlap there
+  Optional<Read<ContactSums<Contact>>> pairs;
+  Optional<Read<ContactSums<ToolContact>>> tools;
+  Write<Clock> clock;
+  Link link;
+  void operator()() const;
+};
+
 struct first_time_step {  // once, at the start
   Read<Bodies> bodies;
   Read<StableTimeStep> stable;

@@ -94,7 +94,8 @@ std::vector<Key<MoveSpec>> move_keys() {
       "Stiffness of a compliant drive along the displacement. The displacement then "
       "applies to the far end of the spring, and the tool follows as a mass on the "
       "spring. In the next stage the tool keeps its last position unless that stage "
-      "also drives it through a spring.";
+      "also drives it through a spring. If that one has another direction, only "
+      "the motion along it continues.";
   return {{{.name = "tool",
             .kind = Kind::reference,
             .refers_to = "tool",

@@ -1,13 +1,17 @@
 #include "scenes/space/tools/powder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "components/shape.hpp"
 #include "components/space/body.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
+#include "engine/portable_math.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -40,18 +44,31 @@ Powder powder_of(const World& world, const Scene& scene) {
 
 double section_across(const World& world, const std::vector<BodySpec>& bodies,
                       const Vec3& direction) {
+  constexpr int sides = 360;
+  constexpr double angle = 2 * std::numbers::pi / sides;
+  const double cosine = portable::cos(angle), sine = portable::sin(angle);
   const Vec3 first = direction.unitOrthogonal(), second = direction.cross(first);
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Vec2 low(far, far), high(-far, -far);
+  std::array<Vec3, sides> outward;
+  std::array<double, sides> support;  // m, distance of a side from the first particle
+  support.fill(-std::numeric_limits<double>::infinity());
+  for (int i = 0; i < sides; ++i)
+    entry(outward, i) = portable::cos(i * angle) * first + portable::sin(i * angle) * second;
   const std::vector<int>& slot_of = world.resource<Bodies>().slot_of_number;
   for (std::size_t number = 0; number < bodies.size(); ++number) {
-    const Vec3& middle = bodies[number].position;
-    const Vec2 at(middle.dot(first), middle.dot(second));
-    const Vec2 reach = Vec2::Constant(shape_in(world, slot_of[number]).radius);
-    low = low.cwiseMin(at - reach);
-    high = high.cwiseMax(at + reach);
+    const Vec3 middle = bodies[number].position - bodies[0].position;
+    const double reach = shape_in(world, slot_of[number]).radius;
+    for (int i = 0; i < sides; ++i)
+      entry(support, i) = std::max(entry(support, i), middle.dot(entry(outward, i)) + reach);
   }
-  return (high - low).prod();
+  // The length of a side follows from its distance and those of its neighbours.
+  double twice = 0;
+  for (int i = 0; i < sides; ++i) {
+    const double before = entry(support, (i + sides - 1) % sides),
+                 after = entry(support, (i + 1) % sides);
+    const double length = (before + after - 2 * cosine * entry(support, i)) / sine;
+    twice += entry(support, i) * length;
+  }
+  return twice / 2;
 }
 
 }  // namespace pulvis::space

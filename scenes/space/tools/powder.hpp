@@ -19,7 +19,8 @@ struct Powder {
 };
 Powder powder_of(const World& world, const Scene& scene);
 
-// m^2, of the box around the particles, perpendicular to a direction; particles count as their bounding spheres.
+// m^2, area that the particles cover perpendicular to a direction, with the room between them: of the convex polygon of 360
+// sides around their projections. Particles count as their bounding spheres. It does not depend on how the scene is rotated.
 double section_across(const World& world, const std::vector<BodySpec>& bodies,
                       const Vec3& direction);
 
