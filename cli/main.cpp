@@ -18,6 +18,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
 #include "cli/fit/fit_options.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/kinds/toml_kind.hpp"
 #include "cli/lab/reduce_options.hpp"
 #include "cli/options.hpp"
@@ -202,8 +203,8 @@ CLI::Validator positive(const char* what) {
 
 // Errors found here are reported once, not by every rank.
 ExitCode in_ranks(const Options& options, const std::filesystem::path& folder) {
-  if (started_as_rank()) {
-    tell(stderr, "pulvis: --ranks: this process was itself started as one of several ranks\n");
+  if (started_by_mpirun()) {
+    tell(stderr, "pulvis: --ranks: this process was itself started as a rank, by mpirun or srun\n");
     return ExitCode::usage;
   }
   require_mpi();
@@ -267,6 +268,7 @@ void add_run(CLI::App& app, Options& options, ExitCode& code) {
       code = run_scene(options.run);
       return;
     }
+    leave_at_interrupts();
     load_scene(options.run.scene, options.run.overrides);
     code = in_ranks(options, folder_of(options.run));
   });

@@ -77,14 +77,6 @@ bool has_memory(std::string controllers) {
   return controllers.find(",memory,") != std::string::npos;
 }
 
-std::uint64_t of_shell() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return remainder(limit.rlim_cur, pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)));
-}
-
 }  // namespace
 
 // A line is "4:memory:/group" in version 1, "0::/group" in version 2; both may be present.
@@ -105,10 +97,19 @@ std::uint64_t left_by_control_groups(const fs::path& table, const fs::path& root
   return minimum;
 }
 
-std::uint64_t available_memory() {
-  return std::min(
-      {of_machine(), left_by_control_groups("/proc/self/cgroup", "/sys/fs/cgroup"), of_shell()});
+std::uint64_t left_by_machine() {
+  return std::min(of_machine(), left_by_control_groups("/proc/self/cgroup", "/sys/fs/cgroup"));
 }
+
+std::uint64_t left_by_shell() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return remainder(limit.rlim_cur, pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)));
+}
+
+std::uint64_t available_memory() { return std::min(left_by_machine(), left_by_shell()); }
 
 std::string bytes_text(std::uint64_t bytes) {
   const auto value = static_cast<double>(bytes);

@@ -8,7 +8,10 @@
 
 namespace pulvis {
 
-std::uint64_t available_memory();  // bytes; the largest representable number if there is no limit
+// Bytes; the largest representable number if there is no limit.
+std::uint64_t available_memory();
+std::uint64_t left_by_machine();  // shared by all processes: without the shell's limit
+std::uint64_t left_by_shell();    // to this process alone
 
 // Memory left by control groups. `table` is /proc/self/cgroup, `root` the mount point of the groups.
 std::uint64_t left_by_control_groups(const std::filesystem::path& table,

@@ -72,6 +72,15 @@ std::vector<std::uint64_t> particles_of_classes(const Scene& scene) {
   return count;
 }
 
+// Of so many ranks, with the root among them.
+MemoryNeed of_ranks(MemoryNeed need, int count, int all) {
+  const auto some = static_cast<std::uint64_t>(count);
+  need.columns = need.columns * some / static_cast<std::uint64_t>(all);
+  need.contacts = need.contacts * some / static_cast<std::uint64_t>(all);
+  need.program *= some;
+  return need;
+}
+
 }  // namespace
 
 MemoryNeed memory_need(const Scene& scene) {
@@ -116,13 +125,17 @@ MemoryNeed memory_need(const Scene& scene) {
   return need;
 }
 
-MemoryNeed require_memory(const Scene& scene) {
+MemoryNeed require_memory(const Scene& scene, const RanksHere& ranks) {
   const MemoryNeed need = memory_need(scene);
-  const std::uint64_t there = available_memory();
-  if (need.total() > there)
-    throw OutputError(scene.file, "run it",
-                      fmt::format("it needs about {} of memory, but only {} are available",
-                                  bytes_text(need.total()), bytes_text(there)));
+  const auto require = [&](int count, std::uint64_t there) {
+    const std::uint64_t needed = of_ranks(need, count, ranks.all).total();
+    if (needed > there)
+      throw OutputError(scene.file, "run it",
+                        fmt::format("it needs about {} of memory, but only {} are available",
+                                    bytes_text(needed), bytes_text(there)));
+  };
+  require(ranks.here, left_by_machine());
+  require(1, left_by_shell());
   return need;
 }
 

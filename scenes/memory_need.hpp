@@ -18,7 +18,13 @@ struct MemoryNeed {
 // For scenes of particles; their packings must be filled.
 MemoryNeed memory_need(const Scene& scene);
 
-// The same. Throws OutputError where this machine does not have that much free memory.
-MemoryNeed require_memory(const Scene& scene);
+// Of the ranks of a run, those on this machine.
+struct RanksHere {
+  int here = 1, all = 1;
+};
+
+// Their need: particles and contacts are shared by all ranks, results are gathered by the root, taken to be here. Throws
+// OutputError where this machine does not have that much free memory.
+MemoryNeed require_memory(const Scene& scene, const RanksHere& ranks = {});
 
 }  // namespace pulvis

@@ -253,8 +253,14 @@ void Step::start() {
   end_of_step();
 }
 void Step::run() {
+  const Clock before = world_.resource<Clock>();
   whole_.run();
-  end_of_step();
+  try {
+    end_of_step();
+  } catch (const RunFailure&) {  // the other ranks have completed the step; the run stops in it, as it does alone
+    world_.resource<Clock>() = before;
+    throw;
+  }
 }
 void Step::observe() {
   observed_.run();

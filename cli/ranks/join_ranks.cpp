@@ -80,8 +80,8 @@ Place place_of(const Ranks::Bytes& bytes) {
   return place;
 }
 
-// Share of one rank, among all places.
-int share_of(const Place& own, const std::vector<Place>& places) {
+// Of one rank, among all places.
+int threads_at(const Place& own, const std::vector<Place>& places) {
   double share = 0;
   for (std::size_t i = 0; i < CPU_SETSIZE; ++i) {
     if (!CPU_ISSET(i, &own.processors)) continue;
@@ -102,6 +102,12 @@ bool started_as_rank() {
   const bool has_process_manager =
       std::getenv("PMIX_RANK") != nullptr || std::getenv("PMI_RANK") != nullptr;
   return has_process_manager && number_in("SLURM_STEP_NUM_TASKS") > 1;
+}
+
+bool started_by_mpirun() {
+  const bool only_one =
+      std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr && std::getenv("PMIX_RANK") != nullptr;
+  return only_one || started_as_rank();
 }
 
 void require_mpi() { mpi_plugin(); }
@@ -146,7 +152,7 @@ std::unique_ptr<Ranks> join_ranks() {
   return ranks;
 }
 
-int threads_of_rank(Ranks& ranks) {
+MachineShare machine_share_of(Ranks& ranks) {
   cpu_set_t own;
   CPU_ZERO(&own);
   if (sched_getaffinity(0, sizeof own, &own) != 0) CPU_SET(0, &own);
@@ -157,15 +163,17 @@ int threads_of_rank(Ranks& ranks) {
 
   std::vector<Place> places;
   for (const Ranks::Bytes& bytes : ranks.gather(place)) places.push_back(place_of(bytes));
-  std::vector<int> threads(static_cast<std::size_t>(ranks.count()));
+  std::vector<MachineShare> shares(static_cast<std::size_t>(ranks.count()));
   if (ranks.is_root())
-    std::ranges::transform(places, threads.begin(),
-                           [&](const Place& one) { return share_of(one, places); });
-  Ranks::Bytes bytes(threads.size() * sizeof(int));
-  std::memcpy(bytes.data(), threads.data(), bytes.size());
+    std::ranges::transform(places, shares.begin(), [&](const Place& one) {
+      const auto here = std::ranges::count(places, one.machine, &Place::machine);
+      return MachineShare{threads_at(one, places), static_cast<int>(here)};
+    });
+  Ranks::Bytes bytes(shares.size() * sizeof(MachineShare));
+  std::memcpy(bytes.data(), shares.data(), bytes.size());
   ranks.broadcast(bytes);
-  std::memcpy(threads.data(), bytes.data(), bytes.size());
-  return threads[static_cast<std::size_t>(ranks.rank())];
+  std::memcpy(shares.data(), bytes.data(), bytes.size());
+  return shares[static_cast<std::size_t>(ranks.rank())];
 }
 
 }  // namespace pulvis

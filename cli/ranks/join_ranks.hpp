@@ -25,6 +25,9 @@ class UnlikeRanks : public std::runtime_error {
 // Judged by the launcher's environment variables: Open MPI's mpirun, or a Slurm step with PMIx or PMI-2.
 bool started_as_rank();
 
+// The same, or as the only one: mpirun then cannot be started from here.
+bool started_by_mpirun();
+
 // Loads the MPI library. Throws NoMpi.
 void require_mpi();
 
@@ -34,7 +37,11 @@ std::unique_ptr<Ranks> join_ranks();
 // Checks that all ranks run the same program, as each describes itself. Collective; throws UnlikeRanks.
 void require_alike(Ranks& ranks, const std::string& own);
 
-// Number of processors for this rank; each is shared evenly by the ranks that may use it. At least 1. Collective.
-int threads_of_rank(Ranks& ranks);
+struct MachineShare {
+  int threads = 1;  // processors for this rank; each is shared evenly by the ranks that may use it
+  int ranks = 1;    // on this rank's machine
+};
+// Collective.
+MachineShare machine_share_of(Ranks& ranks);
 
 }  // namespace pulvis

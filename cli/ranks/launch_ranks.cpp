@@ -2,20 +2,26 @@
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <sstream>
 #include <string_view>
+#include <thread>
 
+#include "cli/shell_word.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/checkpoint.hpp"
 #include "engine/files/output_error.hpp"
+#include "engine/files/run_folder.hpp"
 
 namespace pulvis {
 namespace {
@@ -60,10 +66,10 @@ class SignalsHeld {
   SignalsHeld(const SignalsHeld&) = delete;
   SignalsHeld& operator=(const SignalsHeld&) = delete;
 
-  int next() const {
-    int signal = 0;
-    sigwait(&held_, &signal);
-    return signal;
+  // The next one; 0 if none comes within `most`.
+  int next(const timespec& most) const {
+    const int signal = sigtimedwait(&held_, nullptr, &most);
+    return std::max(signal, 0);
   }
   const sigset_t& before() const { return before_; }
 
@@ -91,6 +97,14 @@ pid_t start(const std::vector<std::string>& command, const SignalsHeld& signals)
   return child;
 }
 
+// As Open MPI chooses it; the standard library's choice must exist.
+fs::path temporary_folder() {
+  for (const char* variable : {"TMPDIR", "TEMP", "TMP"})
+    if (const char* folder = std::getenv(variable); folder != nullptr && *folder != '\0')
+      return folder;
+  return "/tmp";
+}
+
 void tell_how_to_go_on(const fs::path& folder) {
   if (checkpoints_in(folder).empty())
     tell(stderr,
@@ -99,7 +113,7 @@ void tell_how_to_go_on(const fs::path& folder) {
          folder.string());
   else
     tell(stderr, "pulvis: once the cause is fixed, continue with: pulvis resume {}\n",
-         folder.string());
+         shell_word(folder.string()));
 }
 
 bool is_own(int code) {
@@ -108,19 +122,29 @@ bool is_own(int code) {
   return std::ranges::find(codes, static_cast<ExitCode>(code)) != codes.end();
 }
 
+// Ranks notice within seconds that there is no mpirun any more; until then they write into the folder.
+bool end_without_mpirun(const fs::path& folder) {
+  constexpr int looks = 100;
+  for (int i = 0; i < looks && is_locked(folder); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  return !is_locked(folder);
+}
+
 ExitCode end_of(int status, bool asked, const fs::path& folder) {
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   if (code == static_cast<int>(ExitCode::machine)) tell_how_to_go_on(folder);
   if (is_own(code)) return static_cast<ExitCode>(code);
-  if (asked &&
-      (WIFSIGNALED(status) || code == killed + wish_to_stop)) {  // before the ranks could react to it
+  if (asked && (WIFSIGNALED(status) ||
+                code == killed + wish_to_stop)) {  // before the ranks could react to it
     tell(stderr, "pulvis: interrupted before all ranks had started\n");
     return ExitCode::interrupted;
   }
-  if (WIFSIGNALED(status))
-    tell(stderr, "pulvis: mpirun was killed by signal {} ({}), and the ranks with it\n",
-         WTERMSIG(status), strsignal(WTERMSIG(status)));
-  else if (code > killed)
+  if (WIFSIGNALED(status)) {
+    tell(stderr, "pulvis: mpirun was killed by signal {} ({})\n", WTERMSIG(status),
+         strsignal(WTERMSIG(status)));
+    if (!end_without_mpirun(folder))
+      tell(stderr, "pulvis: its ranks still run: kill them before anything else\n");
+  } else if (code > killed)
     tell(stderr, "pulvis: a rank was killed by signal {} ({}), and the others were terminated\n",
          code - killed, strsignal(code - killed));
   else
@@ -134,6 +158,17 @@ ExitCode end_of(int status, bool asked, const fs::path& folder) {
 }  // namespace
 
 void require_room_to_start(const fs::path& folder, std::uintmax_t bytes) {
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw OutputError(folder, "start the ranks",
+                      fmt::format("mpirun needs a folder for temporary files there, {}: set TMPDIR "
+                                  "to another folder",
+                                  std::strerror(errno)));
+  rlimit largest{};
+  if (getrlimit(RLIMIT_FSIZE, &largest) == 0 && largest.rlim_cur < bytes)
+    throw OutputError(folder, "start the ranks",
+                      fmt::format("mpirun needs files of {} MB there, the limit of this process is "
+                                  "{} MB (ulimit -f)",
+                                  bytes >> 20, largest.rlim_cur >> 20));
   std::error_code error;
   const fs::space_info room = fs::space(folder, error);
   if (error || room.available >= bytes) return;
@@ -145,18 +180,24 @@ void require_room_to_start(const fs::path& folder, std::uintmax_t bytes) {
 
 ExitCode launch_ranks(const RankLaunch& launch) {
   // Three ranks used 4 MB with Open MPI 4.1, and did not start with less.
-  require_room_to_start(fs::temp_directory_path(), std::uintmax_t{32} << 20);
+  require_room_to_start(temporary_folder(), std::uintmax_t{32} << 20);
   const std::vector<std::string> command = command_of(launch);
   const SignalsHeld signals;
   const pid_t child = start(command, signals);
   bool asked = false;
+  std::time_t patience = 1;  // s
   for (int status = 0;;) {
-    const int signal = signals.next();
-    if (signal != SIGCHLD) {
+    const int signal = signals.next({patience, 0});
+    if (signal == SIGCHLD) {
+      if (waitpid(child, &status, WNOHANG) == child && !WIFSTOPPED(status))
+        return end_of(status, asked, launch.folder);
+    } else if (signal != 0) {
       asked = true;
       kill(child, wish_to_stop);
-    } else if (waitpid(child, &status, WNOHANG) == child && !WIFSTOPPED(status)) {
-      return end_of(status, asked, launch.folder);
+    } else if (
+        asked) {  // mpirun drops what it gets before the ranks have started: repeat it, ever less often
+      kill(child, wish_to_stop);
+      patience *= 2;
     }
   }
 }

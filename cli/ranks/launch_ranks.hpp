@@ -22,8 +22,8 @@ struct RankLaunch {
 // failed, reports it and returns ExitCode::machine.
 ExitCode launch_ranks(const RankLaunch& launch);
 
-// Throws OutputError if `folder` has less free space than this: when it is full, Open MPI starts only some ranks, which then
-// wait for the others forever.
+// Throws OutputError if files of this size cannot be written into `folder`: Open MPI then starts only some ranks, which wait
+// for the others forever.
 void require_room_to_start(const std::filesystem::path& folder, std::uintmax_t bytes);
 
 // The words of a command line without --ranks and its number.

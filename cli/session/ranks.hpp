@@ -3,6 +3,7 @@
 
 #include "cli/exit_code.hpp"
 #include "engine/ranks/ranks.hpp"
+#include "scenes/memory_need.hpp"
 #include "scenes/ranks/crew.hpp"
 #include "scenes/read.hpp"
 
@@ -19,7 +20,8 @@ ExitCode follow_root(Ranks& ranks, int threads);
 // The root's control of the other ranks. If it leaves before it has sent them a scene, nobody waits for it.
 class LedRanks {
  public:
-  explicit LedRanks(Ranks& ranks) : ranks_(ranks) {}
+  // `here`: how many of them are on the root's machine.
+  LedRanks(Ranks& ranks, int here) : ranks_(ranks), here_{here, ranks.count()} {}
   ~LedRanks() {
     if (!told_) tell_nothing(ranks_);
   }
@@ -33,8 +35,11 @@ class LedRanks {
     return ranks_;
   }
 
+  const RanksHere& here() const { return here_; }
+
  private:
   Ranks& ranks_;
+  RanksHere here_;
   bool told_ = false;
 };
 

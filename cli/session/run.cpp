@@ -11,6 +11,7 @@
 #include "cli/session/open_session.hpp"
 #include "cli/session/run_afm.hpp"
 #include "cli/session/session.hpp"
+#include "cli/shell_word.hpp"
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
 #include "engine/run_failure.hpp"
@@ -85,7 +86,7 @@ void tell_what_is_left(const std::filesystem::path& folder) {
     tell(stderr,
          "pulvis: the results up to then are in {}; once the cause is fixed, continue with: pulvis "
          "resume {}\n",
-         folder.string(), folder.string());
+         folder.string(), shell_word(folder.string()));
 }
 
 // From the current state of the run to its end.
@@ -104,7 +105,7 @@ ExitCode complete(Session& run, const RunOptions& options) {
       return all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
     }
     tell(stderr, "pulvis: interrupted at step {}; continue with: pulvis resume {}\n",
-         run.clock().step, run.folder().string());
+         run.clock().step, shell_word(run.folder().string()));
     return ExitCode::interrupted;
   } catch (const RunFailure& failure) {
     return stopped(run, options, failure.what());
@@ -116,29 +117,31 @@ ExitCode complete(Session& run, const RunOptions& options) {
 }
 
 // `ranks`: null if the process is alone.
-int threads_of(const RunOptions& options, Ranks* ranks) {
-  const int own = ranks != nullptr ? threads_of_rank(*ranks) : tbb::info::default_concurrency();
-  return options.threads > 0 ? options.threads : own;
+MachineShare share_of(const RunOptions& options, Ranks* ranks) {
+  MachineShare share =
+      ranks != nullptr ? machine_share_of(*ranks) : MachineShare{tbb::info::default_concurrency()};
+  if (options.threads > 0) share.threads = options.threads;
+  return share;
 }
 
 // The role of this process in the run, if it is one of several ranks.
 class RankOfRun {
  public:
   explicit RankOfRun(const RunOptions& options)
-      : ranks_(join_ranks()), threads_(threads_of(options, ranks_.get())) {
-    if (ranks_ && ranks_->is_root()) led_.emplace(*ranks_);
+      : ranks_(join_ranks()), share_(share_of(options, ranks_.get())) {
+    if (ranks_ && ranks_->is_root()) led_.emplace(*ranks_, share_.ranks);
   }
-  int threads() const { return threads_; }
+  int threads() const { return share_.threads; }
   bool follows() const { return ranks_ && !led_; }
   ExitCode follow() {
     take_interrupts();  // the root reacts to them
-    return follow_root(*ranks_, threads_);
+    return follow_root(*ranks_, share_.threads);
   }
   LedRanks* led() { return led_ ? &*led_ : nullptr; }
 
  private:
   std::unique_ptr<Ranks> ranks_;
-  int threads_;
+  MachineShare share_;
   std::optional<LedRanks> led_;
 };
 
@@ -177,7 +180,7 @@ ExitCode resume_run(const RunOptions& options) {
     tell("resumed at step {}, t = {:.6g} s\n", checkpoint.info().step, checkpoint.info().time);
   const int threads = rank.threads();
   if (loaded.scene.afm) return resume_afm(loaded, options, checkpoint, threads);
-  require_memory(loaded.scene);
+  require_memory(loaded.scene, rank.led() != nullptr ? rank.led()->here() : RanksHere{});
   Ranks* ranks = rank.led() != nullptr ? &rank.led()->tell(loaded) : nullptr;
   Session run(loaded, {options.folder, threads, options.talks(), options.checkpoints, rank.led()},
               std::make_unique<Simulation>(loaded.scene, threads, ranks));

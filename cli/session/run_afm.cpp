@@ -6,6 +6,7 @@
 #include "cli/plan.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/session/afm_session.hpp"
+#include "cli/shell_word.hpp"
 #include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
 #include "cli/tell.hpp"
@@ -59,7 +60,7 @@ ExitCode complete_programme(AfmSession& run, const RunOptions& options, const Ch
       return ExitCode::interrupted;
     }
     tell(stderr, "pulvis: interrupted at increment {}; continue with: pulvis resume {}\n",
-         report.increments, run.folder().string());
+         report.increments, shell_word(run.folder().string()));
     return ExitCode::interrupted;
   }
   return expected && all_met(report.verdicts) ? ExitCode::done : ExitCode::run_failed;

@@ -1,4 +1,5 @@
 #include "cli/slurm/slurm_script.hpp"
+#include "cli/shell_word.hpp"
 
 #include <fmt/format.h>
 
@@ -64,15 +65,6 @@ exit "$code"
 
 std::size_t task_count(const SlurmOptions& options, std::size_t runs) {
   return std::min(runs, static_cast<std::size_t>(options.array_size));
-}
-
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string word = "'";
-  for (const char c : text) c == '\'' ? word += "'\\''" : word += c;
-  return word + "'";
 }
 
 std::string slurm_script(const SlurmJob& job, const SlurmOptions& options) {

@@ -35,9 +35,6 @@ constexpr const char* slurm_log_folder = "slurm";
 std::size_t task_count(const SlurmOptions& options, std::size_t runs);
 std::string slurm_script(const SlurmJob& job, const SlurmOptions& options);
 
-// Quotes this text as one word of the shell.
-std::string shell_word(const std::string& text);
-
 // Seconds of a time limit in sbatch notation: minutes, minutes:seconds, hours:minutes:seconds, days-hours,
 // days-hours:minutes or days-hours:minutes:seconds. Nothing if the text is not in this form, or is zero.
 std::optional<long> time_limit_seconds(const std::string& text);

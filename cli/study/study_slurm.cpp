@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/interrupt.hpp"
+#include "cli/shell_word.hpp"
 #include "cli/slurm/slurm_queue.hpp"
 #include "cli/slurm/slurm_script.hpp"
 #include "cli/study/study_folder.hpp"
@@ -31,7 +32,7 @@ std::vector<std::string> runs_to_submit(const Study& study, const fs::path& fold
 }
 
 SlurmJob job_of(const StudyOptions& options, std::vector<std::string> runs) {
-  return {"pulvis-" + options.study.stem().string(), fs::read_symlink("/proc/self/exe").string(),
+  return {"pulvis-" + printable(options.study.stem().string()), fs::read_symlink("/proc/self/exe").string(),
           std::move(runs), std::max(1, options.threads), options.jobs};
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "cli/shell_word.hpp"
 #include "cli/slurm/slurm_script.hpp"
 #include "engine/files/run_folder.hpp"
 #include "tests/helpers/program.hpp"
@@ -244,6 +245,18 @@ TEST_F(SlurmCommand, StoppedBeforeAnyFirstStepIsNoInterruption) {
   const Outcome end = end_of(program);
   EXPECT_EQ(end.code, 4) << end.out;
   EXPECT_THAT(end.err, HasSubstr("interrupted before the first step of a run"));
+}
+
+// A line break would end the line of #SBATCH, and the rest of the name would be a command.
+TEST_F(SlurmCommand, NamesOfStudiesAreNoCommands) {
+  const fs::path study = place / "a\ntouch INJECTED\nb.toml";
+  std::ofstream(study) << "scene = \"" << scene("compaction/random-100.toml")
+                       << "\"\n[grid]\ncontact.friction = [0.1]\n";
+  const Outcome end = end_of(
+      start({"study", study.string(), "-o", results.string(), "--slurm", "--dry-run"}));
+  ASSERT_EQ(end.code, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("--job-name=pulvis-a"));
+  EXPECT_THAT(end.out, Not(HasSubstr("\ntouch")));
 }
 
 TEST_F(SlurmCommand, WordsOfTheShellMeanTheirText) {

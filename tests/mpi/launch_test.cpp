@@ -184,6 +184,7 @@ TEST(LaunchRoom, IsAskedForBeforeTheRanksStart) {
   const fs::path here = fs::temp_directory_path();
   EXPECT_NO_THROW(require_room_to_start(here, 1));
   EXPECT_THROW(require_room_to_start(here, std::uintmax_t{1} << 62), OutputError);
+  EXPECT_THROW(require_room_to_start(here / "missing", 1), OutputError);
 }
 
 }  // namespace

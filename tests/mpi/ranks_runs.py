@@ -10,7 +10,7 @@ on other numbers of ranks, one process among them. --quick: on three ranks alone
 ranks is resumed after a rank was killed at a random moment, so many times, until it is done; its results must be the same
 again. --full: no file may grow beyond some size, as on a disk that is full; the run over ranks ends and says so, and goes on
 from its last checkpoint when there is room again. --keys: every scene of tests/keys on two ranks to its end: a key that is
-new there is tried here by itself.
+new there is tried here by itself; and a run that a health check stops.
 """
 import argparse
 import json
@@ -264,6 +264,19 @@ def check_keys(program, root, scratch):
     print(f"{compared} scenes of keys: the same bits on ranks")
 
 
+def check_stop(program, root, scratch):
+    """A run that a health check stops within a step: the ranks complete it, but stop where one process does."""
+    scene, folders, told = root / "scenes/extreme/stop-through.toml", [], []
+    for ranks in (1, 2):
+        folders.append(scratch / f"stopped-{ranks}")
+        told.append(run(program, ["run", scene, "-o", folders[-1], "--quiet", "--threads", 1, "--ranks", ranks],
+                        code=(0, 3)).stderr.replace(str(folders[-1]), "FOLDER"))
+    alone, ranks = (summary_of(folder) for folder in folders)
+    found = differences(*folders) + [key for key in ("steps", "time") if alone[key] != ranks[key]]
+    if found or told[0] != told[1]:
+        raise Failed(f"a run that stops is not the same on 2 ranks: {', '.join(found) or told}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
@@ -284,6 +297,7 @@ def main():
                 case.check(options.quick)
             elif options.keys:
                 check_keys(options.program, options.root, Path(scratch))
+                check_stop(options.program, options.root, Path(scratch))
             elif options.full:
                 check_full(options.program, options.root, Path(scratch))
             else:

@@ -229,11 +229,12 @@ TEST(Ranks, AnotherProgramIsRefusedOnAllRanksAndToldOnce) {
 // Bound to processors or not: together the ranks have no more threads than processors, where there are enough.
 TEST(Ranks, ThreadsShareTheProcessors) {
   const int processors = static_cast<int>(std::thread::hardware_concurrency()),
-            own = threads_of_rank(*ranks);
+            own = machine_share_of(*ranks).threads;
   EXPECT_GE(own, 1);
   std::vector<std::int64_t> threads{own};
   ranks->sum(threads);
   EXPECT_LE(threads[0], std::max(processors, ranks->count()));
+  EXPECT_EQ(machine_share_of(*ranks).ranks, ranks->count());  // this test has one machine
 }
 
 // How a process may leave the others.
