@@ -224,6 +224,7 @@ T work_of_large_strain(T mean, T beta, T q, T det) {
 // elastic predictor s_trial, the mean stress. `r2` = J^(-2/3). `coupled` is returned with the deviator.
 template <class T>
 struct Returned : J2State<T> {
+  T mean;      // of the trial b
   T work;      // -, work_of_large_strain
   T residual;  // Multiplier::residual
 };
@@ -257,6 +258,7 @@ Returned<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T 
   const T beta2 = beta * beta;
   const T m = mean_of_unit_determinant(beta2 * q, beta2 * beta * det);
   const T shift = fma(-beta, mean, m);
+  next.mean = mean;
   next.work = work_of_large_strain(m, beta, q, det);
   const T j = determinant(f);
   const T pull = shift * (r2 * r2);  // J^(2/3) / J^2

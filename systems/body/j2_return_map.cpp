@@ -45,9 +45,11 @@ struct PointKinematics {
   double area;  // m^2, undeformed
 };
 
+// Returns the work that it counts for bending that flows with the deviator, over the bending's own: as if it were part of the
+// deviator, whose modulus is that of the material times mean/theta, and whose work is per deformed volume.
 template <class F, class Law, class Coupled>
-void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKinematics& at,
-                  PacketSums& sums, Coupled&& coupled) {
+Packet return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKinematics& at,
+                    PacketSums& sums, Coupled&& coupled) {
   const Packet r = v.scale(e, g), before = v.strain(e, g);
   const auto next = kernels::radial_return<Packet>(
       {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), before}, at.f, r * r,
@@ -58,9 +60,11 @@ void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKine
   v.metric(e, 4 * g + 2) = next.c.zz;
   v.metric(e, 4 * g + 3) = next.c.xy;
   v.strain(e, g) = next.eps;
-  sums.beyond_hardening += at.area * kernels::work_beyond_hardening(
-                                         v.law, before, next.eps - before, at.theta * next.work);
+  const Packet of_volume = at.theta * next.work;
+  sums.beyond_hardening +=
+      at.area * kernels::work_beyond_hardening(v.law, before, next.eps - before, of_volume);
   if constexpr (!kernels::is_closed_form<Law>) keep_worst(next.residual, e, sums);
+  return of_volume * (at.theta / next.mean);
 }
 
 template <class F, class Law>
@@ -124,8 +128,11 @@ void return_element(const Views<OnePoint, Law>& v, const Bending& bending, const
   const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
   const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
   const Packet r = v.scale(e);  // theta = det F: 1/theta is its cube
-  return_point(v, e, 0, {f, determinant(f), v.mu * (r * r * r), point.determinant}, sums, coupled);
-  sums.hourglass_work += keep_bending(bending, e, m, coupled.retained, point.determinant);
+  const Packet counted = return_point(
+      v, e, 0, {f, determinant(f), v.mu * (r * r * r), point.determinant}, sums, coupled);
+  const Packet spent = keep_bending(bending, e, m, coupled.retained, point.determinant);
+  sums.hourglass_work += spent;
+  sums.beyond_hardening = fma(1.0 - counted, spent, sums.beyond_hardening);
 }
 
 }  // namespace

@@ -104,6 +104,7 @@ struct Return {
   T beta;   // share of the deviator that remains
   T eps;    // after the return
   T shift;  // m - beta m_trial of b
+  T mean;   // m of the trial b
   T work;   // -, pulvis::kernels::work_of_large_strain
   T residual;
 };
@@ -123,8 +124,12 @@ Return<T> radial_return(const TrialPoint<T>& at, T norm2, const Hardening& law, 
   const Multiplier<T> flow = consistent(flows, trial, law, coupled);
   const T beta = flow.beta, beta2 = beta * beta;
   const T after = mean_of_unit_determinant(beta2 * q, beta2 * beta * det);
-  return {beta, fma(sqrt_2_3, flow.dgamma, at.eps), fma(-beta, mean, after),
-          pulvis::kernels::work_of_large_strain(after, beta, q, det), flow.residual};
+  return {beta,
+          fma(sqrt_2_3, flow.dgamma, at.eps),
+          fma(-beta, mean, after),
+          mean,
+          pulvis::kernels::work_of_large_strain(after, beta, q, det),
+          flow.residual};
 }
 
 // Step 6: C_p^-1 = beta C_p^-1 + shift J^(2/3) (F^T F)^-1, with the adjugate of F and r2 = J^(-2/3).

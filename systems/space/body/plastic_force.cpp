@@ -114,33 +114,42 @@ struct PlasticMaterial {
     if (!any(norm2 + t2 > limit2)) return;
     const Packet energy2 = kernels::hourglass_product(stress, elastic);
     auto coupled = kernels::coupled_hourglass(t2, energy2, mu, limit2);
-    if constexpr (F::stabilised) return_point(at, s, norm2, coupled);
-    keep_hourglass(at, stress, elastic, coupled.retained, energy2);
+    if constexpr (F::stabilised) {
+      const Packet counted = return_point(at, s, norm2, coupled);
+      keep_hourglass(at, stress, elastic, coupled.retained, energy2, counted);
+    }
   }
 
  private:
+  // Returns the work that it counts for the hourglass modes, over theirs: as if they were part of the deviator, whose modulus
+  // is m mu/J, and whose work is per deformed volume.
   template <class Coupled>
-  void return_point(const PointAt& at, kernels::Deviator<Packet>& s, Packet norm2,
-                    Coupled& coupled) {
+  Packet return_point(const PointAt& at, kernels::Deviator<Packet>& s, Packet norm2,
+                      Coupled& coupled) {
     const Packet before = strain(at.element, at.g);
     const auto r = rule.map({s, before, mu * at.inv_j, at.j * inv_mu}, norm2, coupled);
     s = scaled(s, r.beta);
     store(metric, at.element, at.g,
           kernels::returned_metric(metric_at(metric, at.element, at.g), r, at.adj, at.r2));
     strain(at.element, at.g) = r.eps;
-    sums.beyond_hardening += at.volume * rule.work_beyond(before, r.eps - before, at.j * r.work);
+    const Packet of_volume = at.j * r.work;
+    sums.beyond_hardening += at.volume * rule.work_beyond(before, r.eps - before, of_volume);
     if constexpr (Rule::iterated) keep_worst_return(r.residual, at.element, sums);
+    return of_volume * (at.j / r.mean);
   }
 
   // Keeps the fraction `retained` of the hourglass stress; the rest of its strain has become plastic.
   void keep_hourglass(const PointAt& at, kernels::Hourglass<Packet>& stress,
-                      const kernels::Hourglass<Packet>& elastic, Packet retained, Packet energy2) {
+                      const kernels::Hourglass<Packet>& elastic, Packet retained, Packet energy2,
+                      Packet counted) {
     const Packet lost = 1.0 - retained;
     store(*hourglass, at.element,
           kernels::each_number(hourglass_at(*hourglass, at.element), elastic,
                                [&](Packet p, Packet e) { return fma(lost, e, p); }));
     stress = kernels::each_number(stress, stress, [&](Packet m, Packet) { return retained * m; });
-    sums.hourglass_work = fma(at.volume * energy2, retained * lost, sums.hourglass_work);
+    const Packet spent = (at.volume * energy2) * (retained * lost);
+    sums.hourglass_work += spent;
+    sums.beyond_hardening = fma(1.0 - counted, spent, sums.beyond_hardening);
   }
 };
 
