@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "components/space/shape.hpp"
+#include "scenes/spec/space_scene.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {
