@@ -59,7 +59,7 @@ struct DieRoom {
       for (std::size_t k = 0; k < 3; ++k)
         above_bottom +=
             (at(die, static_cast<int>(k)) - at(tool[bottom], static_cast<int>(k))) * axis[k];
-      length = std::clamp(above_bottom, 0.0, length);
+      length = std::min(length, std::max(above_bottom, 0.0));
     }
     return std::numbers::pi * diameter * length;
   }

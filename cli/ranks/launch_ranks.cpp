@@ -186,6 +186,7 @@ ExitCode launch_ranks(const RankLaunch& launch) {
   const SignalsHeld signals;
   const pid_t child = start(command, signals);
   bool asked = false;
+  // mpirun drops signals until the ranks have started, so they are repeated, ever less often.
   std::time_t patience = 1;  // s
   for (int status = 0;;) {
     const int signal = signals.next({patience, 0});
@@ -195,8 +196,7 @@ ExitCode launch_ranks(const RankLaunch& launch) {
     } else if (signal != 0) {
       asked = true;
       kill(child, wish_to_stop);
-    } else if (
-        asked) {  // mpirun drops what it gets before the ranks have started: repeat it, ever less often
+    } else if (asked) {
       kill(child, wish_to_stop);
       patience *= 2;
     }

@@ -32,8 +32,9 @@ std::vector<std::string> runs_to_submit(const Study& study, const fs::path& fold
 }
 
 SlurmJob job_of(const StudyOptions& options, std::vector<std::string> runs) {
-  return {"pulvis-" + printable(options.study.stem().string()), fs::read_symlink("/proc/self/exe").string(),
-          std::move(runs), std::max(1, options.threads), options.jobs};
+  return {"pulvis-" + printable(options.study.stem().string()),
+          fs::read_symlink("/proc/self/exe").string(), std::move(runs),
+          std::max(1, options.threads), options.jobs};
 }
 
 void print_job(const SlurmJob& job, const SlurmOptions& options, const fs::path& folder) {

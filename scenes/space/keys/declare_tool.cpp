@@ -13,12 +13,12 @@ std::vector<Key<ToolSpec>> keys_of_place() {
        to(&ToolSpec::name)},
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices = {{"plane", "fills the half-space behind its surface"},
-                    {"die",
-                     "a round hole: fills everything outside a cylinder, if it has a `height` up "
-                     "to there"},
-                    {"punch", "a body of revolution about its axis, whose face has a profile"},
-                    {"stl", "a closed surface from a file"}},
+        .choices =
+            {{"plane", "fills the half-space behind its surface"},
+             {"die",
+              "a round hole: fills everything outside a cylinder, up to `height` if it is given"},
+             {"punch", "a body of revolution about its axis, whose face has a profile"},
+             {"stl", "a closed surface from a file"}},
         .required = true,
         .doc = "Type of tool."},
        [](ToolSpec& spec, const Decoded& value) {

@@ -12,6 +12,7 @@
 #include "components/space/shape.hpp"
 #include "scenes/spec/space_scene.hpp"
 #include "tests/helpers/experiment.hpp"
+#include "tests/helpers/plates.hpp"
 
 namespace pulvis {
 namespace {
@@ -54,18 +55,6 @@ point = ["0 mm", "0 mm", "0 mm"]
 diameter = "36 mm"
 height = "20 mm"
 rounding = "2 mm"
-
-[[tool]]
-name = "bottom"
-shape = "plane"
-point = ["0 mm", "0 mm", "0 mm"]
-normal = [0, 0, 1]
-
-[[tool]]
-name = "top"
-shape = "plane"
-point = ["0 mm", "0 mm", "16.4 mm"]
-normal = [0, 0, -1]
 )";
 
 constexpr const char* stages = R"(
@@ -105,7 +94,8 @@ damping = 0.5
 )";
 
 Scene tablet_in_a_die(double friction) {
-  return own_scene(std::string(set_up) + stages, {"contact.friction=" + std::to_string(friction)});
+  return own_scene(set_up + plates("16.4 mm") + stages,
+                   {"contact.friction=" + std::to_string(friction)});
 }
 
 using space::Vec3;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/helpers/experiment.hpp"
+#include "tests/helpers/plates.hpp"
 
 namespace pulvis {
 namespace {
@@ -35,19 +36,8 @@ name = "die"
 shape = "die"
 point = ["0 mm", "0 mm", "0 mm"]
 diameter = "1 mm"
-
-[[tool]]
-name = "bottom"
-shape = "plane"
-point = ["0 mm", "0 mm", "0 mm"]
-normal = [0, 0, 1]
-
-[[tool]]
-name = "top"
-shape = "plane"
-point = ["0 mm", "0 mm", "1 mm"]
-normal = [0, 0, -1]
-
+)" + plates("1 mm") +
+                   R"(
 [[stage]]
 name = "rest"
 kind = "settle"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "tests/helpers/experiment.hpp"
+#include "tests/helpers/plates.hpp"
 
 namespace pulvis {
 namespace {
@@ -37,18 +38,8 @@ shape = "sphere"
 diameter = "1 mm"
 mesh = { divisions = 3, rings = 1 }
 )" + bodies + R"(
-[[tool]]
-name = "bottom"
-shape = "plane"
-point = ["0 mm", "0 mm", "0 mm"]
-normal = [0, 0, 1]
-
-[[tool]]
-name = "top"
-shape = "plane"
-point = ["0 mm", "0 mm", "1 mm"]
-normal = [0, 0, -1]
-
+)" + plates("1 mm") +
+                   R"(
 [[stage]]
 name = "press"
 kind = "compact"
