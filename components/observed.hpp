@@ -32,13 +32,15 @@ struct ContactLink {
   Point normal{};           // unit vector into the first particle, weighted by normal force
   Point force{};            // N
   double length = 0;        // m, length of the contact
+  Point period{};           // m, from the other particle to its image that the first touches
+  // N, > 0 in compression.
   double normal_force() const { return force[0] * normal[0] + force[1] * normal[1]; }
   // Component along (-n_y, n_x).
   double tangential_force() const { return force[1] * normal[0] - force[0] * normal[1]; }
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(first, second, point, normal, force, length);
+    bytes(first, second, point, normal, force, length, period);
   }
 };
 
@@ -95,8 +97,8 @@ struct DensityGrid {
 
   // As last observed.
   std::array<double, 4> side{};  // m: x of left and right, y of bottom and top
-  std::vector<double> filled;  // m^2, [rows * columns] from the bottom: particle area in a cell
-  std::vector<double> room;    // m^2, area of the cell outside the tools
+  std::vector<double> filled;    // m^2, [rows * columns] from the bottom: particle area in a cell
+  std::vector<double> room;      // m^2, area of the cell outside the tools
 
   template <class Bytes>
   void state(Bytes& bytes) {

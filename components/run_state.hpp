@@ -26,8 +26,7 @@ struct Clock {
   double dt = 0;         // t_(n+1) - t_n
   double end = 0;        // s
   double safety = 0.9;   // fraction of the stable time step that is used
-  double travel =
-      0;  // m, upper bound of the relative displacement of any two surfaces so far
+  double travel = 0;     // m, upper bound of the relative displacement of any two surfaces so far
   std::int64_t next_look = 0;  // step at which the stable time step is computed next
   double stiffening = 1;  // -, tangent of the stiffest contact spring over the undeformed tangent
 
@@ -121,6 +120,13 @@ struct ContactRules {
   const Adhesion& adhesion_with_tool(int tool, int material) const {
     return adhesive(tool_adhesion, tool * materials + material);
   }
+  // m, at which any surfaces attract each other.
+  double longest_range() const {
+    double longest = 0;
+    for (const auto* list : {&adhesion, &tool_adhesion})
+      for (const Adhesion& of : *list) longest = std::max(longest, of.range);
+    return longest;
+  }
   // Tangent of the springs of a material's contacts and bonds relative to that of an undeformed contact spring, if the
   // contact springs have stiffened by this factor.
   double springs_of(int material, double stiffening) const {
@@ -151,8 +157,7 @@ struct ContactIndex {
   double skin = 0;  // m: how far surfaces may approach each other before rows are rebuilt
   double reach =
       0;  // m: forces act across gaps below this; rows are created for gaps below skin + reach
-  double neighbourhood =
-      0;  // m, > skin + reach: particles closer than this are neighbours
+  double neighbourhood = 0;   // m, > skin + reach: particles closer than this are neighbours
   double travel_at_bin = -1;  // m, Clock::travel when the rows were created; < 0: not yet
   double look_at = 0;         // m, Clock::travel at which the skin may be used up
   double travel_seen = 0;     // m, Clock::travel in the previous step

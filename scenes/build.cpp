@@ -327,10 +327,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
       }
       index.reach = longest_gap(layout.bodies, bonds);
     }
-    for (const ContactRules::Adhesion& adhesion : rules.adhesion)
-      index.reach = std::max(index.reach, adhesion.range);
-    for (const ContactRules::Adhesion& adhesion : rules.tool_adhesion)
-      index.reach = std::max(index.reach, adhesion.range);
+    index.reach = std::max(index.reach, rules.longest_range());
     index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)

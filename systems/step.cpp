@@ -78,12 +78,12 @@ StepList step_list_of(World& w) {
   force.add<bin_edges>                  ("bin_edges",         pairs);
   force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
   force.add<list_border_rows>           ("list_border_rows",  ranks && pairs);
-  force.add<edge_contact>               ("edge_contact",      pairs);
   force.add<pressed_bonds>              ("pressed_bonds",     w.has<WeldPressure<Contact>>());
+  force.add<edge_contact>               ("edge_contact",      pairs);
   force.add<bond_forces>                ("bond_forces",       pair_bonds);
   force.add<send_contacts>              ("send_contacts",     ranks && pairs);
-  force.add<tool_contact>               ("tool_contact",      tools);
   force.add<pressed_tool_bonds>         ("pressed_tool_bonds", w.has<WeldPressure<ToolContact>>());
+  force.add<tool_contact>               ("tool_contact",      tools);
   force.add<tool_bond_forces>           ("tool_bond_forces",  tool_bonds);
   force.add<receive_contacts>           ("receive_contacts",  ranks && pairs);
   force.add<contact_totals>             ("contact_totals",    touching);

@@ -82,7 +82,7 @@ class Observed {
         const Point way = cell_.way(ids[2 * i]);
         for (const Point& end : {from, to})
           for (std::size_t k = 0; k < 2; ++k) all.push_back(static_cast<float>(end[k] + way[k]));
-        all.push_back(static_cast<float>(force[i]));
+        all.push_back(static_cast<float>(std::abs(force[i])));  // the width of the line
       }
     }
     return all;

@@ -27,7 +27,7 @@ std::vector<float> space_network_lines(const hdf5::File& file, const std::string
         add_point(centre, static_cast<std::size_t>(ids[2 * i + 1]));
       else
         add_point(point, i);
-      lines.push_back(static_cast<float>(force[i]));
+      lines.push_back(static_cast<float>(std::abs(force[i])));  // the width of the line
     }
   }
   return lines;

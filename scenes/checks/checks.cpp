@@ -325,36 +325,24 @@ class Checks {
                        [&](const ToolSpec& tool) { return tool.name == name; });
   }
 
-  void frictions() {
-    std::vector<std::string> tools;
-    for (const ToolSpec& tool : scene_.tools) tools.push_back(tool.name);
-    check_frictions(scene_, tools, refusal());
+  std::vector<std::string> names_of_tools() const {
+    std::vector<std::string> names;
+    for (const ToolSpec& tool : scene_.tools) names.push_back(tool.name);
+    return names;
   }
 
+  void frictions() { check_frictions(scene_, names_of_tools(), refusal()); }
+
   void bonds() {
-    constexpr std::size_t most_bonds = 255;
-    std::set<std::tuple<BondSpec::Origin, bool, std::string, std::string>> named;
-    for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
-      const BondSpec& bond = scene_.bonds[i];
-      const std::string path = fmt::format("bond[{}].between", i);
-      const auto& [first, second] = std::minmax(bond.first, bond.second);
-      if (is_tool(first) && is_tool(second))
-        refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
+    for (std::size_t i = 0; i < scene_.bonds.size(); ++i)
       for (const ToolSpec& tool : scene_.tools)
         if (tool.shape == ToolSpec::Shape::constraint &&
-            (tool.name == first || tool.name == second))
-          refuse(path,
+            (tool.name == scene_.bonds[i].first || tool.name == scene_.bonds[i].second))
+          refuse(fmt::format("bond[{}].between", i),
                  fmt::format(
                      "the constraint '{}' has no contact, allowed: tools that are not constraints",
                      tool.name));
-      if (!named.insert({bond.origin, bond.inside, first, second}).second)
-        refuse(path, fmt::format("the pair '{}' and '{}' is named twice with this origin, allowed: "
-                                 "once",
-                                 first, second));
-    }
-    if (scene_.bonds.size() > most_bonds)
-      refuse("bond[255]",
-             fmt::format("{} are declared, allowed: <= {}", scene_.bonds.size(), most_bonds));
+    check_bonds(scene_, names_of_tools(), refusal());
   }
 
   void everything_is_used() {

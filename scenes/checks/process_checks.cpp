@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 namespace pulvis {
 
@@ -22,17 +23,27 @@ void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t dri
            "than \"settle\" and \"hold\"");
 }
 
-void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
-                     const Refuse& refuse) {
+namespace {
+
+void refuse_two_tools(const std::string& first, const std::string& second,
+                      const std::vector<std::string>& tools, const std::string& path,
+                      const Refuse& refuse) {
   const auto is_tool = [&](const std::string& name) {
     return std::ranges::find(tools, name) != tools.end();
   };
+  if (is_tool(first) && is_tool(second))
+    refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
+}
+
+}  // namespace
+
+void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
+                     const Refuse& refuse) {
   std::set<std::pair<std::string, std::string>> named;
   for (std::size_t i = 0; i < scene.frictions.size(); ++i) {
     const FrictionSpec& friction = scene.frictions[i];
     const std::string path = fmt::format("friction[{}].between", i);
-    if (is_tool(friction.first) && is_tool(friction.second))
-      refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
+    refuse_two_tools(friction.first, friction.second, tools, path, refuse);
     if (friction.static_coefficient && *friction.static_coefficient < friction.coefficient)
       refuse(fmt::format("friction[{}].static_coefficient", i),
              fmt::format("{:g} is below the dynamic coefficient, allowed: >= {:g}",
@@ -41,6 +52,24 @@ void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
       refuse(path, fmt::format("the pair '{}' and '{}' is named twice, allowed: once",
                                friction.first, friction.second));
   }
+}
+
+void check_bonds(const Scene& scene, const std::vector<std::string>& tools, const Refuse& refuse) {
+  constexpr std::size_t most_bonds = 255;
+  std::set<std::tuple<BondSpec::Origin, bool, std::string, std::string>> named;
+  for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
+    const BondSpec& bond = scene.bonds[i];
+    const std::string path = fmt::format("bond[{}].between", i);
+    const auto& [first, second] = std::minmax(bond.first, bond.second);
+    refuse_two_tools(first, second, tools, path, refuse);
+    if (!named.insert({bond.origin, bond.inside, first, second}).second)
+      refuse(path, fmt::format("the pair '{}' and '{}' is named twice with this origin, allowed: "
+                               "once",
+                               first, second));
+  }
+  if (scene.bonds.size() > most_bonds)
+    refuse("bond[255]",
+           fmt::format("{} are declared, allowed: <= {}", scene.bonds.size(), most_bonds));
 }
 
 void refuse_unused(const std::string& path, const std::string& name, const std::string& user,

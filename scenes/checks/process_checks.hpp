@@ -17,6 +17,8 @@ void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t dri
 void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
                      const Refuse& refuse);
 
+void check_bonds(const Scene& scene, const std::vector<std::string>& tools, const Refuse& refuse);
+
 // Refuses what is declared but never referenced.
 void refuse_unused(const std::string& path, const std::string& name, const std::string& user,
                    const Refuse& refuse);

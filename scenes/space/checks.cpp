@@ -53,6 +53,7 @@ class SpaceChecks {
     packings();
     stages();
     check_frictions(scene_, names_of_tools(), refusal());
+    check_bonds(scene_, names_of_tools(), refusal());
     check_tools(scene_, origins_, refusal());
     output();
     everything_is_used();

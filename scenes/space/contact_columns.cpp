@@ -24,6 +24,10 @@ ContactRules rules_of(const Scene& scene) {
   for (const ToolSpec& tool : scene.space->tools)
     for (const MaterialSpec& material : scene.materials)
       rules.tool_friction.push_back(friction_of(scene, tool.name, material.name));
+  if (has_adhesion(scene))
+    for (const ToolSpec& tool : scene.space->tools)
+      for (const MaterialSpec& material : scene.materials)
+        rules.tool_adhesion.push_back(adhesion_of(scene, tool.name, material.name));
   rules.tool_thickness.assign(scene.space->tools.size(), std::numeric_limits<double>::infinity());
   rules.servos = has_servos(*scene.space);
   return rules;
@@ -155,7 +159,8 @@ void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& 
   if (touching.tools) add_tools(world, *scene.space, touching);
   ContactIndex& index = world.emplace<ContactIndex>();
   index.skin = scene.contact.skin * rules.shortest_edge;
-  index.neighbourhood = skins_of_neighbourhood * index.skin;
+  index.reach = rules.longest_range();
+  index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
   world.emplace<ContactRules>(std::move(rules));
 }
 

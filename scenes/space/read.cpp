@@ -31,6 +31,7 @@ class SpaceReader : public SceneTables {
     space.tools = read_all(language::tool());
     scene.stages = read_stages(space);
     scene.frictions = read_all(schema::friction());
+    scene.bonds = read_all(language::bond());
     read_one(language::contact(), scene.contact);
     read_one(language::element(), space);
     read_one(language::time(), scene.time);

@@ -28,12 +28,18 @@ namespace {
 
 bool is_adhesion(const BondSpec& bond) { return bond.origin == BondSpec::Origin::adhesion; }
 
+}  // namespace
+
+bool has_adhesion(const Scene& scene) { return std::ranges::any_of(scene.bonds, is_adhesion); }
+
 ContactRules::Adhesion adhesion_of(const Scene& scene, const std::string& a, const std::string& b) {
   for (const BondSpec& bond : scene.bonds)
     if (is_adhesion(bond) && std::minmax(bond.first, bond.second) == std::minmax(a, b))
       return {2 * bond.work / bond.range, bond.range};
   return {};
 }
+
+namespace {
 
 void add_adhesion(const Scene& scene, ContactRules& rules) {
   for (const MaterialSpec& a : scene.materials)
@@ -60,7 +66,7 @@ ContactRules contact_rules(const Scene& scene) {
     for (const MaterialSpec& m : scene.materials)
       rules.tool_friction.push_back(is_constraint(tool) ? ContactRules::Friction{}
                                                         : friction_of(scene, tool.name, m.name));
-  if (std::ranges::any_of(scene.bonds, is_adhesion)) add_adhesion(scene, rules);
+  if (has_adhesion(scene)) add_adhesion(scene, rules);
   return rules;
 }
 

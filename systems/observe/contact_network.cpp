@@ -7,6 +7,7 @@
 // Runs     on sampled steps, after the narrow phases
 // Active   when the scene requests contacts
 #include <algorithm>
+#include <cmath>
 
 #include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
@@ -32,7 +33,7 @@ struct Gathered {
     for (std::size_t k = 0; k < 2; ++k) {
       link.point[k] += size * at[k];
       link.force[k] += side * force[k];
-      link.normal[k] += side * push * normal[k];
+      link.normal[k] += side * std::abs(push) * normal[k];
     }
   }
   ContactLink finished(double sides) const {
@@ -51,7 +52,7 @@ struct Gathered {
 class Partners {
  public:
   explicit Partners(int first) : first_(first) {}
-  Gathered& with(int second, const Image& image = {}) {
+  Gathered& with(int second, const Image& image = {}, const Point& period = {}) {
     const auto same = [&](const Gathered& g) {
       return g.link.second == second && g.image == image;
     };
@@ -59,6 +60,7 @@ class Partners {
     if (found != all_.end()) return *found;
     all_.emplace_back().link.first = first_;
     all_.back().link.second = second;
+    all_.back().link.period = period;
     all_.back().image = image;
     return all_.back();
   }
@@ -106,6 +108,9 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
     add_points(outlines.edge(pair(row, 0), pair(row, 1)), force, row, side, normal_at, contact,
                {-shift[0], -shift[1]});
   };
+  const auto period_of = [&](const Image& image) {
+    return pairs.images ? pairs.images->cell->vectors * image : Point{};
+  };
   const auto image_of = [&](Row<Contact> row) {
     return pairs.images ? pairs.images->of(row) : Image{};
   };
@@ -125,14 +130,16 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
           if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 2));
           const Image image = image_of(row);
-          if (counts(number, other, image)) add_row(row, 1, partners.with(other, image));
+          if (counts(number, other, image))
+            add_row(row, 1, partners.with(other, image, period_of(image)));
         }
         for (int k = index.other_begin[s]; k < index.other_begin[s + 1]; ++k) {
           const Row<Contact> row(entry(index.other_rows, k));
           if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 0));
           const Image n = image_of(row), image{-n[0], -n[1]};
-          if (counts(number, other, image)) add_row(row, -1, partners.with(other, image));
+          if (counts(number, other, image))
+            add_row(row, -1, partners.with(other, image, period_of(image)));
         }
         partners.move_to(found, 2);
       });

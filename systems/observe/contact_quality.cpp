@@ -1,6 +1,6 @@
 // contact_quality: how far the outlines penetrate each other, and which contacts are too narrow for their mesh.
 //
-// Law      overlap = sum over the touching points of gap times tributary length; for a pair both half
+// Law      overlap = sum over the penetrating points of depth times tributary length; for a pair both half
 //          passes see all of it, hence half of each. Penetration work = sum of normal force times gap:
 //          the tool displacement that penetration costs, by virtual work (scenes/results/contact_findings.hpp).
 //          Width of a contact in edges: sum of the tributary shares of its touching points in their edges. A
@@ -63,6 +63,7 @@ void add_row(const Curve& sampled, const Shape::Edge& edge, const Read<PointForc
     side.force[1] += f[1];
     side.edges += w;
     side.width += length;
+    if (gap.depth <= 0) continue;  // held by a bond or by adhesion
     found.overlap += share * length * gap.depth;
     found.work += gap.depth * (f[0] * gap.normal[0] + f[1] * gap.normal[1]);
   }

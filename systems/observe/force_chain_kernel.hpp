@@ -16,7 +16,6 @@
 #include <map>
 #include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "components/shape.hpp"
@@ -29,6 +28,12 @@ struct PlaneStress {  // Pa, in the plane of the slice; tension > 0
 };
 
 template <std::size_t N>  // number of dimensions
+struct TouchingPair {
+  std::int32_t first, second;
+  std::array<double, N> period{};  // m, from the second to its image that touches the first
+};
+
+template <std::size_t N>
 struct MajorCompression {
   double size = 0;                    // Pa, > 0 in compression
   std::array<double, N> direction{};  // unit vector
@@ -44,9 +49,9 @@ inline constexpr int min_of_a_chain = 3;
 
 // Per particle: its chain, numbered from 1 in the order of their first particles; 0 if it is in none.
 template <std::size_t N>
-std::vector<std::int32_t> chains_of(
-    const std::vector<MajorCompression<N>>& load, std::span<const std::array<double, N>> centre,
-    std::span<const std::pair<std::int32_t, std::int32_t>> touching) {
+std::vector<std::int32_t> chains_of(const std::vector<MajorCompression<N>>& load,
+                                    std::span<const std::array<double, N>> centre,
+                                    std::span<const TouchingPair<N>> touching) {
   const std::size_t count = load.size();
   const double mean = std::accumulate(load.begin(), load.end(), 0.0,
                                       [](double sum, const auto& l) { return sum + l.size; }) /
@@ -66,10 +71,10 @@ std::vector<std::int32_t> chains_of(
     }
     return std::abs(along) >= std::sqrt(0.5 * square);
   };
-  for (const auto& [a, b] : touching) {
+  for (const auto& [a, b, period] : touching) {
     const auto p = static_cast<std::size_t>(a), q = static_cast<std::size_t>(b);
     std::array<double, N> way;
-    for (std::size_t k = 0; k < N; ++k) way[k] = centre[q][k] - centre[p][k];
+    for (std::size_t k = 0; k < N; ++k) way[k] = centre[q][k] + period[k] - centre[p][k];
     if (!leads_on(p, way) || !leads_on(q, way)) continue;
     const std::size_t one = leader_of(p), other = leader_of(q);
     leader[std::max(one, other)] = std::min(one, other);
@@ -86,9 +91,9 @@ std::vector<std::int32_t> chains_of(
   return chain;
 }
 
-inline std::vector<std::int32_t> force_chains(
-    std::span<const PlaneStress> stress, std::span<const Point> centre,
-    std::span<const std::pair<std::int32_t, std::int32_t>> touching) {
+inline std::vector<std::int32_t> force_chains(std::span<const PlaneStress> stress,
+                                              std::span<const Point> centre,
+                                              std::span<const TouchingPair<2>> touching) {
   std::vector<MajorCompression<2>> load;
   for (const PlaneStress& s : stress) load.push_back(major_compression(s));
   return chains_of<2>(load, centre, touching);

@@ -20,8 +20,9 @@ void force_chains::operator()() const {
     stresses.push_back({s(particle, 0)[lane], s(particle, 1)[lane], s(particle, 3)[lane]});
     centres.push_back({x(particle, 0)[lane], x(particle, 1)[lane]});
   }
-  std::vector<std::pair<std::int32_t, std::int32_t>> touching;
-  for (const ContactLink& link : network->pairs) touching.emplace_back(link.first, link.second);
+  std::vector<kernels::TouchingPair<2>> touching;
+  for (const ContactLink& link : network->pairs)
+    touching.push_back({link.first, link.second, link.period});
   chains->chain = kernels::force_chains(stresses, centres, touching);
 }
 

@@ -64,6 +64,7 @@ void count_contacts(const Links& links, bool both, std::vector<double>& counts) 
 // k times 180/18 degrees, so that the axes are sector centres.
 inline constexpr int rose_sectors = 18;
 
+// By force: its size, in tension too.
 struct Rose {
   std::array<double, rose_sectors> number{}, force{};  // shares of all contacts; each sums to 1
 };
@@ -71,13 +72,13 @@ struct Rose {
 inline Rose rose(std::span<const ContactLink> links) {
   Rose rose;
   double all = 0;
-  for (const ContactLink& link : links) all += link.normal_force();
+  for (const ContactLink& link : links) all += std::abs(link.normal_force());
   for (const ContactLink& link : links) {
     const double turn = portable::atan2(link.normal[1], link.normal[0]) / std::numbers::pi;
     const auto nearest = static_cast<int>(std::lround(rose_sectors * turn));
     const auto sector = static_cast<std::size_t>((nearest + rose_sectors) % rose_sectors);
     rose.number[sector] += 1 / static_cast<double>(links.size());
-    if (all > 0) rose.force[sector] += link.normal_force() / all;
+    if (all > 0) rose.force[sector] += std::abs(link.normal_force()) / all;
   }
   return rose;
 }

@@ -3,7 +3,7 @@
 //
 // Law      as between particles (systems/contact/initial_bonds.cpp, pressed_bonds.cpp, bond_points.hpp); tools do not
 //          rotate, and the anchor and its normal move with the tool
-// Runs     once, at the start; after tool_contact, before contact_force
+// Runs     once, at the start; before tool_contact (by the pressures of the previous step); after it, before contact_force
 // Active   when the scene has bonds with tools
 #include "systems/contact/active_pairs.hpp"
 #include "systems/contact/bond_points.hpp"

@@ -299,6 +299,50 @@ TEST(Glue, OfColdWeldingHoldsACompactTogether) {
             50);
 }
 
+// A block pressed onto another and lifted: every step is looked at, those in which points weld, too.
+TEST(Glue, OfColdWeldingIsCountedOnceInEveryStep) {
+  Experiment e(own_scene(std::string(bar_material) + piece("base", 3, 0) + R"(
+[[particle]]
+name = "head"
+material = "stone"
+outline = "rectangle"
+width = "1 mm"
+height = "1 mm"
+[particle.mesh]
+columns = 5
+rows = 4
+[[body]]
+particle = "head"
+position = ["0 mm", "1 mm"]
+[[bond]]
+between = ["stone", "stone"]
+origin = "pressed"
+strength = "40 MPa"
+fracture_energy = "200 J/m^2"
+threshold = "20 MPa"
+growth = 0.1
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "20 us"
+move = [{ tool = "head", displacement = ["0 mm", "-4 um"] }]
+[[stage]]
+name = "part"
+kind = "unload"
+duration = "20 us"
+move = [{ tool = "head", displacement = ["0 mm", "20 um"] }]
+)" + grip("base", 0, {-2, -.6, 2, .6}, "both") +
+                         grip("head", 1, {-.6, .4, .6, 1.6}, "both")));
+  double area = 0, work = 0;
+  e.run(8000, [&] {
+    area = std::max(area, e.value("bonds/area"));
+    work = std::max(work, e.value("energy/contact"));
+  });
+  EXPECT_NEAR(area, 1e-6, 0.2e-6);
+  EXPECT_GT(work, 1e-5);
+  EXPECT_LT(e.results.energy_balance_error(), 1e-4);
+}
+
 TEST(Glue, IsBitwiseTheSameForAnyThreads) {
   const auto hash = [](int threads) {
     Experiment e("bonds/cold-weld.toml", {}, threads);

@@ -182,6 +182,22 @@ TEST(ContactNetwork, KnowsTheWidthOfHertzContact) {
   }
 }
 
+// Two blocks glued on top of each other, pulled apart: tension, with the normal still into the lower one.
+TEST(ContactNetwork, TellsTensionFromCompression) {
+  Experiment e("bonds/pulled-blocks.toml", {"output.contacts=true"});
+  double most = 0;
+  e.run(40, [&] {
+    EXPECT_GE(e.value("contact_overlap"), 0);
+    for (const ContactLink& link : network_of(e).pairs) {
+      most = std::max(most, -link.normal_force());
+      EXPECT_EQ(link.first, 0);
+      EXPECT_NEAR(link.normal[1], -1, 1e-6);
+      EXPECT_EQ(link.force[1] > 0, link.normal_force() < 0);
+    }
+  });
+  EXPECT_GT(most, 5);
+}
+
 TEST(ContactNetwork, HasTheSameBitsForAnyNumberOfThreadsAndLeavesTheRunAlone) {
   const auto state = [](const std::vector<std::string>& overrides, int threads) {
     auto e = std::make_unique<Experiment>("compaction/regular-25.toml", overrides, threads);

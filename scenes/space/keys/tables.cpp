@@ -31,6 +31,7 @@ const schema::Language& scene_language() {
                                        view_of(servo()),
                                        view_of(until()),
                                        view_of(schema::friction()),
+                                       view_of(bond()),
                                        view_of(contact()),
                                        view_of(element()),
                                        view_of(time()),

@@ -21,6 +21,7 @@ const schema::TableDeclaration<StageSpec>& stage();
 const schema::TableDeclaration<MoveSpec>& move();
 const schema::TableDeclaration<ServoSpec>& servo();
 const schema::TableDeclaration<UntilSpec>& until();
+const schema::TableDeclaration<BondSpec>& bond();
 const schema::TableDeclaration<ContactSpec>& contact();
 const schema::TableDeclaration<SpaceScene>& element();
 const schema::TableDeclaration<TimeSpec>& time();

@@ -96,7 +96,8 @@ void bin_faces::operator()() const {
   const ContactRules& rules = *material.rules;
   const SurfaceBoxes boxes = surface_boxes(bodies, position.values());
   BySlot<std::int32_t> neighbours = particle_neighbours(bodies, boxes, index->neighbourhood);
-  BySlot<FaceCandidate> found = face_candidates(bodies, boxes, neighbours, index->skin);
+  BySlot<FaceCandidate> found =
+      face_candidates(bodies, boxes, neighbours, index->skin + index->reach);
   const std::vector<std::int32_t> source =
       rows_before<FaceContact>(index->sampled_begin, rows.pair, found);
   structure.rebuild(source);
@@ -141,7 +142,7 @@ void list_triangles(const BySlot<ToolCandidate>& found, const FaceLook& look,
 void bin_tool_faces::operator()() const {
   if (!index->due) return;
   const ContactRules& rules = *material.rules;
-  const FaceLook look{bodies, position.values(), tools, index->skin};
+  const FaceLook look{bodies, position.values(), tools, index->skin + index->reach};
   BySlot<ToolCandidate> found = tool_candidates(look);
   structure.rebuild(rows_before<FaceToolContact>(index->tool_begin, rows.columns.pair, found));
   for (std::size_t r = 0; r < found.all.size(); ++r) {

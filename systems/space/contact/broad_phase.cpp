@@ -76,7 +76,7 @@ struct FaceSearch {
   const ShapedBodies& bodies;
   const SurfaceBoxes& boxes;
   const BySlot<std::int32_t>& neighbours;
-  double skin;
+  double distance;
 
   void operator()(int slot, std::vector<FaceCandidate>& found) const {
     const std::vector<NearParticle> others = others_of(slot);
@@ -95,11 +95,11 @@ struct FaceSearch {
     const Box& own = entry(boxes.particle, slot);
     for (const std::int32_t neighbour : neighbours.of(slot)) {
       if (!bodies.bodies->owns(slot) && !bodies.bodies->owns(neighbour)) continue;
-      if (!near(own, entry(boxes.particle, neighbour), skin)) continue;
+      if (!near(own, entry(boxes.particle, neighbour), distance)) continue;
       NearParticle other{neighbour, {}};
       const std::span<const Box> faces = boxes.face.of(neighbour);
       for (std::int32_t f = 0; f < static_cast<std::int32_t>(faces.size()); ++f)
-        if (near(own, entry(faces, f), skin)) other.faces.push_back(f);
+        if (near(own, entry(faces, f), distance)) other.faces.push_back(f);
       if (!other.faces.empty()) others.push_back(std::move(other));
     }
     return others;
@@ -107,15 +107,15 @@ struct FaceSearch {
   // Among those near the box, or -1.
   std::int32_t nearest_face(const Box& own, const NearParticle& other) const {
     std::int32_t nearest = -1;
-    if (!near(own, entry(boxes.particle, other.slot), skin)) return nearest;
+    if (!near(own, entry(boxes.particle, other.slot), distance)) return nearest;
     double minimum = std::numeric_limits<double>::max();
     const std::span<const Box> faces = boxes.face.of(other.slot);
     for (const std::int32_t f : other.faces) {
       const Box& its = entry(faces, f);
-      if (!near(own, its, skin)) continue;
-      const double distance = squared_distance(own.middle(), its.middle());
-      if (distance >= minimum) continue;
-      minimum = distance;
+      if (!near(own, its, distance)) continue;
+      const double square = squared_distance(own.middle(), its.middle());
+      if (square >= minimum) continue;
+      minimum = square;
       nearest = f;
     }
     return nearest;
@@ -161,8 +161,9 @@ BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const Surfa
 }
 
 BySlot<FaceCandidate> face_candidates(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
-                                      const BySlot<std::int32_t>& neighbours, double skin) {
-  return list_by_slot<FaceCandidate>(bodies.slots(), FaceSearch{bodies, boxes, neighbours, skin});
+                                      const BySlot<std::int32_t>& neighbours, double distance) {
+  return list_by_slot<FaceCandidate>(bodies.slots(),
+                                     FaceSearch{bodies, boxes, neighbours, distance});
 }
 
 }  // namespace pulvis::space

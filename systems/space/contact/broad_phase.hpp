@@ -27,8 +27,8 @@ SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> p
 BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
                                          double distance);
 
-// All candidates within `skin`, sorted by (slot, other, face). `neighbours`: found with at least `skin`.
+// All candidates within `distance`, sorted by (slot, other, face). `neighbours`: found with at least `distance`.
 BySlot<FaceCandidate> face_candidates(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
-                                      const BySlot<std::int32_t>& neighbours, double skin);
+                                      const BySlot<std::int32_t>& neighbours, double distance);
 
 }  // namespace pulvis::space

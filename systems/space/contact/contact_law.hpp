@@ -1,6 +1,6 @@
 // Contact law: forces on eight points. The same for pairs of particles and for tools.
 //
-// Laws     systems/laws/normal_contact.hpp (pressure, damping), systems/laws/friction.hpp
+// Laws     systems/laws/normal_contact.hpp (pressure, damping), systems/laws/friction.hpp, systems/laws/adhesion.hpp
 // Slip     of the sampled point x_s against the material point x_m of the other surface, a gap g apart along its normal n:
 //            w = (v_s - v_m)_t + g n',   n' = -sum_a (v_,a . n) a^a,   a: u, v;   a^a: reciprocal to the slopes
 //          which vanishes in a common rigid motion. By virtual power, friction T acts on the other surface with -T at
@@ -11,6 +11,7 @@
 
 #include "components/run_state.hpp"
 #include "components/space/contact.hpp"
+#include "systems/laws/adhesion.hpp"
 #include "systems/laws/friction.hpp"
 #include "systems/laws/normal_contact.hpp"
 #include "systems/space/contact/systems.hpp"
@@ -70,6 +71,14 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
   return {
       (normal.pressure * law.weight) * m.normal, none,   none,
       normal.spring_energy * law.weight,         Lane{}, normal.damping_power * law.weight * dt};
+}
+
+// `traction` Pa, in this pass. Friction follows the contact pressure alone.
+inline void attract(const PointLaw& law, const PointMotion& m, const Lane& traction, double range,
+                    PointForces& f) {
+  const auto pull = pulvis::kernels::adhesion(m.gap, traction, Lane(range));
+  f.force = fma(-(pull.traction * law.weight), m.normal, f.force);
+  f.energy = fma(pull.energy, law.weight, f.energy);
 }
 
 // `sliding`: the friction law (systems/laws/friction.hpp). `before`: the springs.

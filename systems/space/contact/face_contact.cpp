@@ -55,7 +55,7 @@ class PairPass {
     const int slot = s_.columns.pair(row, 0), other = s_.columns.pair(row, 2);
     friction_ = s_.columns.law(row, ContactLaw<FaceContact>::friction);
     rubs_ = s_.columns.law(row, ContactLaw<FaceContact>::friction) > 0;
-    if (s_.columns.history) find_weakening(slot, other);
+    find_rules(slot, other);
     own_ = &s_.bodies.shape_of(slot);
     its_ = &s_.bodies.shape_of(other);
     own_surface_ = s_.bodies.surface(slot);
@@ -91,10 +91,12 @@ class PairPass {
     for (std::size_t i = 0; i < loads.own.size(); i += in_a_line) prefetch(&loads.own[i]);
     return loads;
   }
-  void find_weakening(int slot, int other) {
-    const auto material_of = [&](int of) { return entry(s_.bodies.bodies->slots, of).material; };
-    const ContactRules::Friction& friction =
-        s_.columns.history->rules->friction_between(material_of(slot), material_of(other));
+  void find_rules(int slot, int other) {
+    const auto& slots = s_.bodies.bodies->slots;
+    const int a = entry(slots, slot).material, b = entry(slots, other).material;
+    adhesion_ = s_.rules->adhesion_between(a, b);
+    if (!s_.columns.lost) return;
+    const ContactRules::Friction& friction = s_.rules->friction_between(a, b);
     rubs_ = friction.acts();
     if (rubs_ && !friction.only_coulomb()) weakening_ = &friction;
   }
@@ -174,7 +176,7 @@ class PairPass {
       p.damping = damping;
       p.kept = kept;
       p.activation = &s_.columns.activation(row, place);
-      p.lost = weakening_ != nullptr ? &s_.columns.history->lost(row, place) : nullptr;
+      p.lost = weakening_ != nullptr ? &(*s_.columns.lost)(row, place) : nullptr;
       p.force = s_.columns.force ? &(*s_.columns.force)(row, 3 * place) : nullptr;
       p.row = static_cast<std::int32_t>(row.value);
     }
@@ -206,10 +208,11 @@ class PairPass {
     }
     book(eight, p.unconverged());
     // Points that did not converge carry no force.
+    const Lane apart(-adhesion_.range);
     standing.gap =
-        select(LaneMask::of(p.unconverged()) & (standing.gap > 0.0), Lane{}, standing.gap);
+        select(LaneMask::of(p.unconverged()) & (standing.gap > apart), apart, standing.gap);
     // A NaN gap counts as touching.
-    const LaneMask touching = ~(standing.gap <= 0.0) & real;
+    const LaneMask touching = ~(standing.gap <= apart) & real;
     PointMotion m{select(touching, standing.gap, Lane{}), standing.normal};
     Reciprocal to;
     if (rates_ != nullptr) {
@@ -232,7 +235,10 @@ class PairPass {
                                                 s_.clock->dt_before, pressure, spring, f));
       }
     }
-    keep(eight, p, standing.gap, touching.bits(), f);
+    if (adhesion_.range > 0)
+      attract(law, m, share * select(touching, Lane(adhesion_.traction), Lane{}), adhesion_.range,
+              f);
+    keep(eight, p, standing.gap + adhesion_.range, touching.bits(), f);
     sums_.add(f);  // of released springs, too
     if (!any(touching)) return;
     book_depth(eight, m.gap * law.inv_size);
@@ -306,7 +312,8 @@ class PairPass {
   }
 
   // ---- columns and sums --------------------------------------------------------------------------------
-  void keep(const PointLanes& eight, const Projection& p, const Lane& gap, unsigned touching,
+  // `within`: m, < 0 out of the reach of forces.
+  void keep(const PointLanes& eight, const Projection& p, const Lane& within, unsigned touching,
             const PointForces& f) const {
     static constexpr double last = 1 - 1e-12;  // an end belongs to its own face
     const Lane faces = Lane::from([&](int l) { return static_cast<double>(entry(p.face, l)); });
@@ -317,7 +324,7 @@ class PairPass {
     // A separated point stays inactive until it can touch; zero marks a touching point.
     alignas(64) std::array<double, lane_count> activation;
     constexpr double never_zero = std::numeric_limits<float>::min(), early = 1 - 0x1p-22;
-    select(LaneMask::of(touching), Lane{}, max(early * (s_.clock->travel - gap), never_zero))
+    select(LaneMask::of(touching), Lane{}, max(early * (s_.clock->travel - within), never_zero))
         .store(activation.data());
     for (std::size_t l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l) {
       PairPoint& point = *eight.point[l];
@@ -365,6 +372,7 @@ class PairPass {
   Lane friction_;
   bool rubs_;
   const ContactRules::Friction* weakening_ = nullptr;  // if friction is not just Coulomb's
+  ContactRules::Adhesion adhesion_;
   PairLoads::Pair& loads_;
   OtherFaces faces_;  // of loads_
   PairPoints points_;

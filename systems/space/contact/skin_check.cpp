@@ -65,7 +65,7 @@ struct Remaining {
       all.low[k] = -farthest[k];
       all.high[k] = farthest[3 + k];
     }
-    return index.neighbourhood - kernels::closing(all, all);
+    return index.neighbourhood - index.reach - kernels::closing(all, all);
   }
   double of_neighbours(int slot) const {
     double minimum = 1e300;
@@ -76,8 +76,9 @@ struct Remaining {
       const int other = entry(index.neighbours, k);
       if (other < slot && bodies.owns(other)) continue;  // handled from the other side
       const SurfaceMotion& its = entry(motion, other);
-      minimum = std::min(minimum, std::max(index.skin, kernels::gap(own.before, its.before)) -
-                                      kernels::closing(own.displacement, its.displacement));
+      const double allowed =
+          std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
+      minimum = std::min(minimum, allowed - kernels::closing(own.displacement, its.displacement));
     }
     return minimum;
   }
@@ -93,9 +94,10 @@ struct Remaining {
                           {before[0] - now[0], before[1] - now[1], before[2] - now[2]});
       const Point normal = tools.normal_of(t);
       const bool plane = tools.shape(t).kind == ToolShapes::Kind::plane;
-      minimum = std::min(minimum, plane ? std::max(index.skin, kernels::min_along(own, normal)) +
-                                              std::min(kernels::min_along(u, normal), 0.0)
-                                        : index.skin - kernels::closing(u, Box{}));
+      const double allowed =
+          plane ? std::max(index.skin, kernels::min_along(own, normal) - index.reach) : index.skin;
+      minimum = std::min(minimum, allowed + (plane ? std::min(kernels::min_along(u, normal), 0.0)
+                                                   : -kernels::closing(u, Box{})));
     }
     return minimum;
   }

@@ -86,13 +86,6 @@ struct ContactFaces {
   Optional<Read<SurfaceVelocity>> velocity;  // only with friction or damping
 };
 
-// If some friction is more than a Coulomb coefficient.
-template <class At>
-struct FrictionHistory {
-  Write<SlipWeakening<At>> lost;
-  Read<ContactRules> rules;
-};
-
 struct face_contact {
   ShapedBodies bodies;
   Read<Clock> clock;
@@ -104,9 +97,10 @@ struct face_contact {
     Read<ContactLaw<FaceContact>> law;
     Write<ContactPoint> point;
     Optional<Write<ContactPointForce>> force;
-    Optional<FrictionHistory<FaceContact>> history;
+    Optional<Write<SlipWeakening<FaceContact>>> lost;  // of friction that is not just Coulomb's
   };
   Columns columns;
+  Read<ContactRules> rules;
   Read<FacePairs> pairs;
   Write<PairLoads> loads;
   Write<ContactSums<Contact>> sums;

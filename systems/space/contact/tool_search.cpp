@@ -50,15 +50,15 @@ bool FaceLook::can_touch(int slot, int face, int tool) const {
   const PatchNumbers points = bodies.patch(positions, slot, face);
   const ToolShapes::Shape& shape = tools.shape(tool);
   const Point at = tools.position_of(tool), normal = tools.normal_of(tool);
-  const double reach = skin + entry(bodies.shape_of(slot).faces, face).size;
+  const double reach = distance + entry(bodies.shape_of(slot).faces, face).size;
   switch (shape.kind) {
     case ToolShapes::Kind::plane:
       for (int p = 0; p < 16; ++p)
-        if (product(difference(point_of(points, p), at), normal) < skin) return true;
+        if (product(difference(point_of(points, p), at), normal) < distance) return true;
       return false;
     case ToolShapes::Kind::hole:
       for (int p = 0; p < 16; ++p)
-        if (AboutAxis(difference(point_of(points, p), at), normal).radius > shape.radius - skin)
+        if (AboutAxis(difference(point_of(points, p), at), normal).radius > shape.radius - distance)
           return true;
       return false;
     case ToolShapes::Kind::revolution:
@@ -73,7 +73,7 @@ bool FaceLook::can_touch(int slot, int face, int tool) const {
 
 void FaceLook::add_triangles(const ToolCandidate& c, std::vector<std::int32_t>& list) const {
   const PatchNumbers points = bodies.patch(positions, c.slot, c.face);
-  const double reach = skin + entry(bodies.shape_of(c.slot).faces, c.face).size;
+  const double reach = distance + entry(bodies.shape_of(c.slot).faces, c.face).size;
   triangles_near(tools.shape(c.tool).mesh, around_origin(points, tools.position_of(c.tool)), reach,
                  list);
 }

@@ -19,12 +19,12 @@ struct FaceLook {
   const ShapedBodies& bodies;
   std::span<const double> positions;  // of all Bezier points
   const ToolSurfaces& tools;
-  double skin;
+  double distance;  // m
 
-  // Whether the face can touch the tool before the skin is used up, or is behind its surface: for bodies of revolution
+  // Whether the face is within the distance of the tool, or is behind its surface: for bodies of revolution
   // and meshes by up to its own size. (At greater depth no force would be meaningful.)
   bool can_touch(int slot, int face, int tool) const;
-  // Adds the triangles of a mesh tool that can be the nearest until then.
+  // Adds the triangles of a mesh tool that can be the nearest.
   void add_triangles(const ToolCandidate& candidate, std::vector<std::int32_t>& list) const;
 };
 

@@ -7,6 +7,7 @@
 // Runs     in sampled steps, after the narrow phases
 // Active   if the scene asks for contacts
 #include <algorithm>
+#include <cmath>
 
 #include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
@@ -46,7 +47,7 @@ struct Gathered {
     for (std::size_t k = 0; k < 3; ++k) {
       link.point[k] += size * at[k];
       link.force[k] += side * force[k];
-      link.normal[k] += side * push * normal[k];
+      link.normal[k] += side * std::abs(push) * normal[k];
     }
   }
   ContactLink finished(double sides) const {

@@ -24,8 +24,8 @@ void force_chains::operator()() const {
     loads.push_back(kernels::major_compression(mean));
     centres.push_back({x(particle, 0)[lane], x(particle, 1)[lane], x(particle, 2)[lane]});
   }
-  std::vector<std::pair<std::int32_t, std::int32_t>> touching;
-  for (const ContactLink& link : network->pairs) touching.emplace_back(link.first, link.second);
+  std::vector<pulvis::kernels::TouchingPair<3>> touching;
+  for (const ContactLink& link : network->pairs) touching.push_back({link.first, link.second});
   chains->chain = pulvis::kernels::chains_of<3>(loads, centres, touching);
 }
 

@@ -26,13 +26,17 @@ struct tool_contact {
     Write<Activation<FaceToolContact>> activation;
     Read<ContactLaw<FaceToolContact>> law;
     Write<PointForce> force;
-    Optional<Write<ElasticSlip>> slip;  // only with friction
-    Optional<FrictionHistory<FaceToolContact>> history;
+    Optional<Write<ElasticSlip>> slip;                     // only with friction
+    Optional<Write<SlipWeakening<FaceToolContact>>> lost;  // of friction that is not just Coulomb's
   };
   Columns columns;
-  ToolSurfaces tools;
-  Read<ToolVelocity> tool_velocity;
-  Optional<ToolTriangles> triangles;
+  Read<ContactRules> rules;
+  struct Tools {
+    ToolSurfaces surfaces;
+    Read<ToolVelocity> velocity;
+    Optional<ToolTriangles> triangles;
+  };
+  Tools tools;
   Write<ContactSums<ToolContact>> sums;
   void operator()(SmallTasks) const;
 };

@@ -19,7 +19,7 @@ void clear_half(const tool_contact::Columns& c, Row<FaceToolContact> row, int ha
   const VectorLanes none{Lane{}, Lane{}, Lane{}};
   store_half(none, &c.force(row), half);
   if (c.slip) store_half(none, &(*c.slip)(row), half);
-  if (c.history) Lane{}.store(&c.history->lost(row) + lane_count * half);
+  if (c.lost) Lane{}.store(&(*c.lost)(row) + lane_count * half);
 }
 
 // Motion of the touching halves of a candidate (bit 0, bit 1); the others are separated.
@@ -30,19 +30,24 @@ struct RowMotion {
   bool touches(int h) const { return (touching >> h & 1) != 0; }
 };
 
-// If friction is more than a Coulomb coefficient, else null.
-const ContactRules::Friction* weakening_of(const tool_contact& s, Row<FaceToolContact> row) {
-  if (!s.columns.history) return nullptr;
-  const auto& slots = s.bodies.bodies->slots;
-  const ContactRules::Friction& friction = s.columns.history->rules->friction_with_tool(
-      s.columns.pair(row, 2), entry(slots, s.columns.pair(row, 0)).material);
-  return friction.only_coulomb() ? nullptr : &friction;
+struct RowRules {
+  const ContactRules::Friction* weakening =
+      nullptr;  // if friction is more than a Coulomb coefficient
+  ContactRules::Adhesion adhesion;
+};
+RowRules rules_of(const tool_contact& s, Row<FaceToolContact> row) {
+  const int tool = s.columns.pair(row, 2);
+  const int material = entry(s.bodies.bodies->slots, s.columns.pair(row, 0)).material;
+  RowRules rules{nullptr, s.rules->adhesion_with_tool(tool, material)};
+  if (!s.columns.lost) return rules;
+  const ContactRules::Friction& friction = s.rules->friction_with_tool(tool, material);
+  if (!friction.only_coulomb()) rules.weakening = &friction;
+  return rules;
 }
 
 // Forces on the touching halves of a candidate: law, columns, sums.
 void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::Face& face,
-         const RowMotion& motion, const ContactRules::Friction* weakening, double dt,
-         FaceSums& sums) {
+         const RowMotion& motion, const RowRules& rules, double dt, FaceSums& sums) {
   using Law = ContactLaw<FaceToolContact>;
   const bool new_touch = c.touches(row) == 0;
   c.touches(row) = 1;
@@ -62,17 +67,19 @@ void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::
     if (c.slip) {
       double* spring = &(*c.slip)(row);
       const VectorLanes before = new_touch ? VectorLanes{} : load_half(spring, half);
-      if (weakening == nullptr) {
+      if (rules.weakening == nullptr) {
         pulvis::kernels::Coulomb<Lane> coulomb{law.friction};
         add_friction(law, m, dt, pressure, before, coulomb, f);
       } else {
-        double* lost = &c.history->lost(row) + lane_count * half;
-        add_weakening_friction({*weakening, 1, new_touch ? Lane{} : Lane::load(lost)}, law, m, dt,
-                               pressure, before, f)
+        double* lost = &(*c.lost)(row) + lane_count * half;
+        add_weakening_friction({*rules.weakening, 1, new_touch ? Lane{} : Lane::load(lost)}, law, m,
+                               dt, pressure, before, f)
             .store(lost);
       }
       store_half(f.elastic_slip, spring, half);
     }
+    if (rules.adhesion.range > 0)
+      attract(law, m, Lane(rules.adhesion.traction), rules.adhesion.range, f);
     store_half(f.force, &c.force(row), half);
     sums.add(f);
     deepest = max(m.gap, deepest);
@@ -94,8 +101,10 @@ struct ToolPass {
     const int slot = s.columns.pair(row, 0);
     const Shape::Face& face = entry(s.bodies.shape_of(slot).faces, s.columns.pair(row, 1));
     const PatchNumbers own{points.data() + s.bodies.surface(slot), face.number.data()};
+    const RowRules rules = rules_of(s, row);
     RowMotion motion;
-    for (int half = 0; half < 2; ++half) stand(row, half, own, face.size, motion);
+    for (int half = 0; half < 2; ++half)
+      stand(row, half, own, {face.size, rules.adhesion.range}, motion);
     if (motion.touching == 0) {
       s.columns.touches(row) = 0;
       return;
@@ -105,33 +114,38 @@ struct ToolPass {
         if (motion.touches(half))
           set_rates(row, sampled_points({rates.data() + s.bodies.surface(slot), own.number}, half),
                     entry(motion.half, half));
-    act(s.columns, row, face, motion, weakening_of(s, row), s.clock->dt_before, sums);
+    act(s.columns, row, face, motion, rules, s.clock->dt_before, sums);
   }
 
  private:
-  // A separated half stays inactive until it can touch.
-  void stand(Row<FaceToolContact> row, int half, const PatchNumbers& face, double size,
+  struct Reach {
+    double size;   // m, of the face
+    double range;  // m, of forces
+  };
+  // A half out of reach stays inactive until it can come within it.
+  void stand(Row<FaceToolContact> row, int half, const PatchNumbers& face, const Reach& reach,
              RowMotion& motion) const {
     double& activation = s.columns.activation(row, half);
     if (s.clock->travel < activation) return;
-    const Standing standing = project(row, sampled_points(face, half), size);
-    if (any(standing.gap > 0.0)) {
+    const Standing standing = project(row, sampled_points(face, half), reach.size + reach.range);
+    if (any(standing.gap > -reach.range)) {
       entry(motion.half, half) = {standing.gap, standing.normal};
       motion.touching |= 1U << half;
       activation = 0;
     } else {
-      activation = s.clock->travel - FaceSums::greatest(standing.gap);
+      activation = s.clock->travel - FaceSums::greatest(standing.gap + reach.range);
     }
   }
-  Standing project(Row<FaceToolContact> row, const VectorLanes& at, double size) const {
-    return standing_on_tool(s.tools, s.triangles, s.columns.pair(row, 2), row, at, size);
+  Standing project(Row<FaceToolContact> row, const VectorLanes& at, double farthest) const {
+    return standing_on_tool(s.tools.surfaces, s.tools.triangles, s.columns.pair(row, 2), row, at,
+                            farthest);
   }
   // For tools that do not rotate.
   void set_rates(Row<FaceToolContact> row, const VectorLanes& velocity, PointMotion& m) const {
     const Row<Tool> tool(s.columns.pair(row, 2));
     const VectorLanes relative =
-        velocity -
-        everywhere({s.tool_velocity(tool, 0), s.tool_velocity(tool, 1), s.tool_velocity(tool, 2)});
+        velocity - everywhere({s.tools.velocity(tool, 0), s.tools.velocity(tool, 1),
+                               s.tools.velocity(tool, 2)});
     const Lane closing = dot(relative, m.normal);
     m.gap_rate = -closing;
     m.slip = fma(-closing, m.normal, relative);

@@ -80,14 +80,14 @@ TEST(MajorCompression, IsThePrincipalStressOfMohrsCircle) {
 struct Columns {
   std::vector<PlaneStress> stress;
   std::vector<Point> centre;
-  std::vector<std::pair<std::int32_t, std::int32_t>> touching;
+  std::vector<TouchingPair<2>> touching;
   Columns() {
     for (int p = 0; p < 12; ++p) {
       const int x = p % 3, y = p / 3;
       stress.push_back({0, x == 1 ? -100.0 : -10.0, 0});
       centre.push_back({1.0 * x, -1.0 * y});
-      if (x < 2) touching.emplace_back(p, p + 1);
-      if (y < 3) touching.emplace_back(p, p + 3);
+      if (x < 2) touching.push_back({p, p + 1});
+      if (y < 3) touching.push_back({p, p + 3});
     }
   }
   std::vector<std::int32_t> chains() const { return force_chains(stress, centre, touching); }
@@ -119,6 +119,16 @@ TEST(ForceChains, TurnWithThePowder) {
     const auto [x, y] = columns.centre[p];
     columns.centre[p] = {c * x - s * y, s * x + c * y};
   }
+  EXPECT_EQ(columns.chains(), Columns().chains());
+}
+
+// The same column, the lower half moved by a period of 5 to the side.
+TEST(ForceChains, LeadAcrossTheBordersOfAPeriodicCell) {
+  Columns columns;
+  for (std::size_t p = 6; p < 12; ++p) columns.centre[p][0] += 5;
+  EXPECT_EQ(columns.chains(), std::vector<std::int32_t>(12, 0));
+  for (TouchingPair<2>& pair : columns.touching)
+    if (pair.first < 6 && pair.second >= 6) pair.period = {-5, 0};
   EXPECT_EQ(columns.chains(), Columns().chains());
 }
 

@@ -44,7 +44,7 @@ def contact_network(run, options=None, into=None):
     cell.draw(axes, edges=edges)
     drawn = LineCollection(lines, array=factor * force, cmap=colour_map(options, "viridis_r"),
                            capstyle="round", clim=(factor * low, factor * high),
-                           linewidths=np.maximum(0.3, points * force / force.max()), zorder=3)
+                           linewidths=np.maximum(0.3, points * np.abs(force) / np.abs(force).max()), zorder=3)
     axes.add_collection(drawn)
     draw_tools(run, axes, frame, limits / 1e3)
     set_axes(axes, limits)

@@ -158,7 +158,7 @@ def space_network(run, options=None, axes=None):
     factor, unit = unit_for("N", force)
     drawn = LineCollection(1e3 * lines[order] @ rows[:2].T, array=factor * force[order], cmap=colour_map(options, "viridis_r"),
                            capstyle="round", clim=(factor * low, factor * high), zorder=3,
-                           linewidths=np.maximum(0.3, points * force[order] / force.max()))
+                           linewidths=np.maximum(0.3, points * np.abs(force[order]) / np.abs(force).max()))
     place.add_collection(drawn)
     place.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
     place.axis("off")
