@@ -12,17 +12,17 @@ const keyOf = line => line.name || line.label;
 const groupOf = (run, title) => curvesOf(run).find(one => one.title === title);
 
 // The contribution of one run to a curve.
-function partOf(run, title, model, x) {
+function contributionOf(run, title, model, x) {
   const group = groupOf(run, title), axis = group && group.xs.find(one => one.label === x);
   if (!axis) return null;
   const key = keyOf(model), own = group.lines.find(one => keyOf(one) === key) || (run.has(key) ? run.series(key) : null);
-  return own && {...own, x: axis.values, axis, y: group.y, dash: undefined};
+  return own && {...own, x: axis.values, axis, y: group.y, colour: undefined, dash: undefined};
 }
 
 // A curve that at least two runs have, each with its own x values.
 function overlaid(runs, names, title, model, x) {
   const parts = runs.map((run, i) => {
-    const part = partOf(run, title, model, x);
+    const part = contributionOf(run, title, model, x);
     return part && {...part, label: names[i]};
   }).filter(Boolean);
   return parts.length < 2 ? null

@@ -13,7 +13,7 @@ addFigures(({summary: {calibration, loops, force_curves: curves}}) => [
     curve.work_of_adhesion ? ["work of adhesion", `${digits(1e3 * curve.work_of_adhesion)} mJ/m²`, "from pull-off and radius"] : null])]);
 
 // A series restricted to samples with `kept(sample)` and their neighbours: a separate line on the common axis.
-function partOf(series, label, kept, more = {}) {
+function onlySamples(series, label, kept, more = {}) {
   const values = Array.from(series.values, (v, i) => kept(i) || (i + 1 < series.values.length && kept(i + 1)) ? v : NaN);
   return {...series, label, values, ...more};
 }
@@ -47,14 +47,14 @@ function curveLines(run, name, label) {
   if (!motion) return [];
   const there = part => run.values(name).some((_, i) => motion[part](i));
   return ["approach", "retract"].filter(there).map((part, k) =>
-    partOf(run.series(name), label ? `${label}, ${part}` : part, motion[part], {colour: colours[k], dash: k ? RETURN : undefined}));
+    onlySamples(run.series(name), label ? `${label}, ${part}` : part, motion[part], {colour: colours[k], dash: k ? RETURN : undefined}));
 }
 
 function loopLines(run, axis, name) {
   const loops = loopParts(run).filter(loop => loop.axis === axis);
   if (!run.has(name)) return [];
   const label = (loop, part) => loops.length > 1 ? `action ${loop.action}, ${part}` : part;
-  return loops.flatMap((loop, i) => ["trace", "retrace"].map((part, k) => partOf(run.series(name), label(loop, part), loop[part],
+  return loops.flatMap((loop, i) => ["trace", "retrace"].map((part, k) => onlySamples(run.series(name), label(loop, part), loop[part],
     {colour: LIGHT.lines[(loops.length > 1 ? i : k) % LIGHT.lines.length], dash: k ? RETURN : undefined})));
 }
 
@@ -102,8 +102,8 @@ addPanel({
     host.append(element("p", {className: "note", textContent:
       `Lateral displacement of the tip's end: ${percent(calibration.share_twist)} twist, ` +
       `${percent(calibration.share_bending)} lateral bending, ${percent(calibration.share_tip)} in the tip. ` +
-      `Torsional stiffness ${digits(calibration.torsional_stiffness)} N m/rad; InvOLS ${digits(calibration.invols_normal)} m/V normal` +
-      (calibration.invols_lateral ? `, ${digits(calibration.invols_lateral)} m/V lateral.` : ".")}));
+      `Torsional stiffness ${digits(calibration.torsional_stiffness)} N m/rad; InvOLS ${withUnit(calibration.invols_normal, "m/V")} normal` +
+      (calibration.invols_lateral ? `, ${withUnit(calibration.invols_lateral, "m/V")} lateral.` : ".")}));
   },
 });
 

@@ -37,7 +37,7 @@ function drawCells(ctx, width, height, {cells, x, y}, [low, high]) {
 
 // Steps, one per row of cells; range at least 0.01, so that round-off does not look like a profile.
 function drawProfile(ctx, width, height, {profile, y}, [least, most]) {
-  if (!(least <= most)) return sayEmpty(ctx, width, height);
+  if (!(least <= most) || !known(profile).length) return sayEmpty(ctx, width, height);
   const middle = (least + most) / 2, half = Math.max(0.005, 0.55 * (most - least));
   const low = middle - half, high = middle + half, unit = unitFor("m", y.at(-1) - y[0]);
   const left = 52, base = height - 40, top = 8, right = width - 14;
@@ -112,7 +112,7 @@ function drawRose(ctx, width, height, {number, force}, most) {
 const known = cells => cells.filter(value => value !== null);
 const rangeText = values => !values.length ? "nothing" : "from " + bounds([values]).map(value => digits(value)).join(" to ");
 const rangeOf = (frames, name) => bounds(frames.filter(frame => frame.density).map(frame => known(frame.density[name])));
-const largestShare = frames => Math.max(...frames.filter(frame => frame.network)
+const largestShare = frames => Math.max(...frames.filter(({network}) => network?.number)
   .flatMap(({network: {number, force}}) => [...number, ...force])) || 1;
 const hasDensity = run => run.densities.length > 0;
 const atTime = frame => `at ${withUnit(frame.time, "s")}`;
