@@ -63,39 +63,48 @@ void spread(std::vector<double>& volume, double part, double from, double to) {
 }  // namespace
 
 DensityProfile density_along_z(std::span<const double> xyz, std::span<const std::int32_t> hexahedra,
-                               double area, std::size_t slices) {
+                               const CrossSection& section, std::size_t slices) {
   const Box box = box_of(xyz);
-  const double low = box.min().z(), step = (box.max().z() - low) / static_cast<double>(slices);
+  const double low = std::max(box.min().z(), section.low);
+  const double step = (std::min(box.max().z(), section.high) - low) / static_cast<double>(slices);
+  if (!(step > 0) || !(section.area > 0)) return {};
   DensityProfile profile{std::vector(slices, 0.0), {}};
   for (std::size_t i = 0; i <= slices; ++i)
     profile.edges.push_back(low + step * static_cast<double>(i));
-  if (!(step > 0) || !(area > 0)) return profile;
   for (std::size_t first = 0; first < hexahedra.size(); first += 8)
     for_parts(xyz, hexahedra.subspan(first, 8), [&](double volume, double from, double to) {
       spread(profile.density, volume, (from - low) / step, (to - low) / step);
     });
-  for (double& density : profile.density) density /= area * step;
+  for (double& density : profile.density) density /= section.area * step;
   return profile;
 }
 
 CrossSection cross_section(const hdf5::File& file, const std::string& frame,
                            std::span<const double> xyz) {
-  Box room = box_of(xyz), die;
+  Box room = box_of(xyz), die,
+      mouth;  // the die: its upright wall; the mouth: what widens or closes around its end
   bool walls = false;
   for (const Piece& piece : pieces_of(file, frame)) {
     const Vec3 normal = piece.normal(), &at = piece.corners[0];
-    if (!(std::abs(normal.z()) < upright)) continue;
+    const bool stands = std::abs(normal.z()) < upright;
     if (piece.kind == "die")
-      for (const Vec3& corner : piece.corners) die.extend(corner);
+      for (const Vec3& corner : piece.corners) (stands ? die : mouth).extend(corner);
+    if (!stands) continue;
     for (const int k : {0, 1}) {
       if (piece.kind != "plane" || !(std::abs(normal[1 - k]) < upright)) continue;
       (normal[k] > 0 ? room.min() : room.max())[k] = at[k];
       walls = true;
     }
   }
-  const Vec3 size = die.isEmpty() ? room.sizes() : die.sizes();
-  if (!die.isEmpty()) return {std::numbers::pi / 4 * size.x() * size.y(), "die"};
-  return {size.x() * size.y(), walls ? "walls" : "powder"};
+  if (die.isEmpty())
+    return {.area = room.sizes().x() * room.sizes().y(), .bound = walls ? "walls" : "powder"};
+  CrossSection bore{.area = std::numbers::pi / 4 * die.sizes().x() * die.sizes().y(),
+                    .bound = "die"};
+  if (mouth.isEmpty()) return bore;  // longer than it is drawn
+  bore.bound = "die with a mouth";
+  const bool above = mouth.center().z() > die.center().z();
+  (above ? bore.high : bore.low) = above ? die.max().z() : die.min().z();
+  return bore;
 }
 
 }  // namespace pulvis

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,15 +17,19 @@ struct DensityProfile {
   std::vector<double> edges;    // m, z, one more than slices
 };
 
-// Hexahedra: eight rows of `xyz` each. `area`: m^2, cross-section of the space. The slices are equally thick and reach
-// from the lowest to the highest point.
-DensityProfile density_along_z(std::span<const double> xyz, std::span<const std::int32_t> hexahedra,
-                               double area, std::size_t slices);
-
 struct CrossSection {
   double area = 0;    // m^2
-  std::string bound;  // "die", "walls", "powder": whose inside it is
+  std::string bound;  // whose inside it is: "die", "die with a mouth", "walls", "powder"
+  // m, the part of z in which the space has this cross-section: a die ends at its mouth.
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
 };
+
+// Hexahedra: eight rows of `xyz` each. The slices are equally thick and reach from the lowest to the highest point within
+// the ends of the section; there are none if nothing is between these.
+DensityProfile density_along_z(std::span<const double> xyz, std::span<const std::int32_t> hexahedra,
+                               const CrossSection& section, std::size_t slices);
+
 // For a frame: of the round die along z if there is one; else of the box formed by upright walls across x and y, which
 // is as wide as the powder where there is no wall.
 CrossSection cross_section(const hdf5::File& file, const std::string& frame,

@@ -125,7 +125,7 @@ class SpaceFrames {
   Json profile(const std::string& frame) const {
     const auto xyz = file_.read_doubles(frame + "/position");
     const CrossSection section = cross_section(file_, frame, xyz);
-    const auto [density, edges] = density_along_z(xyz, mesh_.hexahedra, section.area, slices);
+    const auto [density, edges] = density_along_z(xyz, mesh_.hexahedra, section, slices);
     return {{"profile", density}, {"y", edges}, {"bound", section.bound}};
   }
 

@@ -70,7 +70,8 @@ TEST(SpaceMesh, PyramidsKeepTheSurfaceAndTheMeans) {
 TEST(DensityAlongZ, IsOneInAFullRoomAndHalfInOneOfTwiceTheArea) {
   const SpaceMesh mesh = block(3);
   for (const double area : {1.0, 2.0})
-    for (const double density : density_along_z(mesh.reference, mesh.hexahedra, area, 7).density)
+    for (const double density :
+         density_along_z(mesh.reference, mesh.hexahedra, {.area = area, .bound = {}}, 7).density)
       EXPECT_NEAR(density, 1 / area, 1e-12);
 }
 
@@ -78,10 +79,21 @@ TEST(DensityAlongZ, HoldsTheWholeVolume) {
   SpaceMesh mesh = block(3);
   for (std::size_t i = 0; i < mesh.reference.size(); i += 3)  // sheared: the volume stays
     mesh.reference[i + 2] += 0.3 * mesh.reference[i] - 0.2 * mesh.reference[i + 1];
-  const auto [density, edges] = density_along_z(mesh.reference, mesh.hexahedra, 2.0, 11);
+  const auto [density, edges] =
+      density_along_z(mesh.reference, mesh.hexahedra, {.area = 2, .bound = {}}, 11);
   const double sum = std::accumulate(density.begin(), density.end(), 0.0);
   EXPECT_NEAR(2.0 * sum * (edges[1] - edges[0]), 1, 1e-12);
   EXPECT_LT(density.front(), 0.5 * density[5]);  // only a corner reaches down there
+}
+
+TEST(DensityAlongZ, EndsWhereTheSpaceEnds) {
+  const SpaceMesh mesh = block(3);
+  const CrossSection to_mouth{.area = 2, .bound = {}, .high = 0.7};
+  const auto [density, edges] = density_along_z(mesh.reference, mesh.hexahedra, to_mouth, 7);
+  EXPECT_THAT(density, Each(::testing::DoubleNear(0.5, 1e-12)));  // nothing of what is above
+  EXPECT_DOUBLE_EQ(edges.back(), 0.7);
+  const CrossSection below{.area = 2, .bound = {}, .high = -0.1};
+  EXPECT_TRUE(density_along_z(mesh.reference, mesh.hexahedra, below, 7).density.empty());
 }
 
 class SpaceReportTest : public ::testing::Test {

@@ -102,12 +102,73 @@ def test_density_along_z_is_that_of_the_block_in_its_room(blocks):
     run = pulvis.open(blocks)
     frame = run.frame(2)
     room = cross_section(run, frame, frame.nodes)
-    assert room == pytest.approx(2 * SIZE**2)  # between the two planes, and as wide as the powder across them
+    assert room.area == pytest.approx(2 * SIZE**2)  # between the two planes, and as wide as the powder across them
     density, z = density_along_z(run.mesh.cells, frame.nodes, room, 7)
     np.testing.assert_allclose(density, 0.5)
     assert z[-1] == pytest.approx(2.2 * SIZE)
     figure, axes = run.plot.density_profile()
     assert axes.get_ylabel() == "$z$ / mm" and len(axes.lines) == 3
+
+
+@pytest.fixture(scope="module")
+def ejected(blocks, tmp_path_factory):
+    """The same blocks in a round die that ends between them, below a wider face; in the last frame they are above it."""
+    folder = tmp_path_factory.mktemp("ejected") / "run"
+    shutil.copytree(blocks, folder)
+    angles, count = np.arange(8) * np.pi / 4, 8
+    rings = [np.stack([r * SIZE * np.cos(angles), r * SIZE * np.sin(angles), np.full(count, z * SIZE)], axis=1)
+             for r, z in ((2, -1), (2, 1), (3, 1))]
+    quads = [[a * count + i, a * count + (i + 1) % count, (a + 1) * count + (i + 1) % count, (a + 1) * count + i]
+             for a in (0, 1) for i in range(count)]
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for name in ("tools/quads", "tools/quad_tool", *(f"frames/{k:06}/tools/outline" for k in range(3))):
+            del file[name]
+        write(file, "tools/quads", np.array(quads, np.int32))
+        write(file, "tools/quad_tool", np.zeros(len(quads), np.int32), names="die", kinds="die")
+        for frame in file["frames"].values():
+            write(frame, "tools/outline", np.concatenate(rings), place="list", components=3, unit="m")
+        file["frames/000002/position"][...] += [0, 0, 2 * SIZE]
+    return folder
+
+
+def test_density_along_z_ends_at_the_mouth_of_the_die(ejected, tmp_path):
+    run = pulvis.open(ejected)
+    frame = run.frame(0)
+    room = cross_section(run, frame, frame.nodes)
+    density, z = density_along_z(run.mesh.cells, frame.nodes, room)
+    assert z[-1] == room.high == pytest.approx(SIZE)
+    np.testing.assert_allclose(density, 1 / (4 * np.pi))
+    _, axes = run.plot.density_profile()
+    assert len(axes.lines) == 2  # nothing is left in the die in the last frame
+    assert "in the die, below its mouth" in axes.get_title("left")
+    call("figure", ejected, "-o", tmp_path, "--format", "csv")
+    head = (tmp_path / "density_profile.csv").read_text(encoding="utf-8").splitlines()[0]
+    assert head.count("relative density, t = ") == 2  # both curves
+
+
+def test_a_section_is_in_the_powder(blocks, tmp_path):
+    says = call("figure", blocks, "-o", tmp_path, "--at", "100mm", code=2)
+    assert "--at 100 mm: allowed: 0 m to 1 mm, where the powder is along y" in says and not list(tmp_path.iterdir())
+    with pytest.raises(PulvisError, match="where the powder is along z"):
+        pulvis.open(blocks).plot.section(across="z", at=-1e-3)
+
+
+def test_small_powders_have_axes_in_micrometres(blocks, tmp_path):
+    small = tmp_path / "small"
+    shutil.copytree(blocks, small)
+    with h5py.File(small / "run.h5", "r+") as file:
+        for name in ("mesh/reference", *(f"frames/{k:06}/{of}" for k in range(3) for of in ("position", "tools/outline"))):
+            file[name][...] *= 0.02
+    figure, axes = pulvis.open(small).plot.section(frame=0)
+    figure.canvas.draw()
+    assert axes.get_ylabel() == "$z$ / µm"
+    place, text = [(place, label.get_text()) for place, label in zip(axes.get_yticks(), axes.get_yticklabels()) if place > 0][0]
+    assert float(text) == pytest.approx(1e3 * place)  # drawn in mm
+
+
+def test_a_powder_is_no_lever(blocks):
+    with pytest.raises(PulvisError, match="nothing recorded of frames of a lever"):
+        pulvis.open(blocks).plot.solid()
 
 
 def test_tools_look_at_the_powder(blocks):

@@ -3,7 +3,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, sheet
+from pulvis.figures.look import Options, bar_beside, close_up, moment, name_lengths, recorded, sheet
 from pulvis.figures.names import label
 
 LETTERS = 20  # points of width that a printed density value takes
@@ -19,6 +19,11 @@ def chosen_frames(run, options, count=MAPS):
     return [frames[number] for number in numbers] if frames else []
 
 
+def grid_of(frame):
+    """Corners of the density grid, m: lower left, upper right."""
+    return np.stack([frame[f"density_grid/{axis}"][()][[0, -1]] for axis in "xy"], axis=1)
+
+
 def draw_map(axes, frame, ends, colours, room):
     """The cells of one frame, with density values printed if they fit; room: width of the map in points."""
     low, high = ends
@@ -32,9 +37,26 @@ def draw_map(axes, frame, ends, colours, room):
                 dark = (value - low) / (high - low) > 0.6
                 axes.text((x[i] + x[i + 1]) / 2, (y[j] + y[j + 1]) / 2, f"{value:.3f}", size=7,
                           ha="center", va="center", color="#1d2733" if dark else "white")
-    axes.set(aspect="equal", xlabel="$x$ / mm", title=f"$t$ = {moment(frame)}")
+    axes.set(aspect="equal", title=f"$t$ = {moment(frame)}")
+    name_lengths(axes, grid_of(frame), x="x")
     axes.grid(False)
     return mesh
+
+
+def draw_profiles(axes, along, profiles):
+    """profiles: (time in words, densities [slices], places [slices + 1] m along the axis `along`) of each curve."""
+    for time, density, places in profiles:
+        axes.plot(np.repeat(density, 2), 1e3 * np.repeat(places, 2)[1:-1], label=f"$t$ = {time}")
+    axes.set_xlabel(label("relative_density", ""))
+    name_lengths(axes, np.concatenate([places for _, _, places in profiles]), y=along)
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+
+
+def profile_table(along, profiles):
+    """The middles of the slices and their densities, of every curve."""
+    named = (lambda name, time: f"{name}, t = {time}") if len(profiles) > 1 else lambda name, _: name
+    return [column for time, density, places in profiles for column in
+            ((named(along, time), "m", (places[1:] + places[:-1]) / 2), (named("relative density", time), "-", density))]
 
 
 def density_table(frame):
@@ -62,7 +84,7 @@ def local_density(run, options=None, axes=None):
         figure, places, frames = axes.figure, [axes], frames[-1:]
     for place, frame in zip(places, frames):
         mesh = draw_map(place, frame, (low, high), colour_map(options), 50 * figure.get_figwidth() / len(frames))
-    places[0].set_ylabel("$y$ / mm")
+    name_lengths(places[0], grid_of(frames[0]), x="x", y="y")
     if len(places) == 1:
         bar_beside(figure, places[0], mesh, label("local_density", ""))
         places[0].set_title("")
@@ -83,12 +105,8 @@ def density_profile(run, options=None, axes=None):
     if not frames or len(frames[0]["density_profile"]) < 2:
         return None
     figure, axes = sheet(options, (6.4, 4.2), axes)
-    for frame in frames:
-        lines = 1e3 * frame["density_grid/y"][()]
-        values = frame["density_profile"][()]
-        axes.plot(np.repeat(values, 2), np.repeat(lines, 2)[1:-1], label=f"$t$ = {moment(frame)}")
-    axes.set(xlabel=label("relative_density", ""), ylabel="$y$ / mm")
+    profiles = [(moment(frame), frame["density_profile"][()], frame["density_grid/y"][()]) for frame in frames]
+    draw_profiles(axes, "y", profiles)
     options.head(axes, "Relative density along the height", run)
-    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
-    figure.table = [("y", "m", (lines[1:] + lines[:-1]) / 2e3), ("relative density", "-", values)]
+    figure.table = profile_table("y", profiles)
     return figure

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field as of_dataclass
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.font_manager import FontProperties
+from matplotlib.ticker import FuncFormatter
 
 from pulvis.figures.names import capital, label, over, plain
 from pulvis.figures.quantities import limits_of, unit_for, with_unit
@@ -104,8 +105,20 @@ def seam(options):
     return 0.35 if options.vector else max(0.35, 1.3 * 72 / options.dpi)
 
 
-def set_axes(axes, limits):
-    axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel="$x$ / mm", ylabel="$y$ / mm")
+def name_lengths(axes, extent, x=None, y=None):
+    """Labels axes that are drawn in mm, in the unit that suits the extent (m). x, y: symbols; None: not a length."""
+    factor, unit = unit_for("m", np.ptp(extent, axis=0))
+    ticks = FuncFormatter(lambda place, _: f"{1e-3 * factor * place:.6g}".replace("-", "−"))
+    for axis, symbol in ((axes.xaxis, x), (axes.yaxis, y)):
+        if symbol:
+            axis.set_label_text(f"${symbol}$ / {unit}")
+            axis.set_major_formatter(ticks)
+
+
+def set_axes(axes, limits, names="xy"):
+    """limits: mm."""
+    axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
+    name_lengths(axes, 1e-3 * limits, *names)
     axes.grid(False)
 
 

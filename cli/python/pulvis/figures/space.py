@@ -6,9 +6,10 @@ from matplotlib.collections import LineCollection, PolyCollection
 
 from pulvis.errors import PulvisError
 from pulvis.figures.colours import colour_map, colours_of
+from pulvis.figures.densities import draw_profiles, profile_table
 from pulvis.figures.fields import DEFAULT_FIELD, OUTLINE, field_of
-from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, shape_of, sheet, unit_for, worded
-from pulvis.figures.names import capital, label, name_of
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.names import capital, name_of
 from pulvis.figures.quantities import with_unit
 from pulvis.figures.space_mesh import density_along_z, outer_sides, section
 from pulvis.figures.space_tools import cross_section, cut, normals, pieces, rims
@@ -172,6 +173,17 @@ def space_network(run, options=None, axes=None):
     return figure
 
 
+def asked_place(frame, options):
+    """`options.at`, if it is in the powder."""
+    axis = "xyz".index(options.across)
+    places = frame["position"][()][:, axis]
+    low, high = places.min(), places.max()
+    if options.at is not None and not low <= options.at <= high:
+        raise PulvisError(f"--at {with_unit(options.at, 'm')}: allowed: {with_unit(low, 'm')} to {with_unit(high, 'm')}, where the powder is "
+                          f"along {options.across}", key="--at")
+    return options.at
+
+
 def fullest(run, position, axis):
     """The position in the middle third where a plane cuts the most cells, m: avoids gaps between two layers."""
     low, high = position[:, axis].min(), position[:, axis].max()
@@ -191,7 +203,7 @@ def section_picture(run, options=None, axes=None):
     (frame, field), axis = asked, "xyz".index(options.across)
     position, others = frame["position"][()], [name for name in "xyz" if name != options.across]
     ends = np.array([position.min(axis=0), position.max(axis=0)])
-    at = fullest(run, position, axis) if options.at is None else options.at
+    at = fullest(run, position, axis) if asked_place(frame, options) is None else options.at
     polygons, cells = section(run.mesh.cells, position, axis, at)
     lines = cut(pieces(run, frame)[0], axis, at)
     limits = np.delete(np.array([np.minimum(ends[0], pieces(run, frame)[0].reshape(-1, 3).min(axis=0, initial=np.inf)),
@@ -206,8 +218,7 @@ def section_picture(run, options=None, axes=None):
     faces.set_edgecolor(OUTLINE)
     place.add_collection(faces)
     place.add_collection(LineCollection(1e3 * lines, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
-    place.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel=f"${others[0]}$ / mm", ylabel=f"${others[1]}$ / mm")
-    place.grid(False)
+    set_axes(place, limits, others)
     options.head(place, f"{title_of(field)} in the plane ${options.across}$ = {with_unit(at, 'm')} at {moment(frame)}", run)
     colours.key(figure, place)
     close_up(figure, options, axes)
@@ -223,15 +234,19 @@ def space_profile(run, options=None, axes=None):
         return None
     numbers = [options.frame] if options.frame is not None else np.unique(
         np.linspace(0, len(run.frames) - 1, PROFILES).round().astype(int))
-    figure, place = sheet(options, (6.4, 4.2), axes)
+    profiles = []
     for frame in (run.frame(int(number)) for number in numbers):
         position = frame["position"][()]
-        density, z = density_along_z(run.mesh.cells, position, cross_section(run, frame, position))
-        place.plot(np.repeat(density, 2), 1e3 * np.repeat(z, 2)[1:-1], label=f"$t$ = {moment(frame)}")
-    place.set(xlabel=label("relative_density", ""), ylabel="$z$ / mm")
-    options.head(place, "Relative density along z", run)
-    place.legend(loc="upper left", bbox_to_anchor=(1, 1))
-    figure.table = [("z", "m", (z[1:] + z[:-1]) / 2), ("relative density", "-", density)]
+        room = cross_section(run, frame, position)
+        profile = density_along_z(run.mesh.cells, position, room)
+        if profile is not None:
+            profiles.append((moment(frame), *profile))
+    if not profiles:
+        return None
+    figure, place = sheet(options, (6.4, 4.2), axes)
+    draw_profiles(place, "z", profiles)
+    options.head(place, " ".join(filter(None, ["Relative density along z", room.inside])), run)
+    figure.table = profile_table("z", profiles)
     return figure
 
 

@@ -3,9 +3,10 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, shape_of, sheet
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, set_axes, shape_of, sheet
 from pulvis.figures.names import label
 from pulvis.figures.quantities import with_unit
+from pulvis.figures.space import asked_place
 from pulvis.figures.space_tools import cut, pieces
 from pulvis.figures.tools import TOOL_EDGE
 
@@ -27,7 +28,10 @@ def density_slice(run, options=None, axes=None):
         return None
     values, lines = frame.density()
     axis, others = "xyz".index(options.across), [k for k in range(3) if "xyz"[k] != options.across]
-    layer = layer_of(lines[axis], options.at)
+    at = asked_place(frame, options)
+    if at is not None and not lines[axis][0] <= at <= lines[axis][-1]:
+        return None  # outside the tools
+    layer = layer_of(lines[axis], at)
     cells = np.take(values, layer, axis).T  # rows: the second of the two remaining axes
     low, high = options.clim(values, "-")
     low, high = (low, high) if high - low > 1e-6 else (low - 0.01, high + 0.01)
@@ -46,8 +50,7 @@ def density_slice(run, options=None, axes=None):
     walls = cut(pieces(run, frame)[0], axis, at)
     place.add_collection(LineCollection(1e3 * walls, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
     names = ["xyz"[k] for k in others]
-    place.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel=f"${names[0]}$ / mm", ylabel=f"${names[1]}$ / mm")
-    place.grid(False)
+    set_axes(place, limits, names)
     ends = " to ".join(with_unit(lines[axis][layer + k], "m") for k in (0, 1))
     options.head(place, f"Local relative density, ${options.across}$ from {ends}, at {moment(frame)}", run)
     bar_beside(figure, place, drawn, label("local_density", ""))

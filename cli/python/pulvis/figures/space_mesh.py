@@ -53,9 +53,13 @@ def parts(hexahedra, position):
     return volume, low, high
 
 
-def density_along_z(hexahedra, position, area, slices=SLICES):
-    """(density [slices], z [slices + 1], m): solid volume over available volume in slices of equal thickness."""
+def density_along_z(hexahedra, position, section, slices=SLICES):
+    """(density [slices], z [slices + 1], m): solid volume over available volume in slices of equal thickness. section:
+    space_tools.CrossSection; None if nothing is between its ends."""
+    bottom, top = max(position[:, 2].min(), section.low), min(position[:, 2].max(), section.high)
+    if not bottom < top:
+        return None
     volume, low, high = (values.ravel() for values in parts(hexahedra, position))
-    z = np.linspace(position[:, 2].min(), position[:, 2].max(), slices + 1)
+    z = np.linspace(bottom, top, slices + 1)
     below = np.clip((z[:, None] - low) / np.maximum(high - low, 1e-30), 0, 1) @ volume
-    return np.diff(below) / (area * np.diff(z)), z
+    return np.diff(below) / (section.area * np.diff(z)), z

@@ -1,4 +1,6 @@
 """The tools of a run in three dimensions: surface quads, counter-clockwise seen from the powder."""
+from typing import NamedTuple
+
 import numpy as np
 
 UPRIGHT = 1e-3
@@ -44,18 +46,30 @@ def cut(corners, axis, at):
     return np.array(lines).reshape(-1, 2, 2)
 
 
+class CrossSection(NamedTuple):
+    """Of the space of the powder, normal to z."""
+
+    area: float  # m^2
+    inside: str = ""  # of a die, in words
+    low: float = -np.inf  # m, the part of z in which the space has this cross-section: a die ends at its mouth
+    high: float = np.inf
+
+
 def cross_section(run, frame, position):
-    """Cross-section normal to z, m^2: of a round die, or of the box between the vertical walls; the width of the powder
-    where there is no wall."""
+    """Of a round die, or of the box between the vertical walls; the width of the powder where there is no wall."""
     corners, kinds = pieces(run, frame)
     normal = normals(corners)
     upright = np.abs(normal[:, 2]) < UPRIGHT
     die = corners[upright & (kinds == "die")].reshape(-1, 3)
     if len(die):
-        return np.pi / 4 * np.prod(np.ptp(die[:, :2], axis=0))
+        area, mouth = np.pi / 4 * np.prod(np.ptp(die[:, :2], axis=0)), corners[~upright & (kinds == "die")].reshape(-1, 3)
+        if not len(mouth):  # longer than it is drawn
+            return CrossSection(area, "in the die")
+        ends = {"high": die[:, 2].max()} if mouth[:, 2].mean() > die[:, 2].mean() else {"low": die[:, 2].min()}
+        return CrossSection(area, "in the die, below its mouth", **ends)
     low, high = position[:, :2].min(axis=0), position[:, :2].max(axis=0)
     for piece, across in zip(corners[upright & (kinds == "plane")], normal[upright & (kinds == "plane")]):
         k = int(np.abs(across[:2]).argmax())
         if abs(across[1 - k]) < UPRIGHT:
             (low if across[k] > 0 else high)[k] = piece[0, k]
-    return np.prod(high - low)
+    return CrossSection(np.prod(high - low))

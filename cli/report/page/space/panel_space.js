@@ -1,16 +1,16 @@
 // The density along z in 3D, for the current frame.
 "use strict";
 
-const PROFILE_ROOMS = {die: "the inside of the die", walls: "the inside of the walls", powder: "bounded by the powder"};
+const PROFILE_ROOMS = {die: "inside the die", "die with a mouth": "inside the die, below its mouth", walls: "inside the walls", powder: "bounded by the powder"};
 
 addPanel({
   title: "Relative density along z", order: 11, when: run => run.inSpace && run.frames.length > 0,
   draw(report, host) {
-    const ends = frames => bounds(frames.map(({profile}) => profile.profile));
+    const ends = frames => bounds(frames.filter(frame => frame.profile).map(({profile}) => profile.profile));
     report.figure(host, {
       title: "Relative density along z", shape: 0.75,
       draw: (ctx, width, height, {profile}, frames) => drawProfile(ctx, width, height, profile, ends(frames)),
-      note: ({profile: {profile, bound}, time}) => `Solid volume in ${profile.length} slices of equal thickness over the volume of ` +
+      note: ({profile: {profile, bound}, time}) => !profile.length ? `Nothing is ${PROFILE_ROOMS[bound]}, at ${withUnit(time, "s")}.` : `Solid volume in ${profile.length} slices of equal thickness over the volume of ` +
         `the slice (${PROFILE_ROOMS[bound]}), at ${withUnit(time, "s")}.`,
       columns: ({profile: {profile, y}}) => [
         {label: "z", unit: "m", values: profile.map((_, j) => (y[j] + y[j + 1]) / 2)},
