@@ -18,6 +18,7 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double straight = 1 - 1e-9;  // cosine between directions that count as parallel
 constexpr double goes_along = 0.1;     // share of the target's speed by which a particle may lag
+constexpr double least_shared = 0.02;  // of the normal force: a smaller lateral force has no shares
 constexpr double static_share = 0.25;  // of the sliding distance, from its beginning
 constexpr double dynamic_share = 0.5;  // of the sliding distance, to its end
 
@@ -211,8 +212,9 @@ void ShearResults::append_sample(double plastic, std::vector<double>& row) {
     row.push_back(dilation);
   }
   if (setup_->wall >= 0)
-    row.push_back(lateral > 0 ? vector_of(forces, setup_->wall).dot(setup_->along) / lateral
-                              : nothing);
+    row.push_back(lateral > least_shared * normal && lateral > 0
+                      ? vector_of(forces, setup_->wall).dot(setup_->along) / lateral
+                      : nothing);
   const Clock& clock = world_.resource<Clock>();
   const bool goes_on = distance > (samples_.empty() ? 0 : samples_.back().distance);
   if (goes_on && clock.time <= stage().end + clock.dt_before)
