@@ -105,6 +105,18 @@ function hidesWhatIsNearZero() {
   return isShown && drawn() === before;
 }
 
+// The title of a vertical axis is within its chart and left of the ticks.
+function axesAreApart() {
+  const box = text => text.getBoundingClientRect(), plots = [...document.querySelectorAll(".plot svg")];
+  const wrong = plots.filter(svg => {
+    const titles = [...svg.querySelectorAll('text[transform*="rotate(-90)"]')].map(box), all = box(svg);
+    const ticks = [...svg.querySelectorAll('text[text-anchor="end"]')].map(text => box(text).left);
+    return titles.some(title => title.left < all.left - 1 || title.top < all.top - 1 || title.bottom > all.bottom + 1 ||
+                                ticks.some(left => left < title.right));
+  });
+  return plots.length > 0 && (wrong.length === 0 || `${wrong.length} of ${plots.length}: ${wrong[0].textContent}`);
+}
+
 // Lists have words and symbols: no key of a series or a value stands in one.
 function hasNames() {
   const heads = [...document.querySelectorAll("#summary th, #quality th")].map(head => head.firstChild?.textContent ?? "");
@@ -116,6 +128,7 @@ function hasNames() {
 async function drive() {
   await until(() => document.body.dataset.ready);
   told("hasCurves", document.querySelectorAll("path.curve").length > 0);
+  told("axesApart", axesAreApart());
   told("whole", isWhole());
   told("named", hasNames());
   told("nearZeroOff", hidesWhatIsNearZero());

@@ -42,24 +42,70 @@ function withMargin([low, high], share) {
   return [low === 0 ? 0 : low - margin, high === 0 ? 0 : high + margin];
 }
 
+// Samples drawn as marks whose error bar is many times longer than is usual in the chart: {line, i}. They do not scale
+// the axis; their bars are cut off at its ends.
+const UNCERTAIN = 20;  // over the median length
+
+function uncertainMarks(lines) {
+  const bars = lines.filter(line => line.isMarks).flatMap(line =>
+    Array.from(line.values, (_, i) => ({line, i, length: line.high[i] - line.low[i]}))).filter(({length}) => length > 0);
+  const median = bars.map(({length}) => length).sort((a, b) => a - b)[bars.length >> 1];
+  return bars.filter(({length}) => length > UNCERTAIN * median);
+}
+
 // The chart data in display units, for drawing and for the cursor readout.
 function shownChart(spec, hidden) {
-  const xsOf = line => line.x || spec.x.values;
+  const xsOf = line => line.x || spec.x.values, uncertain = uncertainMarks(spec.lines);
   const most = lists => Math.max(0, ...lists.map(largest));
+  const certain = (line, values) => (values || []).filter((_, i) => !uncertain.some(one => one.line === line && one.i === i));
   const x = unitFor(spec.x.unit, most(spec.lines.map(xsOf)));
-  const y = unitFor(spec.lines[0].unit, most(spec.lines.map(line => line.values)));
+  const y = unitFor(spec.lines[0].unit, most(spec.lines.map(line => certain(line, line.values))));
   const shown = spec.lines.filter((_, i) => !hidden.has(i));
   const ends = line => !line.deviation ? [] : barSamples(line).flatMap(i => [line.values[i] - line.deviation[i], line.values[i] + line.deviation[i]]);
   const fits = shown.map(line => line.fit).filter(Boolean);
   return {x, y, xLabel: labelled(spec.x.label, x.label), yLabel: labelled(spec.y, y.label),
           whole: {x: withMargin(bounds([...shown.map(xsOf), ...fits.map(fit => fit.x)]), 0.02).map(v => v * x.factor),
-                  y: withMargin(bounds([...shown.flatMap(line => [line.values, line.low || [], line.high || [], ends(line)]),
+                  y: withMargin(bounds([...shown.flatMap(line => [...[line.values, line.low, line.high].map(values => certain(line, values)), ends(line)]),
                                         ...fits.map(fit => fit.values)]), 0.05).map(v => v * y.factor)}};
 }
 
+// Width of text as drawn in charts, pixels.
+function textWidth(text) {
+  const ctx = textWidth.context ||= element("canvas", {}).getContext("2d");
+  ctx.font = "12px system-ui, sans-serif";
+  return ctx.measureText(text).width;
+}
+
+// The title of a vertical axis, in lines that fit its height.
+function titleLines(title, tall) {
+  const lines = [];
+  for (const word of title.split(" ")) {
+    const longer = lines.length ? `${lines.at(-1)} ${word}` : word;
+    if (lines.length && textWidth(longer) <= tall) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}
+
+const LINE_HEIGHT = 15, LEAST_LEFT = 62;
+
+// Room to the left of the plot: for the ticks and the title beside them.
+function roomOnTheLeft(ticks, title, tall) {
+  const widest = Math.max(0, ...ticks.map(tick => textWidth(digits(tick))));
+  return Math.max(LEAST_LEFT, Math.ceil(6 + LINE_HEIGHT * titleLines(title, tall).length + 6 + widest + 7));
+}
+
+// The title of a vertical axis as SVG, from the left edge of the figure.
+function axisTitleSvg(title, top, bottom) {
+  return titleLines(title, bottom - top).map((line, i) =>
+    `<text x="0" y="0" text-anchor="middle" transform="translate(${15 + LINE_HEIGHT * i} ${(top + bottom) / 2}) rotate(-90)">${markup(line)}</text>`).join("");
+}
+
+const valueTicks = ([low, high]) => niceTicks(low, high, 5);
+
 // The plot rectangle within the figure, and the mapping from values to it.
-function chartPlace({x: [x0, x1], y: [y0, y1]}, width, height) {
-  const left = 62, right = width - 12, top = 10, bottom = height - 44;
+function chartPlace({x: [x0, x1], y: [y0, y1]}, {width, height}, yLabel) {
+  const right = width - 12, top = 10, bottom = height - 44, left = roomOnTheLeft(valueTicks([y0, y1]), yLabel, bottom - top);
   const sx = (right - left) / (x1 - x0), sy = (bottom - top) / (y1 - y0);
   return {left, right, top, bottom, px: v => left + (v - x0) * sx, py: v => bottom - (v - y0) * sy,
           xAt: p => x0 + (p - left) / sx, yAt: p => y0 + (bottom - p) / sy};
@@ -118,7 +164,7 @@ const keySvg = ({dash, isMarks}, stroke) => `<svg width="26" height="8" viewBox=
 function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
   const shown = shownChart(spec, hidden), range = view || shown.whole, told = spec.lines.map((_, i) => i).filter(i => !hidden.has(i));
   const rows = legend ? told.length * 16 : 0;
-  const place = chartPlace(range, width, height), {left, right, top, bottom, px, py} = place;
+  const place = chartPlace(range, {width, height}, shown.yLabel), {left, right, top, bottom, px, py} = place;
   const text = (x, y, anchor, content, more = "") =>
     `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" ${more}>${markup(content)}</text>`;
   const line = (x0, y0, x1, y1, stroke) =>
@@ -131,12 +177,12 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
     out.push(line(px(tick), top, px(tick), bottom, colours.grid),
              text(Math.min(px(tick), width - 30), bottom + 16, "middle", abscissaText(spec.x, tick)));
   }
-  for (const tick of niceTicks(...range.y, 5)) {
+  for (const tick of valueTicks(range.y)) {
     out.push(line(left, py(tick), right, py(tick), colours.grid), text(left - 7, py(tick) + 4, "end", digits(tick)));
   }
   if (range.y[0] < 0 && range.y[1] > 0) out.push(line(left, py(0), right, py(0), colours.edge));
   out.push(text((left + right) / 2, height - 8, "middle", shown.xLabel),
-           text(0, 0, "middle", shown.yLabel, `transform="translate(13 ${(top + bottom) / 2}) rotate(-90)"`));
+           axisTitleSvg(shown.yLabel, top, bottom));
   const clip = `plot-${chartSvg.count = (chartSvg.count || 0) + 1}`;
   out.push(`<clipPath id="${clip}"><rect x="${left}" y="${top}" width="${right - left}" ` +
            `height="${bottom - top}"/></clipPath><g clip-path="url(#${clip})" fill="none" ` +
@@ -228,7 +274,7 @@ class Chart {
     const options = {...this, colours: theme(), legend: false};
     this.picture.innerHTML = chartSvg(this.spec, options);
     this.shown = shownChart(this.spec, this.hidden);
-    this.place = chartPlace(this.view || this.shown.whole, this.width, this.height);
+    this.place = chartPlace(this.view || this.shown.whole, this, this.shown.yLabel);
     this.drawLegend();
     this.drawOver();
   }

@@ -28,11 +28,15 @@ function main() {
   const page = JSON.parse(document.getElementById("head").textContent);
   document.getElementById("lead").textContent = page.lead;
   document.getElementById("version").textContent = `Version ${page.version} (${page.commit}).`;
+  document.getElementById("values-file").textContent = page.values;
   document.getElementById("settings-text").textContent = page.settings;
   for (const {title, x, y, lines, note} of page.charts) {
     const place = card(title);
     drawChart(place, {x: {...x, values: []}, y, lines: lines.map(inColours)});
-    if (note) place.parentElement.append(element("p", {className: "note", textContent: note}));
+    const cut = uncertainMarks(lines).map(({line, i}) =>
+      `${line.label}: ${withError(line.values[i], (line.high[i] - line.low[i]) / 2)} at ${digits(line.x[i])}`);
+    const all = [note, cut.length && `Too uncertain for the scale, bar cut off: ${cut.join("; ")}.`].filter(Boolean).join(" ");
+    if (all) place.parentElement.append(element("p", {className: "note", textContent: all}));
   }
   page.tables.forEach(placeTable);
   document.body.dataset.charts = page.charts.length;

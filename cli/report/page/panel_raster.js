@@ -76,6 +76,11 @@ function drawMap(ctx, {left, top, wide, tall}, image, map) {
     ctx.fillText(digits(tick), x, top + tall + 16);
   }
   ctx.fillText(`along the scan [${unit.label}]`, left + wide / 2, top + tall + 32);
+  ctx.save();
+  ctx.translate(left - 40, top + tall / 2);
+  ctx.rotate(-Math.PI / 2);
+  ctx.fillText(`across [${image.pixel_height ? "µm" : "lines"}]`, 0, 0);
+  ctx.restore();
   ctx.textAlign = "right";
   for (const tick of niceTicks(0, up * unit.factor, Math.max(2, tall / 50))) {
     const y = top + tall * (1 - tick / (up * unit.factor));

@@ -3,6 +3,10 @@
 
 const FIRST_VIEW = {turn: -0.9, tilt: 0.42};
 
+// Of a node, from the displacements of all: their size, or a component.
+const shownOf = (moved, shown, node) => shown === "size" ? Math.hypot(moved[3 * node], moved[3 * node + 1], moved[3 * node + 2])
+  : moved[3 * node + Number(shown)];
+
 class SolidView {
   static async load(host, run) {
     const view = new SolidView(host, run);
@@ -32,11 +36,19 @@ class SolidView {
     this.size = Math.hypot(...this.box.map(([low, high]) => high - low)) || 1;
   }
 
-  // Magnified so that the largest displacement over all frames is an eighth of the size; never reduced.
+  // Over all frames: the colour limits of every choice, and the largest displacement. It is magnified to an eighth of the
+  // size; never reduced.
   async findScale() {
+    const names = this.choices.map(([name]) => name), limits = new Map(names.map(name => [name, [Infinity, -Infinity]]));
     let most = 0;
-    for (let i = 0; i < this.run.frames.length; ++i) most = Math.max(most, largest(await this.run.displacements(i)));
-    this.most = most;
+    for (let i = 0; i < this.run.frames.length; ++i) {
+      const moved = await this.run.displacements(i);
+      most = Math.max(most, largest(moved));
+      for (const name of names) {
+        limits.set(name, bounds([limits.get(name), Float32Array.from({length: moved.length / 3}, (_, node) => shownOf(moved, name, node))]));
+      }
+    }
+    Object.assign(this, {most, limits});
     const wanted = most > 0 ? this.size / 8 / most : 1, power = 10 ** Math.floor(Math.log10(wanted));
     this.larger = wanted > 1.5 ? Math.floor(wanted / power) * power : 1;
   }
@@ -51,13 +63,10 @@ class SolidView {
   }
   showShare(share) { return this.show({frame: this.run.frameAt(share * this.run.frames.at(-1).time)}); }
 
-  // Colour limits of this frame.
-  range() { return bounds([Float32Array.from({length: this.moved.length / 3}, (_, node) => this.valueOf(node))]); }
+  // Colour limits, the same in all frames.
+  range() { return this.limits.get(this.shown); }
 
-  valueOf(node) {
-    const at = 3 * node, {moved} = this;
-    return this.shown === "size" ? Math.hypot(moved[at], moved[at + 1], moved[at + 2]) : moved[at + Number(this.shown)];
-  }
+  valueOf(node) { return shownOf(this.moved, this.shown, node); }
 
   // Pixels per metre that fit the whole lever in the initial view, including its motion; `zoom` multiplies it.
   fit() {
@@ -124,7 +133,7 @@ class SolidView {
         value[f] += this.valueOf(faces[4 * f + k]) / 4;
       }
     }
-    const [low, high] = this.ranges ? this.ranges() : bounds([value]);
+    const [low, high] = this.ranges ? this.ranges() : this.range();
     const order = Array.from(far.keys()).sort((a, b) => far[b] - far[a]);
     ctx.lineJoin = "round";
     ctx.lineWidth = 0.4;

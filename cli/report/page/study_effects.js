@@ -28,17 +28,18 @@ function effectsRange(effects, name) {
 function effectsSvg(effects, {name, unit}, width, colours) {
   const {factor, label} = unitFor(unit, largest(effectsRange(effects, name)));
   const [low, high] = withMargin(effectsRange(effects, name).map(v => v * factor), 0.08);
-  const left = 66, right = width - 10, top = 28, bottom = 250, height = 320;
+  const title = labelled(titleOf(name), label), ticks = niceTicks(low, high, 5), top = 28, bottom = 250, height = 320;
+  const left = roomOnTheLeft(ticks, title, bottom - top), right = width - 10;
   const panel = (right - left) / effects.length, py = v => bottom - (v - low) / (high - low) * (bottom - top);
   const text = (x, y, anchor, content, more = "") =>
     `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" ${more}>${markup(content)}</text>`;
   const path = (d, stroke, more = "") => `<path d="${d}" stroke="${stroke}" fill="none" ${more}/>`;
   const out = [`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" ` +
                `font-family="system-ui, sans-serif" font-size="12" fill="${colours.soft}">`];
-  for (const tick of niceTicks(low, high, 5)) {
+  for (const tick of ticks) {
     out.push(path(`M${left} ${py(tick).toFixed(1)}H${right}`, colours.grid), text(left - 7, py(tick) + 4, "end", digits(tick)));
   }
-  out.push(text(0, 0, "middle", labelled(titleOf(name), label), `transform="translate(13 ${(top + bottom) / 2}) rotate(-90)"`));
+  out.push(axisTitleSvg(title, top, bottom));
   effects.forEach(({key, levels, balanced}, k) => {
     const x0 = left + k * panel, there = levels.filter(level => sampleAt(level, name));
     const px = i => x0 + panel * (i + 0.5) / levels.length, stroke = colours.lines[k % colours.lines.length];
