@@ -20,7 +20,7 @@ body_of() {
   { cat "$2"; echo "<script>const WANTED = \"$4\";"; cat "$(dirname "$0")/page_held.js" "${@:5}"; echo '</script>'; } >"$held"
   browse "$held" "$3" --dump-dom >"$work/page.html" 2>"$work/log.txt" || fail "$1: chromium: $(tail -3 "$work/log.txt")"
   # Software that plays a graphics card remarks that copying a picture takes its time.
-  if grep ':CONSOLE' "$work/log.txt" | grep -v 'GPU stall due to ReadPixels'; then fail "$1: the console has messages"; fi
+  if grep ':CONSOLE' "$work/log.txt" | grep -v 'GPU stall due to ReadPixels' >&2; then fail "$1: the console has messages"; fi
   grep -o '<body[^>]*>' "$work/page.html" | head -1
 }
 

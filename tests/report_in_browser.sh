@@ -31,7 +31,7 @@ check() {
 }
 
 drivers=()
-everything=(has-curves scrubbed back stepped playing linked curve-zoomed zoomed other-field dark)
+everything=(has-curves axes-apart scrubbed back stepped playing linked curve-zoomed zoomed other-field dark)
 particles=("${everything[@]}" tip fit)  # of a plane run
 
 # (Figures for papers are no pages.)
@@ -160,6 +160,32 @@ for named in "plane Friction loop" "jkr Force curve"; do
   [[ $body == *"data-probed=\"${named#* }\""* && $body != *data-error* ]] || fail "$scene: $body"
 done
 echo "ok: loop and force curve"
+
+# Side by side: scripts of one page share their names, and a run of one kind has not what a panel of another expects.
+for pair in "plane jkr" "plane thick-lever" "jkr compaction" "compaction ShowsParticlesInABox"; do
+  "$pulvis" report "$reports/${pair% *}" "$reports/${pair#* }" -o "$work/pair.html" >/dev/null || fail "report of $pair"
+  body=$(body_of "$pair" "$work/pair.html" 1200,2000 ready)
+  [[ $body == *'data-ready="1"'* && $body == *'data-views="2"'* && $body != *data-error* ]] || fail "$pair: $body"
+done
+echo "ok: comparison of unlike runs"
+
+# One run with -o: its report, elsewhere.
+"$pulvis" report "$reports/jkr" -o "$work/alone.html" >/dev/null || fail "report of one run with -o"
+body=$(body_of alone "$work/alone.html" 1200,2000 ready)
+[[ $body == *'data-ready="1"'* ]] && grep -q '<h2>Force curves' "$work/page.html" || fail "one run with -o: $body"
+echo "ok: report of one run elsewhere"
+
+# A run that was killed has no outcome and no summary: the page says so, and explains only the signs that it shows.
+mkdir "$work/killed"
+cp "$reports/compaction/run.h5" "$work/killed"
+/usr/bin/python3 -c 'import h5py, sys; del h5py.File(sys.argv[1], "r+").attrs["outcome"]' "$work/killed/run.h5"
+"$pulvis" report "$work/killed" >/dev/null || fail "report of a killed run"
+body=$(body_of killed "$work/killed/report.html" 1200,2000 ready)
+[[ $body == *'data-ready="1"'* ]] || fail "killed: $body"
+grep -q 'The run has not ended: it is still running, or was killed' "$work/page.html" || fail "killed: not told"
+grep -q '>at the end<' "$work/page.html" && fail "killed: told as if it were at its end"
+grep -q 'compression &gt; 0' "$work/page.html" && fail "killed: signs of forces that are not shown"
+echo "ok: report of a killed run"
 
 # The panel that docs/extending.md gives as an example, put where a panel's file would be read.
 /usr/bin/python3 - "$source_dir/docs/extending.md" "$reports/compaction/report.html" >"$work/panel.html" <<'PYTHON'

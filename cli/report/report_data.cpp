@@ -10,6 +10,7 @@
 #include "cli/report/report_space.hpp"
 #include "engine/files/hdf5.hpp"
 #include "engine/files/input_file.hpp"
+#include "scenes/lever/afm_figures.hpp"
 
 namespace pulvis {
 namespace {
@@ -81,6 +82,9 @@ class Reader {
     head["title"] = title;
     head["folder"] = folder;
     head["summary"] = summary;
+    if (!summary.contains("values") || !summary["values"].is_object()) return;
+    for (const SeriesInfo& info : afm_figures())
+      if (summary["values"].contains(info.name)) head["units"][info.name] = info.unit;
   }
 
   void read_scene() {

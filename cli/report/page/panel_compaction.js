@@ -1,12 +1,14 @@
 // Compaction: its key figures, and the laws fitted to its density curve.
 "use strict";
 
+const atTheEnd = run => run.hasEnded ? "at the end" : "so far";
+
 addFigures(run => {
   const {summary} = run, ratio = run.end("stress_ratio/axial");
   const density = summary.relative_density ?? run.end("relative_density");
   if (density === undefined) return [];
-  return [["relative density", digits(density, 4), "at the end"],
-          run.family === "compaction" && ratio > 0 && ["axial stress / yield stress", digits(ratio, 3), "at the end"]];
+  return [["relative density", digits(density, 4), atTheEnd(run)],
+          run.family === "compaction" && ratio > 0 && ["axial stress / yield stress", digits(ratio, 3), atTheEnd(run)]];
 });
 
 addPanel({

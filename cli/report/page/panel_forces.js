@@ -20,11 +20,15 @@ function faceNormal(tool) {
   return Math.abs(dx) >= Math.abs(dy) ? [0, Math.sign(dx)] : [-Math.sign(dy), 0];
 }
 
-const SIGNS = "Forces of the powder on the tools. Normal: from the powder into the tool, compression > 0, tension < 0. " +
-  "Tangential: along the face, > 0 towards +x, or +y on a vertical face. Fx, Fy: along the axes.";
-
-const SPACE_SIGNS = "Forces of the powder on the tools. Normal: from the powder into the tool, compression > 0, tension < 0. " +
-  "Tangential: along the face. For a die: along its axis, given by its normal, and across it. Fx, Fy, Fz: along the axes.";
+// The signs of the lines that are drawn.
+function signsOf(lines, inSpace) {
+  const has = key => lines.some(({name}) => name.endsWith(`/${key}`)), axes = inSpace ? "Fx, Fy, Fz" : "Fx, Fy";
+  return ["Forces of the powder on the tools.",
+          has("normal") && "Normal: from the powder into the tool, compression > 0, tension < 0.",
+          has("tangential") && (inSpace ? "Tangential: along the face." : "Tangential: along the face, > 0 towards +x, or +y on a vertical face."),
+          has("axial") && "For a die: along its axis, given by its normal, and across it.",
+          has("force_x") && `${axes}: along the axes.`].filter(Boolean).join(" ");
+}
 
 // In three dimensions a tangential force has no sign.
 function spaceForces({normal, shape}, axes, line) {
@@ -56,7 +60,8 @@ addCurves(run => {
   const density = run.has("relative_density") ? [run.series("relative_density", "relative density")] : [];
   const xs = [timeAxis(run), ...travels(run), ...density];
   const ratio = ["axial", "lateral"].filter(name => run.has(`stress_ratio/${name}`));
-  return [{title: "Forces on the tools", xs, y: "force", lines: forceLines(run), meaning: run.inSpace ? SPACE_SIGNS : SIGNS},
+  const forces = forceLines(run);
+  return [{title: "Forces on the tools", xs, y: "force", lines: forces, meaning: signsOf(forces, run.inSpace)},
           {title: "Stress over yield stress", xs: [...density, ...xs.filter(x => !density.includes(x))],
            y: "stress ratio σ / σy", lines: ratio.map(name => run.series(`stress_ratio/${name}`, name))}];
 });

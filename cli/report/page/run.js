@@ -44,6 +44,9 @@ class Run {
     return codes;
   }
 
+  // "done", "interrupted", "failed: ..."; "running" until one of these is written: still so, or killed.
+  get outcome() { return this.summary.outcome || "running"; }
+  get hasEnded() { return this.outcome !== "running" && this.outcome !== "interrupted"; }
   get family() {
     if (this.summary.family) return this.summary.family;
     return this.history.has("shear/friction") ? "shear" : "compaction";

@@ -30,6 +30,12 @@ function qualityCell({quality}) {
                         : element("span", {className: "within", textContent: "within limits"});
 }
 
+// The message of a failed run is long: it wraps.
+function outcomeCell(run) {
+  const text = run.failure || valueOf(run, "outcome")?.value || "–";
+  return text.length > 24 ? element("span", {className: "flag", textContent: text}) : text;
+}
+
 function fillRuns({runs}) {
   const columns = COLUMNS.filter(([name]) => runs.some(run => {
     const found = valueOf(run, name);
@@ -41,7 +47,7 @@ function fillRuns({runs}) {
     {title: "run", cells: runs.map(run => hasReport(run) ? linkTo(run) : run.name)},
     ...Object.keys(runs[0].varied).map(key => ({title: key, cells: runs.map(run => run.varied[key] || "–")})),
     {title: "seed", cells: runs.map(run => String(run.seed))},
-    {title: "outcome", cells: runs.map(run => run.failure || valueOf(run, "outcome")?.value || "–")},
+    {title: "outcome", cells: runs.map(outcomeCell)},
     {title: "quality", cells: runs.map(qualityCell)},
     ...columns.map(([name]) => ({title: titleOf(name), unit: unit(name), cells: of(name)}))], i => Boolean(runs[i].failure));
 }

@@ -14,12 +14,18 @@ function did(run) {
   if (family === "afm") return "A lever was calibrated" + (summary.loops ? " and scanned over a surface" :
                                (head.frames || []).length && summary.increments ? " and moved against a surface" : "");
   const particles = counted(head.mesh.particles, "particle");
+  if (!run.times.length) return `${titled(particles)} had not moved yet`;
   if (family === "shear") return `A target was slid under a compact of ${particles}`;
   const were = head.mesh.particles === 1 ? "was" : "were";
-  return summary.relative_density === undefined ? `${titled(particles)} ${were} moved and deformed`
+  return pressedDensity(run) === undefined ? `${titled(particles)} ${were} moved and deformed`
     : `${titled(particles)} ${were} pressed to a relative density of ` +
       digits(pressedDensity(run), 3);
 }
+
+// Other outcomes are words that follow "The run": "failed: ...".
+const OUTCOMES = {
+  done: "", interrupted: "The run was interrupted before its end.",
+  running: "The run has not ended: it is still running, or was killed. What is shown is as far as it had come when this page was written."};
 
 // What was done, how it ended, and whether the result is reliable, in words.
 function leadOf(run) {
@@ -27,7 +33,7 @@ function leadOf(run) {
   const elements = head.mesh ? head.mesh.cells : head.solid ? head.solid.cells : 0;
   const parts = [`${did(run)}, in ${counted(elements, "element")}.`];
   if (summary.wall_seconds > 0) parts.push(`Computed in ${duration(summary.wall_seconds)}.`);
-  if (summary.outcome && summary.outcome !== "done") parts.push(`The run ${summary.outcome}.`);
+  if (OUTCOMES[run.outcome] !== "") parts.push(OUTCOMES[run.outcome] ?? `The run ${run.outcome}.`);
   const beyond = figures.filter(isBeyond);
   const limited = figures.filter(figure => typeof figure.limit === "number");
   if (beyond.length) {
@@ -83,10 +89,10 @@ function knownRows(run) {
   const density = has("relative_density") ? s.relative_density : run.end("relative_density");
   const mesh = head.mesh || {}, force = largestForce(run);
   return [
-    ["Outcome", s.outcome, ["outcome"]],
+    ["Outcome", run.outcome === "running" ? "not ended" : run.outcome, ["outcome"]],
     ["Particles", mesh.particles ? count(mesh.particles) : null, ["particles"]],
     ["Elements", has("elements") || mesh.cells ? count(s.elements ?? mesh.cells) : null, ["elements"]],
-    ["Final relative density", density === undefined ? null : digits(density),
+    [run.hasEnded ? "Final relative density" : "Relative density so far", density === undefined ? null : digits(density),
      ["relative_density"]],
     ["Largest force", force.value > 0 ? `${withUnit(force.value, "N")} on ${force.tool}` : null, []],
     ["Thickness of the slice", has("thickness") ? withUnit(s.thickness, "m") : null, ["thickness"]],
@@ -106,19 +112,23 @@ function knownRows(run) {
   ];
 }
 
+// Units of other numbers; those of a lever's values are in the head of the page.
+const SUMMARY_UNITS = {begin: "s", end: "s", seconds_a_step: "s", crack_length: "m", fracture_energy: "J", crack_energy: "J",
+                       d10: "m", d50: "m", d90: "m", sensitivity: "N/V"};
+
 // All other entries, one row per number or text, nested names joined.
-function otherRows(value, name, rows) {
+function otherRows(value, name, rows, {units, unit = "-"}) {
   if (value === null || value === "") return;
   if (typeof value !== "object") {
-    const text = typeof value === "number" ? digits(value, 6) : String(value);
-    rows.push([titled(name), Number.isInteger(value) ? String(value) : text]);
+    const text = typeof value === "number" ? withUnit(value, unit, 6) : String(value);
+    rows.push([titled(name), Number.isInteger(value) && unit === "-" ? String(value) : text]);
   } else if (Array.isArray(value) && value.every(item => typeof item !== "object")) {
-    rows.push([titled(name), value.map(v => typeof v === "number" ? digits(v, 6) : v).join(", ")]);
+    rows.push([titled(name), value.map(v => typeof v === "number" ? withUnit(v, unit, 6) : v).join(", ")]);
   } else {
     for (const [key, item] of Object.entries(value)) {
       const inner = Array.isArray(value) && item && item.name ? item.name : key;
       const told = inner === key ? toldName(key) : words(inner);
-      if (key !== "name") otherRows(item, name ? `${name}, ${told}` : told, rows);
+      if (key !== "name") otherRows(item, name ? `${name}, ${told}` : told, rows, {units, unit: units[key] || unit});
     }
   }
 }
@@ -129,8 +139,9 @@ function fillSummary(run) {
                         "kinetic_ratio", "penetration", "fits", "transmission", "expectations", "calibration",
                         "loops", "force_curves", "cost", "contact_quality", "warnings", ...known.flatMap(row => row[2])]);
   const rows = known.filter(row => row[1]);
+  const units = {...SUMMARY_UNITS, ...run.head.units};
   for (const [key, value] of Object.entries(run.summary)) {
-    if (!told.has(key)) otherRows(value, key === "values" ? "" : toldName(key), rows);
+    if (!told.has(key)) otherRows(value, key === "values" ? "" : toldName(key), rows, {units, unit: units[key]});
   }
   const table = document.getElementById("summary");
   table.replaceChildren();
