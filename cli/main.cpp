@@ -100,11 +100,15 @@ ExitCode plan(const Options& options) {
 }
 
 ExitCode report(const Options& options) {
-  const bool several = options.folders.size() > 1 || !options.comparison.empty();
-  const auto page = !several                     ? options.folders.front() / "report.html"
-                    : options.comparison.empty() ? "comparison.html"
-                                                 : options.comparison;
-  several ? write_comparison(options.folders, page) : write_report(options.folders.front());
+  for (const auto& folder : options.folders) require_run(folder);
+  const auto& run = options.folders.front();
+  const bool several = options.folders.size() > 1;
+  auto page = options.comparison;
+  if (page.empty()) page = several ? "comparison.html" : run / "report.html";
+  if (several)
+    write_comparison(options.folders, page);
+  else
+    options.comparison.empty() ? write_report(run) : write_report(run, page);
   tell("{}\n", page.string());
   return ExitCode::done;
 }
@@ -114,8 +118,9 @@ void add_report(CLI::App& app, Options& options, ExitCode& code) {
       "report", "rewrite report.html of a finished run, or compare several runs side by side");
   command->add_option("folders", options.folders, "results folders of runs")->required();
   command
-      ->add_option("-o,--output", options.comparison,
-                   "page that compares the runs side by side (default comparison.html)")
+      ->add_option(
+          "-o,--output", options.comparison,
+          "the page (default: comparison.html, or report.html in the folder of a single run)")
       ->transform(without_detours);
   command->callback([&] { code = report(options); });
 }
@@ -407,6 +412,8 @@ int main(int argc, char** argv) {
   } catch (const ForeignFile& error) {
     return fail(error.what(), ExitCode::usage);
   } catch (const CannotResume& error) {
+    return fail(error.what(), ExitCode::usage);
+  } catch (const NotARun& error) {
     return fail(error.what(), ExitCode::usage);
   } catch (const UnlikeRanks& error) {
     return fail(error.what(), ExitCode::usage);

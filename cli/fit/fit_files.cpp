@@ -131,6 +131,7 @@ void write_fit(const std::filesystem::path& folder, const FitResult& result) {
   LabOutput page;
   page.title = result.fit.spec.title;
   page.lead = fit_text(result);
+  page.values = "fit.json";
   page.charts.push_back(curves_chart(result));
   for (std::size_t k = 0; k < result.parameters.size(); ++k)
     page.charts.push_back(misfit_chart(result, k));

@@ -46,7 +46,8 @@ void write_lab_page(const std::filesystem::path& folder, const LabOutput& output
                     const std::string& settings, const char* role) {
   const Json head{{"lead", output.lead},          {"charts", output.charts},
                   {"tables", output.tables},      {"settings", settings},
-                  {"version", program_version()}, {"commit", program_commit()}};
+                  {"version", program_version()}, {"commit", program_commit()},
+                  {"values", output.values}};
   write_page(folder / "report.html", "lab.html",
              {"units.js", "payload.js", "save.js", "chart.js", "tables.js", "lab.js"},
              {output.title, text_of(head, -1), {}}, role);

@@ -17,6 +17,7 @@ struct LabOutput {
   nlohmann::ordered_json summary;                          // SI units
   std::vector<std::pair<std::string, std::string>> files;  // name and text
   std::string title, lead;                                 // of the page
+  std::string values = "summary.json";                     // the file that the page refers to
   nlohmann::ordered_json charts = nlohmann::ordered_json::array();
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
   std::string told;  // printed on the command line

@@ -1,5 +1,9 @@
 #include "cli/report/report.hpp"
 
+#include <string>
+#include <system_error>
+#include <utility>
+
 #include "cli/report/report_assets.hpp"
 #include "cli/report/report_data.hpp"
 #include "cli/report/report_page.hpp"
@@ -23,13 +27,38 @@ std::vector<std::string> scripts(const char* page, bool in_space) {
   return names;
 }
 
+void write_report_as(const std::filesystem::path& run_folder, const std::filesystem::path& page,
+                     const char* role) {
+  require_own_or_none(page, role);
+  const ReportData data = read_report_data(run_folder);
+  write_page(page, "page.html", scripts("report.js", data.in_space), data, role);
+}
+
 }  // namespace
 
+void require_run(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::exists(folder / "run.h5", error)) return;
+  const std::string name = "report: " + folder.string();
+  if (!fs::is_directory(folder, error)) throw NotARun(name + ": no such folder");
+  for (const auto& [file, kind] : {std::pair{"study.toml", "study"},
+                                   {"probe.toml", "probe"},
+                                   {"fit.toml", "fit"},
+                                   {"reduce.toml", "reduction"}})
+    if (fs::exists(folder / file, error))
+      throw NotARun(
+          name + " is the folder of a " + kind + "; report is for folders of runs" +
+          (fs::exists(folder / "report.html", error) ? ", and this one has its report.html" : ""));
+  throw NotARun(name + " holds no run: there is no run.h5");
+}
+
 void write_report(const std::filesystem::path& run_folder) {
-  require_own_or_none(run_folder / "report.html", role::run);
-  const ReportData data = read_report_data(run_folder);
-  write_page(run_folder / "report.html", "page.html", scripts("report.js", data.in_space), data,
-             role::run);
+  write_report_as(run_folder, run_folder / "report.html", role::run);
+}
+
+void write_report(const std::filesystem::path& run_folder, const std::filesystem::path& page) {
+  write_report_as(run_folder, page, role::comparison);
 }
 
 void write_comparison(const std::vector<std::filesystem::path>& run_folders,

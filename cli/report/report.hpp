@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 #include <vector>
 
 namespace pulvis {
@@ -19,10 +20,20 @@ namespace pulvis {
 //   quality    [{name, value, limit, meaning}]: shown instead of the figures computed from the history
 // Throws OutputError if the folder holds no readable run or the report cannot be written.
 void write_report(const std::filesystem::path& run_folder);
+// The same page elsewhere.
+void write_report(const std::filesystem::path& run_folder, const std::filesystem::path& page);
 
 // Several runs on one page: their curves overlaid, their figures in a table, their fields side by
 // side with a common scale and colour range.
 void write_comparison(const std::vector<std::filesystem::path>& run_folders,
                       const std::filesystem::path& page);
+
+// A folder given as that of a run is none.
+class NotARun : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+// Throws NotARun, which says what the folder is instead: that of a study, a fit, a probe or a reduction.
+void require_run(const std::filesystem::path& folder);
 
 }  // namespace pulvis

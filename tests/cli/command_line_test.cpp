@@ -355,7 +355,18 @@ TEST_F(CommandLine, UnwritableFolderIsTheMachinesFault) {
     EXPECT_THAT(end.err, StartsWith(where.string() + ": cannot ")) << end.err;
   }
   EXPECT_EQ(text_of(place / "file"), "no folder\n");
-  EXPECT_EQ(pulvis({"report", (place / "nothing").string()}).code, 4);
+}
+
+TEST_F(CommandLine, ReportsAreOfRuns) {
+  fs::create_directories(place / "study");
+  std::ofstream(place / "study" / "study.toml") << "\n";
+  for (const auto& [folder, says] : {std::pair{"nothing", "no such folder"},
+                                     {"study", "is the folder of a study"},
+                                     {".", "holds no run: there is no run.h5"}}) {
+    const Outcome end = pulvis({"report", (place / folder).string()});
+    EXPECT_EQ(end.code, 2) << folder;
+    EXPECT_THAT(end.err, HasSubstr(says));
+  }
 }
 
 // ---- 130: interrupted ---------------------------------------------------------------------------
