@@ -203,10 +203,15 @@ def test_titles_can_be_left_out(compact, tmp_path):
     (("--field", "pressure", "--range", "1:0 MPa"), "--range 1:0 MPa: allowed: LOW below HIGH"),
     (("--field", "pressure", "--range", "0:1 mm"), "mm is not a unit of the plotted quantity; allowed: LOW:HIGH in Pa"),
     (("--field", "pressure", "--range", "5"), "--range 5: allowed: LOW:HIGH in Pa"),
+    (("--field", "pressure", "--range", "0:400"), "--range 0:400: 0 has no unit; allowed: LOW:HIGH in Pa, e.g. 0:400 MPa"),
+    (("--field", "pressure", "--series", "dt"), "--field draws a field, --series curves: give one of them"),
+    (("--level", "plane"), "--level is for raster images, and "),
+    (("--animate", "f.gif", "--series", "dt"), "figures: --animate names its output file"),
+    (("--against", "dt"), "error: --against gives the horizontal axis of --series"),
     (("--animate", "film.avi"), "--animate film.avi: allowed: a .mp4 or .gif file"),
     (("--field", "presure"), "no field presure of cells or particles; there are: "),
     (("--frame", "7"), "frame 7: there are 0 to 4"),
-    (("--across", "z"), "--across and --at are for sections, which only 3D runs have"),
+    (("--across", "z"), "figures: --across and --at are for sections, which only 3D runs have"),
     (("--at", "1mm"), "--across and --at are for sections"),
 ])
 def test_wrong_options_are_refused_by_name_value_and_what_is_allowed(compact, tmp_path, words, says):
@@ -339,7 +344,7 @@ def test_lengths_and_ranges_are_read_with_their_units():
     assert limits_of("0:400MPa", "Pa") == (0, 4e8) and limits_of("10 kPa:1 MPa", "Pa") == (1e4, 1e6)
     assert limits_of(":2 kN", "N") == (None, 2000) and limits_of((0.5, None), "-") == (0.5, None)
     assert limits_of("5 um:0.1mm", "m") == pytest.approx((5e-6, 1e-4)) and limits_of("0:50 %", "-") == (0, 0.5)
-    assert limits_of("-1:1", "Pa") == (-1, 1)
+    assert limits_of((-1, 1), "Pa") == (-1, 1)
 
 
 def test_a_lever_s_film_has_its_frames_and_marks_the_forces(loop, tmp_path):

@@ -146,7 +146,7 @@ class Plot:
 
     def solid(self, frame: int = -1, **look: Any) -> tuple[Figure, Axes]:
         """Lever: its mesh in one frame."""
-        return self._drawn(afm.solid, "frames", options_of(look, frame=frame))
+        return self._drawn(afm.solid, "frames of a lever", options_of(look, frame=frame))
 
     def force_curve(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Lever: vertical force against scanner travel, approach and retract as separate curves."""

@@ -2,6 +2,7 @@
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.collections import PolyCollection
+from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from pulvis.figures.colours import colour_map
@@ -10,6 +11,7 @@ from pulvis.figures.names import capital, label, over
 from pulvis.lever_results import vertical_moves
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+SHORTEST_SIDE = 0.15  # of the box around a mesh, as drawn, over the longest
 COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
 
 
@@ -24,15 +26,25 @@ def outer_faces(hexahedra):
     return [faces[0] for faces in seen.values() if len(faces) == 1]
 
 
+def make_room(axes, ends):
+    """Few ticks along the short sides, and the mesh as large as possible."""
+    sides = np.ptp(ends, axis=0)
+    wide, tall = axes.get_position(original=True).size * axes.figure.get_size_inches()
+    for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max()):
+        axis.set_major_locator(MaxNLocator(5 if share > 0.5 else 1 if share < 0.15 else 2))
+        axis.labelpad = 14 if share == 1 else 3
+    axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(1.0, 0.82 * wide / tall)))
+
+
 def draw_solid(axis, position, faces, colours, title, ends=None):
     """colours: one per face; ends: corners of the view, m [2, 3], if not the bounding box of the solid."""
     polygons = [position[list(nodes)] * 1e6 for nodes, _ in faces]
     axis.add_collection3d(Poly3DCollection(polygons, facecolors=colours, edgecolors="#00000030",
-                                           linewidths=0.3))
+                                           linewidths=0.3, clip_on=False))  # the axes are a square, a lever is longer
     low, high = np.array([position.min(axis=0), position.max(axis=0)] if ends is None else ends) * 1e6
     axis.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]), title=title,
              xlabel="$x$ / µm", ylabel="$y$ / µm", zlabel="$z$ / µm")
-    axis.set_box_aspect(np.maximum(high - low, 0.15 * (high - low).max()))
+    make_room(axis, [low, high])
     axis.view_init(18, -60)
 
 
@@ -47,17 +59,20 @@ def progress_words(run):
 
 def solid(run, options=None):
     options = options or Options()
-    if not run.frames:
+    if not run.frames or not run.is_solid:
         return None
     chosen = run.frames if len(run.frames) <= 4 else [run.frames[0], run.frames[len(run.frames) // 2],
                                                       run.frames[-1]]
     if options.frame is not None:
         chosen = [run.frame(options.frame)]
     faces = outer_faces(run.mesh.cells.tolist())
-    figure = plt.figure(figsize=options.size(7 * len(chosen), 6))
+    sides = np.ptp(chosen[0].nodes, axis=0)
+    width, height = options.size(7, len(chosen) * (2.8 + 2.5 * np.sort(sides / sides.max())[1]))
+    figure = plt.figure(figsize=(width, height))
+    figure.subplots_adjust(left=0, right=0.82, bottom=0.06 / len(chosen), top=1 - 0.3 / height, hspace=0.3 / height * len(chosen))
     colours = part_colours(run, faces)
     for i, frame in enumerate(chosen):
-        axis = figure.add_subplot(1, len(chosen), i + 1, projection="3d")
+        axis = figure.add_subplot(len(chosen), 1, i + 1, projection="3d")
         title = f"frame {frame.number}, {progress_words(run)} {frame.time:.3g}" if options.title else ""
         draw_solid(axis, frame.nodes, faces, colours, title)
     last = chosen[-1].nodes

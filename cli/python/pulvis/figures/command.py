@@ -27,7 +27,7 @@ from pulvis.figures.look import Options, write_csv
 from pulvis.figures.network import contact_network, rose
 from pulvis.figures.probe import figures_of_probe
 from pulvis.figures.quantities import inches, length
-from pulvis.figures.space import section_picture, space_network, space_picture, space_profile
+from pulvis.figures.space import asked_place, section_picture, space_network, space_picture, space_profile
 from pulvis.figures.space_density import density_slice
 from pulvis.figures.study import figures_of_study
 from pulvis.results import Run
@@ -107,8 +107,9 @@ def save_all(run, asked, options, place):
 
 def save_group(figures, what, asked, options, place):
     """Figures of a probe or a study."""
-    if options.series or options.field or asked.animate or asked.across or asked.at or asked.format in ("csv", "gsf"):
-        raise PulvisError(f"a {what} has its own figures: use it without --series, --field, --across, --at, --animate and csv")
+    if options.series or options.field or asked.animate or asked.across or asked.at or options.level != "none" \
+            or asked.format in ("csv", "gsf"):
+        raise PulvisError(f"a {what} has its own figures: use it without --series, --field, --across, --at, --animate, --level and csv")
     for name, figure in figures(asked.folder, options):
         path = asked.to / f"{name}.{asked.format}"
         if figure is None:
@@ -120,10 +121,16 @@ def save_group(figures, what, asked, options, place):
 def save_run(run, asked, options, place):
     file = asked.output if asked.output and asked.output.suffix in FORMATS else None
     if not run.in_space and (asked.across or asked.at):
-        raise PulvisError("---across and --at are for sections, which only 3D runs have")
+        raise PulvisError("--across and --at are for sections, which only 3D runs have")
+    if asked.at and run.frames:
+        asked_place(run.frame(options.frame), options)
+    if options.level != "none" and "images" not in run.file:
+        raise PulvisError(f"--level is for raster images, and {asked.folder} has none")
+    if options.series and options.field:
+        raise PulvisError("--field draws a field, --series curves: give one of them")
     if asked.animate:
         if options.series or file or asked.output:
-            raise PulvisError("---animate names its output file: use it without --series and -o")
+            raise PulvisError("--animate names its output file: use it without --series and -o")
         writer_for(asked.animate)
         place.save(lambda path: animate(run, path, options), asked.animate)
         return
@@ -173,7 +180,7 @@ def arguments(words=None):
     parser.add_argument("--draw-into", type=Path, help=argparse.SUPPRESS)
     asked = parser.parse_args(words)
     if asked.against and not asked.series:
-        parser.error("---against gives the horizontal axis of --series")
+        parser.error("--against gives the horizontal axis of --series")
     if asked.frame is not None and asked.frame < 0:
         parser.error(f"--frame {asked.frame}: allowed: from 0")
     if asked.output and asked.output.suffix not in ("", *FORMATS) and (asked.field or asked.series) and not asked.output.is_dir():

@@ -4,7 +4,6 @@ import math
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import Normalize
-from matplotlib.ticker import MaxNLocator
 
 from pulvis.errors import PulvisError
 from pulvis.figures.afm import draw_solid, outer_faces, part_colours, progress_words
@@ -77,15 +76,6 @@ def sheet_of(run, options):
     return figure, figure.add_subplot(grid[0], projection="3d"), Forces(run, figure.add_subplot(grid[1]))
 
 
-def make_room(axes, ends):
-    """Few ticks along the short sides, and the mesh as large as possible."""
-    sides = np.ptp(ends, axis=0)
-    for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max()):
-        axis.set_major_locator(MaxNLocator(5 if share > 0.5 else 1 if share < 0.15 else 2))
-        axis.labelpad = 12 if share == 1 else 6
-    axes.set_box_aspect(np.maximum(sides, 0.15 * sides.max()), zoom=1.25)
-
-
 def lever_film(run, options, into=None):
     """Like animation.film: figure, axes, and the function that draws frame k."""
     key = options.field or PICTURES[0]
@@ -108,7 +98,6 @@ def lever_film(run, options, into=None):
         colours = scale.to_rgba(values[k][cells]) if scale else part_colours(run, faces)
         title = f"{capital(progress_words(run))} {frame.time:.3g}" + (f", displacements × {times:g}" if times > 1 else "")
         draw_solid(axes, drawn[k], faces, colours, "", ends)
-        make_room(axes, ends)
         if options.title:
             axes.text2D(0.02, 0.98, title, transform=axes.transAxes, va="top")
         if forces:

@@ -1,5 +1,6 @@
 """Quantities as given on the command line or in Python: "85 mm", "0:400 MPa"."""
 import re
+from numbers import Real
 
 import numpy as np
 
@@ -73,11 +74,13 @@ def factor_of(unit, si):
 
 
 def limits_of(given, si):
-    """(low, high) in SI from "LOW:HIGH", where each end is a number with a unit or empty, or from such a pair."""
+    """(low, high) in SI from "LOW:HIGH", where each end is a number with a unit or empty, or from such a pair; numbers
+    from Python may be in SI without a unit."""
     if given is None:
         return None, None
+    plain = isinstance(given, (tuple, list)) and any(isinstance(end, Real) for end in given)
     ends = [str(end) if end is not None else "" for end in given] if isinstance(given, (tuple, list)) else str(given).split(":")
-    allowed = f"allowed: LOW:HIGH in {si}, e.g. 0:400 M{si}" if si == "Pa" else f"allowed: LOW:HIGH in {si or '-'}, e.g. 0:1"
+    allowed = f"allowed: LOW:HIGH in {si}, e.g. 0:400 M{si}" if si == "Pa" else f"allowed: LOW:HIGH in {si or '-'}, e.g. {f'0:1 {si}'.rstrip(' -')}"
     shown = ":".join(ends)
     matches = [re.fullmatch(rf"\s*(?:({NUMBER})\s*([^\d\s]\S*)?)?\s*", end) for end in ends]
     if len(ends) != 2 or not all(matches):
@@ -85,9 +88,12 @@ def limits_of(given, si):
     shared = matches[1][2] or ""  # 0:400 MPa: the unit applies to both
     values = []
     for match in matches:
-        factor = factor_of(match[2] or shared, si)
+        unit = match[2] or shared
+        if match[1] and not unit and si not in ("-", "") and not plain:
+            raise PulvisError(f"--range {shown}: {match[1]} has no unit; {allowed}", key="--range")
+        factor = factor_of(unit, si)
         if factor is None:
-            raise PulvisError(f"--range {shown}: {match[2] or shared} is not a unit of the plotted quantity; {allowed}", key="--range")
+            raise PulvisError(f"--range {shown}: {unit} is not a unit of the plotted quantity; {allowed}", key="--range")
         values.append(None if match[1] is None else factor * float(match[1]))
     if None not in values and not values[0] < values[1]:
         raise PulvisError(f"--range {shown}: allowed: LOW below HIGH", key="--range")
