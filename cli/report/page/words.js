@@ -178,7 +178,7 @@ function fillQuality(run) {
   };
   for (const figure of figures) {
     const {name, meaning, value, limit, advice} = figure, limited = typeof limit === "number", within = !isBeyond(figure);
-    const row = add(name, meaning, [percent(value), limited ? percent(limit) : "none set"],
+    const row = add(name, meaning, [percent(value), limited ? percent(limit) : "none set"].map(text => text.replace(" ", "\u00a0")),
                     limited ? within ? "within" : "beyond" : "", within);
     if (advice) row.firstChild.append(element("small", {className: "advice", textContent: `What to do: ${advice}.`}));
   }
