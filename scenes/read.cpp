@@ -193,9 +193,10 @@ void refuse_dimension_of_variables(const Table& root, bool in_space, Problems& p
 // The complete tree with all its values. Which files extend which, and which keys name files, is the same in all
 // dimensions; everything else depends on the scene's own language.
 Table complete_tree(const std::string& text, const std::filesystem::path& file,
-                    const std::vector<std::string>& overrides, Problems& problems) {
+                    const std::vector<std::string>& overrides, Problems& problems,
+                    std::vector<ReplacedOverride>& replaced) {
   Table root = whole_tree(text, file, schema::scene_language(), problems);
-  apply_overrides(root, overrides, problems);
+  replaced = apply_overrides(root, overrides, problems);
   refuse_extending(root, problems);
   problems.throw_if_any();
   const bool in_space = is_in_space(root);
@@ -258,8 +259,8 @@ void make_powder(Scene& scene, const schema::Origins& origins, Problems& problem
 LoadedScene load(const std::string& text, const std::filesystem::path& file,
                  const std::vector<std::string>& overrides = {}, bool alone = false) {
   Problems problems(file, overrides);
-  Table root = complete_tree(text, file, overrides, problems);
   LoadedScene loaded;
+  Table root = complete_tree(text, file, overrides, problems, loaded.replaced);
   schema::Origins origins;
   loaded.scene = scene_of_tree(root, file, problems, origins);
   check_family(loaded.scene, origins, problems);

@@ -2,6 +2,7 @@
 // is built or run.
 #pragma once
 
+#include "scenes/language/override.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/scene_files.hpp"
 #include "scenes/spec/scene.hpp"
@@ -21,6 +22,8 @@ struct LoadedScene {
   // The same with paths relative to the folder of the scene's file.
   std::string text_in_place;
   std::vector<InputFile> inputs;
+  std::vector<ReplacedOverride>
+      replaced;  // overrides without effect, as a later one sets the same key
   // Of the powder alone, with its contacts and materials: scenes that differ only in stages and results share it, and
   // may start from each other's states.
   std::uint64_t powder_hash = 0;

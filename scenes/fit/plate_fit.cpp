@@ -137,6 +137,7 @@ class PlateFitReader {
       LoadedScene loaded = load_scene(fit_.scene_file(), fit_.settings_at(start));
       fit_.scene = std::move(loaded.scene);
       for (const InputFile& input : loaded.inputs) fit_.files.insert(input.source);
+      refuse_replaced(loaded.replaced, origins);
     } catch (const SceneError& error) {
       for (const SceneProblem& problem : error.errors())
         problems_.add(origins.at("scene"), "scene", problem.text());
@@ -147,6 +148,31 @@ class PlateFitReader {
       problems_.add(origins.at("scene"), "fit.target",
                     fmt::format("the scene has no tool '{}', allowed: the one that slides",
                                 fit_.spec.target));
+  }
+
+  // A parameter that a later setting replaces would not change from run to run.
+  void refuse_replaced(const std::vector<ReplacedOverride>& replaced,
+                       const schema::Origins& origins) {
+    const std::size_t parameters = fit_.spec.parameters.size();
+    const std::size_t own = parameters + fit_.spec.overrides.size();
+    for (const auto [earlier, later] : replaced) {
+      if (earlier >= parameters) continue;
+      if (later < parameters)
+        problems_.add({fit_.spec.parameters[later].mark, -1},
+                      fmt::format("parameter[{}].key", later),
+                      fmt::format("'{}' is fitted twice, allowed: each key once",
+                                  fit_.spec.parameters[later].key));
+      else if (later < own)
+        problems_.add(origins.at("overrides"), "overrides", replaces_parameter(earlier));
+      else
+        problems_.add({{}, static_cast<int>(later - own)}, key_of(fit_.overrides[later - own]),
+                      replaces_parameter(earlier));
+    }
+  }
+
+  std::string replaces_parameter(std::size_t i) const {
+    return fmt::format("replaces the fitted parameter '{}', allowed: keys that are not fitted",
+                       fit_.spec.parameters[i].key);
   }
 
   Problems problems_;

@@ -139,7 +139,9 @@ Value parsed(const std::string& text, const document::Origin& origin) {
   return value;
 }
 
-void assign(Value& here, const Step& last, Value value, const document::Origin& origin) {
+// Returns the origin of the value that was there.
+document::Origin assign(Value& here, const Step& last, Value value,
+                        const document::Origin& origin) {
   auto* table = here.as<document::Table>();
   if (table == nullptr || last.position)
     throw Refused(
@@ -149,20 +151,22 @@ void assign(Value& here, const Step& last, Value value, const document::Origin& 
   document::Entry* entry = document::find(*table, last.key);
   if (entry == nullptr) {
     table->push_back({last.key, origin, std::move(value)});
-    return;
+    return {{}, -1};
   }
   if (holds_tables(entry->value))
     throw Refused("the path ends at a table, allowed: one of its keys");
+  const document::Origin before = entry->origin;
   *entry = {last.key, origin, std::move(value)};
+  return before;
 }
 
-void apply(Value& root, const std::string& path, const std::string& text, int index) {
+document::Origin apply(Value& root, const std::string& path, const std::string& text, int index) {
   const document::Origin origin{{}, index};
   const std::vector<Step> steps = steps_of(path);
   Value value = parsed(trimmed(text), origin);
   Value* here = &root;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) here = &entered(*here, steps[i], origin);
-  assign(*here, steps.back(), std::move(value), origin);
+  return assign(*here, steps.back(), std::move(value), origin);
 }
 
 std::vector<std::string> keys_of(const document::Table& table) {
@@ -211,21 +215,30 @@ void remove_path(document::Table& root, const std::string& path, const document:
   root = std::move(top.get<document::Table>());
 }
 
-void apply_overrides(document::Table& root, const std::vector<std::string>& overrides,
-                     Problems& problems) {
+std::string key_of(const std::string& override_text) {
+  return trimmed(override_text.substr(0, find_unquoted(override_text, '=')));
+}
+
+std::vector<ReplacedOverride> apply_overrides(document::Table& root,
+                                              const std::vector<std::string>& overrides,
+                                              Problems& problems) {
   Value top{std::move(root), {}};
+  std::vector<ReplacedOverride> replaced;
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     const int index = static_cast<int>(i);
     const std::size_t equals = find_unquoted(overrides[i], '=');
-    const std::string path = trimmed(overrides[i].substr(0, equals));
+    const std::string path = key_of(overrides[i]);
     try {
       if (equals == std::string::npos) throw Refused(fmt::format("there is no '=', {}", form));
-      apply(top, path, overrides[i].substr(equals + 1), index);
+      const document::Origin before = apply(top, path, overrides[i].substr(equals + 1), index);
+      if (before.override_index >= 0)
+        replaced.push_back({static_cast<std::size_t>(before.override_index), i});
     } catch (const Refused& refused) {
       problems.add({{}, index}, path, refused.what());
     }
   }
   root = std::move(top.get<document::Table>());
+  return replaced;
 }
 
 }  // namespace pulvis

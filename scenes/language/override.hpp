@@ -12,9 +12,18 @@
 
 namespace pulvis {
 
-// Later overrides win. Errors in an override are added to `problems`.
-void apply_overrides(document::Table& root, const std::vector<std::string>& overrides,
-                     Problems& problems);
+std::string key_of(
+    const std::string& override_text);  // "contact.friction" of "contact.friction=0.1"
+
+// Two overrides of one key, by their positions in the list, whatever way their paths name it.
+struct ReplacedOverride {
+  std::size_t earlier, later;
+};
+
+// Later overrides win; the ones that they replace are returned. Errors in an override are added to `problems`.
+std::vector<ReplacedOverride> apply_overrides(document::Table& root,
+                                              const std::vector<std::string>& overrides,
+                                              Problems& problems);
 
 // Removes the key, table or element at `path`; `where` is the place that requests it. A repeated table whose
 // last element is removed is removed, too.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "scenes/language/describe.hpp"
 #include "scenes/language/table_reader.hpp"
@@ -115,6 +116,7 @@ class ProbeReader {
           problems_.add(at, "scene", problem.text());
         return;
       }
+      refuse_replaced(loading.scene.replaced, origins);
       const Scene& scene = loading.scene.scene;
       if (scene.afm || !scene.cell || scene.stages.empty() || !scene.stages.back().cell) {
         problems_.add(at, "scene",
@@ -128,9 +130,22 @@ class ProbeReader {
     }
   }
 
+  // The seed of the probe is the last setting: one of the scene's own would have no effect.
+  void refuse_replaced(const std::vector<ReplacedOverride>& replaced,
+                       const schema::Origins& origins) {
+    const std::size_t listed = probe_.spec.overrides.size();
+    for (const auto [earlier, later] : replaced)
+      if (later == listed + overrides_.size() && !std::exchange(seed_told_, true))
+        problems_.add(earlier < listed ? origins.at("overrides")
+                                       : document::Origin{{}, static_cast<int>(earlier - listed)},
+                      earlier < listed ? "overrides" : "seed",
+                      "the probe has its own `seeds`, allowed: a seed in one of the two places");
+  }
+
   std::vector<std::string> overrides_;
   Problems problems_;
   Probe probe_;
+  bool seed_told_ = false;
 };
 
 }  // namespace

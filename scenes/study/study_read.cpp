@@ -44,9 +44,10 @@ trend = "increasing"
 ```
 
 Keys of the scene are written as for `--set` (docs/scene.md). Changes are applied in this order: `[set]`, the
-variation's own `set`, the grid, the seed, `overrides`, and `--set` on the command line. Errors in the study or in
-any of the resulting scenes are reported before the first run as
-`file:line:col: key: what is wrong, allowed: what is allowed`.
+variation's own `set`, the grid, the seed, `overrides`, and `--set` on the command line. Later ones replace values of
+`[set]`. A key that the study varies is varied in one place only: a change that replaces its value is refused, because
+names and tables would state values that the runs do not have. Errors in the study or in any of the resulting scenes are
+reported before the first run as `file:line:col: key: what is wrong, allowed: what is allowed`.
 
 **Series** are those of `history.csv` and `time`; for every tool `travel/<tool>`, its displacement since the start
 [m]; and in a die of four plane tools `pressure/<tool>`, the force towards the tool divided by the area of its face
@@ -340,8 +341,25 @@ class StudyReader {
       run.scene = std::move(loaded.scene);
       run.hash = loaded.hash;
       for (const InputFile& input : loaded.inputs) study_.files.insert(input.source);
+      refuse_replaced(loaded.replaced, run, origins);
     } catch (const SceneError& error) {
       for (const SceneProblem& problem : error.errors()) tell(problem, run, origins, scene_origin);
+    }
+  }
+
+  // Names and tables of the study give the varied values, which must be those of the runs.
+  void refuse_replaced(const std::vector<ReplacedOverride>& replaced, const StudyRun& run,
+                       const std::vector<Origin>& origins) {
+    const std::size_t first = study_.spec.common.size();
+    const std::size_t end = first + run.varied.size() + (run.seed ? 1 : 0);
+    for (const auto [earlier, later] : replaced) {
+      if (earlier < first || earlier >= end) continue;
+      const std::string key = key_of(run.overrides[later]);
+      const std::string what =
+          "replaces a value that the study varies, allowed: one place that sets this key (the "
+          "[grid], the `set` of variations, `seeds`, `overrides` or --set)";
+      if (told_.insert(fmt::format("{} {}", key, origins[later].override_index)).second)
+        problems_.add(origins[later], key, what);
     }
   }
 

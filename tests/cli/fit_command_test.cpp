@@ -166,6 +166,14 @@ TEST_F(FitCommand, RefusesWhatCannotBeSought) {
   EXPECT_FALSE(fs::exists(place / "fitted"));
 }
 
+// It would be the same in all runs, whatever values the search asks for.
+TEST_F(FitCommand, RefusesToReplaceAParameter) {
+  const fs::path shipped = sources / "scenes/lab/plate-fit.toml";
+  EXPECT_THAT(message_of([&] { load_plate_fit(shipped, {"friction[0].coefficient=0.15"}); }),
+              HasSubstr("--set friction[0].coefficient=0.15: friction[0].coefficient: replaces the "
+                        "fitted parameter 'friction[0].coefficient'"));
+}
+
 // Where the record has few samples within the simulated way nothing is compared.
 TEST_F(FitCommand, RefusesARecordThatDoesNotReachTheSimulation) {
   write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n50,0.2\n");

@@ -8,6 +8,7 @@
 
 #include "scenes/probe/probe_scenes.hpp"
 #include "tests/helpers/paths.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -33,6 +34,13 @@ TEST(ProbeScenes, LoadToEveryDensity) {
     EXPECT_TRUE(loading.stages[i].keep_state);
     EXPECT_EQ(loading.stages[i].cell->stress_xx, -200e6);
   }
+}
+
+TEST(ProbeScenes, HaveOneSeed) {
+  const std::string file = paths::source_dir() + "/scenes/probes/cap.toml";
+  const std::string wrong = message_of([&] { load_probe(file, {"seed=7"}); });
+  EXPECT_NE(wrong.find("--set seed=7: seed: the probe has its own `seeds`"), std::string::npos)
+      << wrong;
 }
 
 // By strain and by stress, in a direction and in shear.

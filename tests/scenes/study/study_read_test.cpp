@@ -72,7 +72,7 @@ contact.friction = [0.1, 0.3]
   EXPECT_EQ(study.runs.front().scene.contact.damping, 0.1);
 }
 
-// Later settings win: the study's, the variation's, the grid's, the command line's.
+// The study's own settings give way to all others.
 TEST_F(StudyRead, TheNearestSettingWins) {
   const std::string text = matrix + R"([set]
 contact.friction = 0.5
@@ -81,9 +81,8 @@ output.frames = 5
 contact.damping = 0.5
 [[variation]]
 name = "a"
-set = { contact.friction = 0.4, time.safety = 0.4, output.frames = 4 }
+set = { output.frames = 4 }
 [grid]
-contact.friction = [0.3]
 time.safety = [0.3]
 )";
   const Scene scene = read(text, {"contact.friction=0.2"}).runs.front().scene;
@@ -91,6 +90,27 @@ time.safety = [0.3]
   EXPECT_EQ(scene.time.safety, 0.3);
   EXPECT_EQ(scene.output.frames, 4);
   EXPECT_EQ(scene.contact.damping, 0.5);
+}
+
+// Otherwise names and tables would give values that the runs do not have.
+TEST_F(StudyRead, ValuesThatAreVariedCannotBeReplaced) {
+  const std::string text = matrix + "seeds = [1, 2]\n";
+  const std::string grid = "[grid]\n\"material.316L.density\" = [\"7 g/cm^3\", \"8 g/cm^3\"]\n";
+  const auto told = [&](const std::string& whole, const std::string& change) {
+    const std::string wrong = message_of([&] { read(whole, {change}); });
+    EXPECT_EQ(std::ranges::count(wrong, '\n'), 0) << wrong;
+    return wrong;
+  };
+  const std::string replaces = ": replaces a value that the study varies";
+  EXPECT_THAT(told(text + grid, "material[0].density=9 g/cm^3"),
+              HasSubstr("--set material[0].density=9 g/cm^3: material[0].density" + replaces));
+  EXPECT_THAT(told(text + grid, "seed=7"), HasSubstr("--set seed=7: seed" + replaces));
+  EXPECT_THAT(refusal(text + "overrides = [\"seed=7\"]\n"), HasSubstr("3:13: seed" + replaces));
+  EXPECT_THAT(refusal(text + "[grid]\nseed = [3, 4]\n"), HasSubstr("seed" + replaces));
+  EXPECT_THAT(refusal(matrix + "[[variation]]\nname = \"a\"\nset = { contact.friction = 0.4 }\n"
+                               "[grid]\ncontact.friction = [0.1]\n"),
+              HasSubstr("6:21: contact.friction" + replaces));
+  EXPECT_EQ(read(matrix + grid, {"seed=7", "contact.friction=0.2"}).runs.size(), 2U);
 }
 
 // What is the same scene has the same hash, whatever it is called: a run is known again by it.
