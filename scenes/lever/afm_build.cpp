@@ -9,18 +9,17 @@
 
 #include "scenes/lever/adhesion.hpp"
 #include "scenes/lever/mesh/meshed_lever.hpp"
+#include "scenes/lever/mesh/surface_slope.hpp"
 
 namespace pulvis {
 namespace {
 
-using Side = std::optional<LeverMesh::Point> (LeverMesh::*)(const Vec2& point) const;
-
-// Differences over half an element to both sides, or to the one that exists.
-Gauge difference(const LeverMesh& lever, Side side, const Vec2& point, const Vec2& step) {
-  auto ahead = (lever.*side)(point + step), behind = (lever.*side)(point - step);
+// Of the middle plane: differences over half an element of the foot to both sides, or to the one that exists.
+Gauge difference(const LeverMesh& lever, const Vec2& point, const Vec2& step) {
+  auto ahead = lever.on_middle(point + step), behind = lever.on_middle(point - step);
   const double distance = (ahead ? step.norm() : 0) + (behind ? step.norm() : 0);
-  if (!ahead) ahead = (lever.*side)(point);
-  if (!behind) behind = (lever.*side)(point);
+  if (!ahead) ahead = lever.on_middle(point);
+  if (!behind) behind = lever.on_middle(point);
   Gauge gauge = ahead->gauge;
   for (auto& support : gauge) support.weight /= distance;
   for (const auto& support : behind->gauge)
@@ -28,12 +27,12 @@ Gauge difference(const LeverMesh& lever, Side side, const Vec2& point, const Vec
   return gauge;
 }
 
-SlopeGauge slope_at(const LeverMesh& lever, const LeverSpec& spec, Side side, const Vec2& point) {
+SlopeGauge slope_of_middle(const LeverMesh& lever, const LeverSpec& spec, const Vec2& point) {
   using Shape = LeverSpec::Shape;
   const double step = spec.shape == Shape::mesh   ? spec.thickness
                       : spec.shape == Shape::beam ? 0.05 * spec.width
                                                   : 0.05 * spec.arm_width;
-  return {difference(lever, side, point, {step, 0}), difference(lever, side, point, {0, step})};
+  return {difference(lever, point, {step, 0}), difference(lever, point, {0, step})};
 }
 
 // A uniformly bright spot: its centre, and a ring of eight points that represents the rest (exact for
@@ -42,13 +41,16 @@ std::vector<SlopeGauge> laser_spot(const Scene& scene, const LeverMesh& lever) {
   const LaserSpec& laser = scene.afm->laser;
   const Vec2 axis = tip_axis(scene.afm->lever, scene.afm->tip);
   const Vec2 middle(laser.position.value_or(axis.x()), laser.offset);
-  constexpr Side back = &LeverMesh::on_back;
-  if (laser.radius == 0) return {slope_at(lever, scene.afm->lever, back, middle)};
+  const SurfaceSlope back(lever.levels.back());
+  const auto at = [&](const Vec2& point) {
+    const auto slope = back.at(point).value();  // afm_checks refuses spots beside the lever
+    return SlopeGauge{slope.along, slope.across};
+  };
+  if (laser.radius == 0) return {at(middle)};
   std::vector<SlopeGauge> spot;
   for (int i = 0; i < 8; ++i) {
     const double angle = 0.25 * std::numbers::pi * (i + 0.5), r = laser.radius / std::sqrt(2.0);
-    spot.push_back(slope_at(lever, scene.afm->lever, back,
-                            middle + r * Vec2(portable::cos(angle), portable::sin(angle))));
+    spot.push_back(at(middle + r * Vec2(portable::cos(angle), portable::sin(angle))));
   }
   return spot;
 }
@@ -92,7 +94,7 @@ AfmModel build_afm(const Scene& scene) {
   model.contact_node = middle_node(draft, model.end);
   const Vec2 axis = tip_axis(afm.lever, afm.tip);
   model.foot = lever.on_middle(axis)->gauge;
-  model.foot_slope = slope_at(lever, afm.lever, &LeverMesh::on_middle, axis);
+  model.foot_slope = slope_of_middle(lever, afm.lever, axis);
   model.spot = laser_spot(scene, lever);
   for (Vec3& x : draft.nodes) x = turn * x;
   model.axis = turn.col(0);
