@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
 
 #include "components/bond.hpp"
 #include "components/run_state.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/language/problem.hpp"
 
 namespace pulvis {
@@ -103,6 +105,31 @@ void require_initial_bonds(const Scene& scene, const World& world) {
   if (!problems.empty()) throw SceneError(problems);
 }
 
+namespace {
+
+// Pairs that would be stronger than the mesh can represent get its largest strength instead.
+void add_cut_strengths(const Scene& scene, const BondRules& rules,
+                       std::vector<std::string>& lines) {
+  constexpr double most = 0.01;
+  for (std::size_t i = 0; i < rules.laws.size(); ++i) {
+    const BondRules::Law& law = rules.laws[i];
+    if (law.weibull_modulus == 0 || std::isinf(law.largest_share)) continue;
+    const double cut = portable::exp(-portable::pow(law.largest_share, law.weibull_modulus));
+    if (cut <= most) continue;
+    const double wanted = portable::pow(-portable::log(most), 1 / law.weibull_modulus);
+    lines.push_back(fmt::format(
+        "bond[{}] between '{}' and '{}': the random strengths are cut off at {:.3g} times "
+        "`strength`, which {:.2g}% of the pairs reach: a stronger bond would store more energy "
+        "than its fracture energy before it breaks. With `stiffness` = {:.3g}, with edges {:.3g} "
+        "times shorter, or with a fracture energy {:.3g} times higher at most {:g}% are",
+        i, scene.bonds[i].first, scene.bonds[i].second, law.largest_share, 100 * cut,
+        law.stiffness * wanted / law.largest_share, wanted / law.largest_share,
+        wanted / law.largest_share, 100 * most));
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
   if (!world.has<BondRules>()) return {};
   const auto& rules = world.resource<BondRules>();
@@ -123,6 +150,7 @@ std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
     if (zone * worst.edge <= worst.zone * found.longest) worst = {zone, found.longest};
   }
   std::vector<std::string> lines;
+  add_cut_strengths(scene, rules, lines);
   for (const auto& [law, worst] : coarse)
     lines.push_back(fmt::format(
         "bond[{}] between '{}' and '{}': the cohesive zone ahead of a crack spans {:.3g} boundary "

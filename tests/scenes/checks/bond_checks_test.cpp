@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "components/bond.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/wrong.hpp"
 
@@ -71,6 +72,33 @@ normal = [0, 1]
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_THAT(problems[0].message, HasSubstr("no part of 'stone' and 'table' is bonded"));
   EXPECT_THAT(problems[0].message, HasSubstr("allowed: reach >= 0.02"));
+}
+
+// ---- random strengths ------------------------------------------------------------------------------------
+// P(s > s_max) = exp(-s_max^m): 10.5% for s_max = 1.5, m = 2.
+TEST(RandomStrengths, ThatAreCutOffAreToldOf) {
+  const char* const scene = "bonds/pulled-blocks.toml";
+  Experiment as_shipped(scene, {"bond[0].weibull_modulus=2"});
+  const auto& law = as_shipped.simulation.world().resource<BondRules>().laws[0];
+  const std::string energy =
+      fmt::format("bond[0].fracture_energy={} J/m^2", 1.5 * law.energy / law.largest_share);
+  const auto lines = [&](const std::vector<std::string>& changes) {
+    std::vector<std::string> all{energy};
+    all.insert(all.end(), changes.begin(), changes.end());
+    Experiment e(scene, all);
+    auto told = bond_warnings(e.scene, e.simulation.world());
+    std::erase_if(told, [](const std::string& line) {
+      return line.find("random strengths") == std::string::npos;
+    });
+    return told;
+  };
+  const auto cut = lines({"bond[0].weibull_modulus=2"});
+  ASSERT_EQ(cut.size(), 1U);
+  EXPECT_THAT(cut[0], HasSubstr("cut off at 1.5 times `strength`, which 11% of the pairs reach"));
+  EXPECT_THAT(lines({"bond[0].weibull_modulus=10"}), IsEmpty());
+  EXPECT_THAT(lines({}), IsEmpty());
+  const std::string stiffer = fmt::format("bond[0].stiffness={}", 1.44 * law.stiffness);
+  EXPECT_THAT(lines({"bond[0].weibull_modulus=2", stiffer}), IsEmpty());
 }
 
 // ---- the zone over which they break ----------------------------------------------------------------------
