@@ -50,20 +50,28 @@ struct Group {
                  (surface->*criterion.points).end());
     return all;
   }
-  std::vector<FittedModel> fits(const Criterion& criterion) const {
-    return fit_caps(pooled(criterion), density(), surfaces.front()->state->bonded);
+  const std::vector<FittedModel>& fits(const Criterion& criterion) const {
+    return models[static_cast<std::size_t>(&criterion - criteria.data())];
   }
+  void fit() {
+    for (std::size_t i = 0; i < criteria.size(); ++i)
+      models[i] = fit_caps(pooled(criteria[i]), density(), surfaces.front()->state->bonded);
+  }
+
+  std::array<std::vector<FittedModel>, criteria.size()> models = {};
 };
 
 std::vector<Group> groups_of(const Probe& probe, const std::vector<ProbeSurface>& surfaces) {
   std::vector<Group> groups;
   for (const ProbePath& path : probe.spec.paths)
     for (const double density : probe.spec.densities) {
-      Group group{path.name, density, {}};
+      Group group{path.name, density, {}, {}};
       for (const ProbeSurface& surface : surfaces)
         if (surface.state->path == path.name && surface.state->asked == density)
           group.surfaces.push_back(&surface);
-      if (!group.surfaces.empty()) groups.push_back(std::move(group));
+      if (group.surfaces.empty()) continue;
+      group.fit();
+      groups.push_back(std::move(group));
     }
   return groups;
 }
@@ -108,15 +116,28 @@ std::string parameters_text(const FittedModel& model) {
   return text;
 }
 
+// Two cells: the ranges of all parameters, and the names of those that the points do not determine.
+std::string ranges_text(const FittedModel& model) {
+  std::string ranges, open;
+  for (const ParameterRange& range : model.ranges) {
+    ranges += fmt::format("{}{}={:.4g}..{:.4g}", ranges.empty() ? "" : " ", range.name, range.low,
+                          range.high);
+    if (!range.determined) open += (open.empty() ? "" : " ") + range.name;
+  }
+  return ranges + "," + open;
+}
+
 std::string caps_csv(const std::vector<Group>& groups) {
-  std::string text = "path,seed,relative_density,criterion,model,misfit,parameters\n";
+  std::string text =
+      "path,seed,relative_density,criterion,model,misfit,parameters,ranges,not_determined\n";
   for (const Group& group : groups)
     for (const Criterion& criterion : criteria) {
       const auto add = [&](const std::string& seed, double density,
                            const std::vector<FittedModel>& models) {
         for (const FittedModel& model : models)
-          text += fmt::format("{},{},{:.6f},{},{},{:.4f},{}\n", csv_word(group.path), seed, density,
-                              criterion.name, model.name, model.misfit, parameters_text(model));
+          text += fmt::format("{},{},{:.6f},{},{},{:.4f},{},{}\n", csv_word(group.path), seed,
+                              density, criterion.name, model.name, model.misfit,
+                              parameters_text(model), ranges_text(model));
       };
       for (const ProbeSurface* surface : group.surfaces)
         add(std::to_string(surface->state->seed), surface->state->density,
@@ -129,6 +150,11 @@ std::string caps_csv(const std::vector<Group>& groups) {
 Json model_json(const FittedModel& model) {
   Json json{{"name", model.name}, {"in_plane", model.in_plane}, {"misfit", model.misfit}};
   for (const auto& [key, value] : model.parameters) json["parameters"][key] = value;
+  json["not_determined"] = Json::array();
+  for (const ParameterRange& range : model.ranges) {
+    json["ranges"][range.name] = {range.low, range.high};  // null: no upper bound
+    if (!range.determined) json["not_determined"].push_back(range.name);
+  }
   for (const auto& [p, q] : model.surface) json["surface"].push_back({p, q});
   return json;
 }
@@ -198,14 +224,15 @@ std::vector<CapRow> cap_rows(const std::string& path, const std::vector<Group>& 
   std::vector<CapRow> rows;
   for (const Group& group : groups) {
     if (group.path != path) continue;
-    const auto models = group.fits(criteria[1]);
+    const auto& models = group.fits(criteria[1]);
     if (models.empty()) continue;
     const FittedModel &cap = models[0], &clay = models[1];
     rows.push_back({group.density(),
                     group.mean([](const ProbeSurface& s) { return s.moduli.youngs_modulus(); }),
                     group.mean([](const ProbeSurface& s) { return s.moduli.poissons_ratio(); }),
                     cap.parameter("d"), cap.parameter("beta"), cap.parameter("R"),
-                    cap.parameter("p_b"), clay.parameter("M"), clay.parameter("p_c")});
+                    cap.parameter("p_b"), clay.parameter("M"), clay.parameter("p_c"),
+                    undetermined(cap), undetermined(clay)});
   }
   return rows;
 }
@@ -239,13 +266,16 @@ std::string caps_text(const Probe& probe, const std::vector<ProbeSurface>& surfa
   std::string text = fmt::format("{:<16}{:>8}{:>9}{:>9}{:>7}{:>10}{:>9}{:>7}{:>10}{:>8}{:>10}\n",
                                  "path", "density", "E [GPa]", "nu", "points", "d [MPa]", "beta",
                                  "R", "p_b [MPa]", "M", "p_c [MPa]");
-  const std::vector<Group> groups = groups_of(probe, surfaces);
-  for (const Group& group : groups) {
+  std::string warnings;
+  for (const Group& group : groups_of(probe, surfaces)) {
     const std::vector<CapRow> rows = cap_rows(group.path, {group});
-    const std::size_t points = group.pooled(criteria[1]).size();
+    const std::vector<YieldPoint> pooled = group.pooled(criteria[1]);
+    const std::size_t points = usable_points(pooled);
     if (rows.empty()) {
-      text += fmt::format("{:<16}{:>8.4f}  {} yield points: too few for a surface\n", group.path,
-                          group.density(), points);
+      text += fmt::format(
+          "{:<16}{:>8.4f}  {} of {} yield points can be used (compressed, q > 0), a surface needs "
+          "{}\n",
+          group.path, group.density(), points, pooled.size(), fewest_points);
       continue;
     }
     const CapRow& row = rows[0];
@@ -253,8 +283,14 @@ std::string caps_text(const Probe& probe, const std::vector<ProbeSurface>& surfa
         "{:<16}{:>8.4f}{:>9.3g}{:>9.3f}{:>7}{:>10.3g}{:>9.1f}{:>7.3f}{:>10.4g}{:>8.3f}{:>10.4g}\n",
         group.path, row.density, row.youngs_modulus * 1e-9, row.poissons_ratio, points,
         row.d * 1e-6, row.beta * degrees, row.r, row.p_b * 1e-6, row.m, row.p_c * 1e-6);
+    for (const std::string& open : {row.open_cap, row.open_clay})
+      if (!open.empty())
+        warnings += fmt::format(
+            "warning: {} at {:.4f}: the yield points do not determine {}: values in these ranges "
+            "fit as well\n",
+            group.path, row.density, open);
   }
-  return text;
+  return text + warnings;
 }
 
 }  // namespace pulvis

@@ -129,8 +129,8 @@ ProbeSurface surface_of(const ProbeState& state, const ProbeSpec& spec,
   }
   const std::array<double, 2> centre{spec.release * state.stress[0],
                                      spec.release * state.stress[1]};
-  find_normality(surface.offset, centre);
-  find_normality(surface.dissipation, centre);
+  find_normality(surface.offset, centre, spec.directions);
+  find_normality(surface.dissipation, centre, spec.directions);
   surface.offset_models = fit_caps(surface.offset, state.density, state.bonded);
   surface.dissipation_models = fit_caps(surface.dissipation, state.density, state.bonded);
   return surface;

@@ -1,13 +1,18 @@
 #include "scenes/probe/cap_models.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 #include "engine/portable_math.hpp"
+#include "scenes/records/lab_statistics.hpp"
 #include "scenes/solve/least_squares.hpp"
 
 namespace pulvis {
@@ -168,7 +173,7 @@ struct Misfit {
 };
 
 struct Fit {
-  Values parameters;
+  Values start, parameters;
   double cost, misfit;
 };
 
@@ -185,7 +190,96 @@ Fit fit_from(const Model& model, const std::vector<Plane>& points, double p_max,
     const double one = residuals[static_cast<Eigen::Index>(i)];
     squares += one * one, n += 1;
   }
-  return {exp_of(x), residuals.squaredNorm(), std::sqrt(squares / n)};
+  return {start, exp_of(x), residuals.squaredNorm(), std::sqrt(squares / n)};
+}
+
+// Sum of squares over the points if parameter k has this logarithm and the others fit best. x is the start of the search,
+// and its end.
+double squares_with(const Misfit& misfit, Eigen::Index k, double logarithm, Values& x) {
+  const Eigen::Index others = x.size() - 1;
+  const auto whole = [&](const Values& of_others) {
+    Values all(others + 1);
+    all << of_others.head(k), logarithm, of_others.tail(others - k);
+    return all;
+  };
+  const auto residuals_of = [&](const Values& of_others, Values& residuals) {
+    misfit(whole(of_others), residuals);
+    residuals[static_cast<Eigen::Index>(misfit.points.size()) + k] = 0;  // no prior of its own
+  };
+  Values free(others);
+  free << x.head(k), x.tail(others - k);
+  if (others > 0)
+    levenberg_marquardt(residuals_of, misfit.values(),
+                        {.evaluations = 200, .tolerance = 1e-6, .difference = 1e-10}, free);
+  x = whole(free);
+  Values residuals(misfit.values());
+  misfit(x, residuals);
+  return residuals.head(static_cast<Eigen::Index>(misfit.points.size())).squaredNorm();
+}
+
+// How far the logarithm of parameter k can move in a direction before the squares exceed the limit; infinity: farther
+// than `farthest`.
+double reach(const Misfit& misfit, const Values& best, Eigen::Index k, double direction,
+             double farthest, double limit) {
+  Values x = best;
+  double inside = 0, step = 0.02;
+  const auto fits = [&](double distance) {
+    Values from = x;
+    if (squares_with(misfit, k, best[k] + direction * distance, from) > limit) return false;
+    x = std::move(from);
+    return true;
+  };
+  double outside = std::min(step, farthest);
+  while (fits(outside)) {
+    if (outside >= farthest) return std::numeric_limits<double>::infinity();
+    inside = outside;
+    outside = std::min(inside + (step *= 1.7), farthest);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (fits(middle) ? inside : outside) = middle;
+  }
+  return outside;
+}
+
+constexpr double steepest = 89.0 / 180 * pi;  // of beta
+
+bool is_determined(const std::string& name, double value, double low, double high, double p_max) {
+  if (name == "d" && high - low <= 0.1 * p_max) return true;
+  if (name != "beta") return high - low <= value;
+  return high < steepest && portable::tan(high) - portable::tan(low) <= portable::tan(value);
+}
+
+// Profiles of the sum of squares, which are exact where the parameters act together: a linear estimate at the best fit is
+// not. The limit is that of Student's distribution for the scatter of the points around the surface, at least 1e-4.
+std::vector<ParameterRange> ranges_of(const Model& model, const std::vector<Plane>& points,
+                                      double p_max, const Values& best, const Values& start) {
+  const Misfit misfit(model, points, p_max, log_of(start));
+  const Values logarithms = log_of(best);
+  Values residuals(misfit.values());
+  misfit(logarithms, residuals);
+  const auto n = static_cast<double>(points.size());
+  const auto head = residuals.head(static_cast<Eigen::Index>(points.size()));
+  const int degrees = std::max(1, static_cast<int>(points.size()) - static_cast<int>(best.size()));
+  const double t = lab::student_quantile(0.95, degrees);
+  const double limit = std::max(head.squaredNorm(), 1e-8 * n) * (1 + t * t / degrees);
+  std::vector<ParameterRange> ranges;
+  for (Eigen::Index k = 0; k < best.size(); ++k) {
+    const std::string name = model.parameters[static_cast<std::size_t>(k)];
+    const double factor = std::numbers::ln10;
+    double up = factor;
+    if (name == "beta") up = std::max(0.0, portable::log(steepest) - logarithms[k]);
+    if (name == "d")
+      up = std::max(up, portable::log(p_max) - logarithms[k]);  // from next to nothing
+    const double below = reach(misfit, logarithms, k, -1, factor, limit);
+    const double above = reach(misfit, logarithms, k, 1, up, limit);
+    ParameterRange range{name, std::isinf(below) ? 0 : best[k] * portable::exp(-below),
+                         best[k] * portable::exp(above)};
+    if (std::isinf(above)) range.high = name == "beta" ? 0.5 * pi : above;
+    range.determined = is_determined(name, best[k], range.low, range.high, p_max);
+    ranges.push_back(range);
+  }
+  return ranges;
 }
 
 FittedModel fitted(const Model& model, const std::vector<Plane>& points) {
@@ -203,6 +297,7 @@ FittedModel fitted(const Model& model, const std::vector<Plane>& points) {
   fit.name = model.name;
   fit.in_plane = model.in_plane;
   fit.misfit = best.misfit;
+  fit.ranges = ranges_of(model, points, p_max, best.parameters, best.start);
   for (std::size_t k = 0; k < model.parameters.size(); ++k)
     fit.parameters.emplace_back(model.parameters[k], best.parameters[static_cast<Eigen::Index>(k)]);
   constexpr int steps = 90;
@@ -214,6 +309,16 @@ FittedModel fitted(const Model& model, const std::vector<Plane>& points) {
   return fit;
 }
 
+std::vector<YieldPoint> usable(const std::vector<YieldPoint>& points) {
+  double largest = 0;
+  for (const YieldPoint& point : points) largest = std::max(largest, point.plane_pressure());
+  std::vector<YieldPoint> used;
+  std::ranges::copy_if(points, std::back_inserter(used), [&](const YieldPoint& point) {
+    return point.plane_pressure() >= open * largest && point.deviatoric() >= -other_side * largest;
+  });
+  return used;
+}
+
 }  // namespace
 
 double FittedModel::parameter(const std::string& of) const {
@@ -222,19 +327,33 @@ double FittedModel::parameter(const std::string& of) const {
   throw std::out_of_range(of);
 }
 
+std::string undetermined(const FittedModel& model) {
+  std::string text;
+  for (const ParameterRange& range : model.ranges) {
+    if (range.determined) continue;
+    const bool is_angle = range.name == "beta";
+    const bool is_ratio = range.name == "R" || range.name == "M";
+    const double unit = is_angle ? pi / 180 : is_ratio ? 1 : 1e6;
+    const char* const word = is_angle ? " deg" : is_ratio ? "" : " MPa";
+    text +=
+        fmt::format("{}{} ({:.3g}{})", text.empty() ? "" : ", ", range.name, range.low / unit,
+                    std::isinf(range.high) ? fmt::format("{} and more", word)
+                                           : fmt::format(" to {:.3g}{}", range.high / unit, word));
+  }
+  return text;
+}
+
+std::size_t usable_points(const std::vector<YieldPoint>& points) { return usable(points).size(); }
+
 std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double relative_density,
                                   bool bonded) {
   std::vector<Plane> all, in_plane;
-  double largest = 0;
-  for (const YieldPoint& point : points) largest = std::max(largest, point.plane_pressure());
-  for (const YieldPoint& point : points) {
-    if (point.plane_pressure() < open * largest || point.deviatoric() < -other_side * largest)
-      continue;
+  for (const YieldPoint& point : usable(points)) {
     all.push_back({point.pressure(), std::abs(point.deviatoric())});
     in_plane.push_back({point.plane_pressure(), std::abs(point.plane_shear())});
   }
   std::vector<FittedModel> fits;
-  if (all.size() < 5) return fits;
+  if (all.size() < fewest_points) return fits;
   for (const Model& model : models(relative_density)) {
     const bool cap = std::string(model.name) == "drucker_prager_cap";
     std::vector<Plane> mine = model.in_plane ? in_plane : all;

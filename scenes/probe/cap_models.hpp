@@ -13,11 +13,24 @@ namespace pulvis {
 
 inline constexpr double cap_transition = 0.03;  // -, alpha of the Drucker-Prager cap
 
+// The values of a parameter with which the model fits as well, with a confidence of 95%, when its other parameters follow.
+struct ParameterRange {
+  std::string name;
+  double
+      low = 0,
+      high =
+          0;  // 0, infinity: no bound within a factor of 10, of d up to the largest p; beta: pi/2
+  bool determined =
+      true;  // the range is no wider than the value itself, or for d than a tenth of p_b
+};
+
 struct FittedModel {
   std::string name;
   std::vector<std::pair<std::string, double>> parameters;  // Pa, rad or -
   bool in_plane = false;  // in terms of in-plane pressure and shear instead of p and q
-  double misfit = 0;      // rms distance to the points along rays, over the largest pressure
+  std::vector<ParameterRange>
+      ranges;         // of the fitted parameters, not of those that follow from them
+  double misfit = 0;  // rms distance to the points along rays, over the largest pressure
   std::vector<std::pair<double, double>> surface;  // Pa, p and q >= 0 along it, for plotting
   double parameter(const std::string& of) const;
 };
@@ -36,6 +49,13 @@ struct FittedModel {
 // Without bonds zero stress is an additional point of the cap: nothing holds the powder together.
 std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double relative_density,
                                   bool bonded);
+
+// Of the parameters that the points do not determine, with their ranges: "beta (50 to 90 deg), R (0.2 to 2.1)". Empty: none.
+std::string undetermined(const FittedModel& model);
+
+// How many of the points are used by these fits, and how many they need.
+std::size_t usable_points(const std::vector<YieldPoint>& points);
+inline constexpr std::size_t fewest_points = 5;
 
 // Whether the model with these parameters is elastic at p, q: used by the fit and by whoever reads its parameters back.
 bool is_elastic(const std::string& model,

@@ -24,6 +24,19 @@ std::vector<double> numbers_of(const std::string& line) {
   return numbers;
 }
 
+// Comments of a block, in its language.
+std::string open_lines(const std::vector<CapRow>& rows, std::string CapRow::*open,
+                       const char* mark) {
+  std::string text;
+  for (const CapRow& row : rows)
+    if (!(row.*open).empty())
+      text += fmt::format(
+          "{0} WARNING: at density {1:.4f} the yield points do not determine {2}:\n{0} values in "
+          "these ranges fit as well.\n",
+          mark, row.density, row.*open);
+  return text;
+}
+
 }  // namespace
 
 std::string abaqus_block(const std::string& name, const std::vector<CapRow>& rows) {
@@ -36,6 +49,7 @@ std::string abaqus_block(const std::string& name, const std::vector<CapRow>& row
   for (const CapRow& row : rows)
     text += fmt::format("{:.6e}, {:.6f}, , {:.6f}\n", row.youngs_modulus, row.poissons_ratio,
                         row.density);
+  text += open_lines(rows, &CapRow::open_cap, "**");
   text +=
       "** d, beta [deg], R, initial volumetric plastic strain, alpha, K, temperature, density\n"
       "*CAP PLASTICITY, DEPENDENCIES=1\n";
@@ -71,13 +85,13 @@ std::string code_aster_block(const std::string& name, const std::vector<CapRow>&
       "# {}: modified Cam-Clay, fitted to yield points of particles by Pulvis. Units: Pa.\n"
       "# Relative density {:.4f} at the start; PRES_CRIT is half of the preconsolidation "
       "pressure.\n"
-      "{} = DEFI_MATERIAU(\n"
+      "{}{} = DEFI_MATERIAU(\n"
       "    ELAS=_F(E={:.6e}, NU={:.6f}),\n"
       "    CAM_CLAY=_F(MU={:.6e}, PORO={:.6f}, LAMBDA={:.6f}, KAPA={:.6e}, M={:.6f}, "
       "PRES_CRIT={:.6e}))\n",
-      name, first.density, name, first.youngs_modulus, first.poissons_ratio,
-      first.youngs_modulus / (2 * (1 + first.poissons_ratio)), clay.porosity, clay.lambda,
-      clay.kappa, clay.m, 0.5 * clay.p_c);
+      name, first.density, open_lines(rows, &CapRow::open_clay, "#"), name, first.youngs_modulus,
+      first.poissons_ratio, first.youngs_modulus / (2 * (1 + first.poissons_ratio)), clay.porosity,
+      clay.lambda, clay.kappa, clay.m, 0.5 * clay.p_c);
 }
 
 std::vector<CapRow> read_abaqus_block(const std::string& text) {

@@ -20,6 +20,8 @@ struct CapRow {
   double p_b = 0;   // Pa
   double m = 0;     // -, slope of the critical state line of modified Cam-Clay
   double p_c = 0;   // Pa, its preconsolidation pressure
+  // Parameters of the cap and of Cam-Clay that the points do not determine, with their ranges; empty: none.
+  std::string open_cap = {}, open_clay = {};
 };
 
 // Abaqus: *ELASTIC and *CAP PLASTICITY against the relative density as field variable 1, *CAP HARDENING from p_b against the

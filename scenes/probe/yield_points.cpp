@@ -22,6 +22,40 @@ std::array<double, 2> plastic_strain(const ProbeCurve& curve, const PowderModuli
           curve.strain[i][1] - (m.c11 * sy - m.c12 * sx) / det};
 }
 
+// Which probe directions have a point.
+class Presence {
+ public:
+  Presence(const std::vector<YieldPoint>& points, int directions)
+      : present_(static_cast<std::size_t>(directions), false) {
+    for (const YieldPoint& point : points) present_[place(point)] = true;
+  }
+  // Between two points that follow each other on the surface. Near a vertex they may follow in another order than their
+  // directions, so both ways round the circle are possible; the one that passes fewer points is theirs.
+  bool gap(const YieldPoint& from, const YieldPoint& to) const {
+    const Passed forwards = passed(place(from), place(to));
+    const Passed backwards = passed(place(to), place(from));
+    return (forwards.points <= backwards.points ? forwards : backwards).missing > 0;
+  }
+
+ private:
+  struct Passed {
+    int points = 0, missing = 0;
+  };
+  std::size_t place(const YieldPoint& point) const {
+    const double turns = point.angle / (2 * std::numbers::pi);
+    const auto n = static_cast<double>(present_.size());
+    return static_cast<std::size_t>(std::lround((turns - std::floor(turns)) * n)) % present_.size();
+  }
+  Passed passed(std::size_t from, std::size_t to) const {
+    Passed all;
+    for (std::size_t k = (from + 1) % present_.size(); k != to && k != from;
+         k = (k + 1) % present_.size())
+      ++(present_[k] ? all.points : all.missing);
+    return all;
+  }
+  std::vector<bool> present_;
+};
+
 // The sample before which `measure` first reaches `bound`, and the fraction of that interval.
 struct Passing {
   std::size_t after;
@@ -121,16 +155,19 @@ std::optional<YieldPoint> dissipation_yield(const ProbeCurve& curve, const Powde
   return point_at(curve, moduli, *at);
 }
 
-void find_normality(std::vector<YieldPoint>& points, const std::array<double, 2>& centre) {
+void find_normality(std::vector<YieldPoint>& points, const std::array<double, 2>& centre,
+                    int directions) {
   const auto direction = [&](const YieldPoint& p) {
     return portable::atan2(p.stress[1] - centre[1], p.stress[0] - centre[0]);
   };
   std::ranges::sort(points, {}, direction);
   const std::size_t n = points.size();
   if (n < 3) return;
+  const Presence presence(points, directions);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto& before = points[(i + n - 1) % n].stress;
-    const auto& after = points[(i + 1) % n].stress;
+    const YieldPoint &previous = points[(i + n - 1) % n], &next = points[(i + 1) % n];
+    if (presence.gap(previous, points[i]) || presence.gap(points[i], next)) continue;
+    const auto &before = previous.stress, &after = next.stress;
     const double tx = after[0] - before[0], ty = after[1] - before[1];
     const double size = length(tx, ty);
     const auto& plastic = points[i].plastic;

@@ -14,7 +14,7 @@ struct ProbeCurve {
   double angle = 0;                           // rad, of (strain xx, strain yy), or of the stresses
   std::vector<std::array<double, 3>> strain;  // xx yy xy, since the probe began
   std::vector<std::array<double, 4>> stress;  // Pa: xx yy xy zz
-  std::vector<double> dissipated;  // J/m^3, of bulk volume, since the probe began
+  std::vector<double> dissipated;             // J/m^3, of bulk volume, since the probe began
 };
 
 // Of the bulk powder, pores included, for small unloadings. Plane strain: strain zz is zero.
@@ -52,7 +52,9 @@ std::optional<YieldPoint> dissipation_yield(const ProbeCurve& curve, const Powde
                                             double energy);
 
 // Computes the angles to the normals: the points, in the order of their stress directions from `centre` (xx, yy), form a
-// closed surface; the tangent at a point is the line through its neighbours.
-void find_normality(std::vector<YieldPoint>& points, const std::array<double, 2>& centre);
+// surface; the tangent at a point is the line through its neighbours. The surface is open where one of the `directions`,
+// evenly spaced over the full circle, has no point; points at its ends have a neighbour on one side only, and no angle.
+void find_normality(std::vector<YieldPoint>& points, const std::array<double, 2>& centre,
+                    int directions);
 
 }  // namespace pulvis

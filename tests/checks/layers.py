@@ -71,7 +71,7 @@ ROOMS = {
         "volts": "lever keys outlines spec language",
         "records": "solve lever volts keys results spec language /",
         "study": "checks let results tools keys space/keys spec language /",
-        "probe": "solve keys spec language /",
+        "probe": "records solve keys spec language /",
         "fit": "records solve keys lever outlines packing spec language /",
     },
     "cli": {

@@ -14,6 +14,7 @@ namespace pulvis {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 using std::numbers::pi;
 
@@ -81,6 +82,25 @@ TEST(Caps, OfDruckerAndPragerComeBack) {
   EXPECT_LT(fit.misfit, 2e-3);
 }
 
+// Points all around the surface determine everything; those of the cap alone leave the slope open.
+TEST(Caps, TellWhatThePointsDoNotDetermine) {
+  const auto around = fit_caps(cap_points(8e6, 0.6, 0.9, 150e6), 0.9, true);
+  const FittedModel& known = model(around, "drucker_prager_cap");
+  EXPECT_EQ(undetermined(known), "");
+  ASSERT_EQ(known.ranges.size(), 4U);
+  EXPECT_LT(known.ranges[1].low, 0.6);
+  EXPECT_GT(known.ranges[1].high, 0.6);
+
+  std::vector<YieldPoint> points;
+  for (const double p : {60e6, 90e6, 120e6, 140e6, 148e6})
+    points.push_back(point_of(p, cap_q(p, 1e6, 1.2, 2.0, 150e6, 0.03)));
+  const auto fits = fit_caps(points, 0.9, false);
+  const FittedModel& open = model(fits, "drucker_prager_cap");
+  EXPECT_THAT(undetermined(open), HasSubstr("beta ("));
+  EXPECT_TRUE(open.ranges[3].determined);  // p_b
+  EXPECT_TRUE(model(fits, "modified_cam_clay").ranges[1].determined);
+}
+
 // Points that leave the cohesion open: without bonds there is none.
 TEST(Caps, OfPowdersWithoutBondsHaveNoCohesion) {
   std::vector<YieldPoint> points = cap_points(0, 0.6, 0.9, 150e6);
@@ -127,6 +147,7 @@ TEST(FleckPlane, IsTheIntegralOverTheContacts) {
 }
 
 TEST(Caps, NeedPoints) {
+  EXPECT_EQ(usable_points({point_of(1e6, 0), point_of(20e6, 5e6), point_of(20e6, -5e6)}), 1U);
   EXPECT_TRUE(fit_caps({point_of(1e6, 0), point_of(2e6, 1e6)}, 0.9, true).empty());
 }
 
@@ -181,6 +202,12 @@ TEST(KeywordBlocks, OfCamClayHaveItsSlopes) {
   EXPECT_NEAR(clay.porosity, 0.2, 1e-12);
   EXPECT_NEAR(clay.p_c / 50e6, 1, 1e-12);
   EXPECT_THAT(code_aster_block("copper", rows), HasSubstr("CAM_CLAY=_F("));
+  EXPECT_THAT(abaqus_block("copper", rows), Not(HasSubstr("WARNING")));
+  rows[1].open_cap = "beta (50 to 90 deg)";
+  EXPECT_THAT(
+      abaqus_block("copper", rows),
+      HasSubstr("** WARNING: at density 0.8500 the yield points do not determine beta (50"));
+  EXPECT_EQ(read_abaqus_block(abaqus_block("copper", rows)).size(), rows.size());
   EXPECT_EQ(code_aster_block("copper", {rows[0]}), "");
 }
 

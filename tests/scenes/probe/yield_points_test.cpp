@@ -79,7 +79,7 @@ TEST(YieldPoints, AreOnTheSurfaceAndFlowAlongItsNormal) {
       EXPECT_NEAR(std::hypot(point.stress[0], point.stress[1]) / yield, 1, 1e-3) << curve.angle;
     points.push_back(*by_offset);
   }
-  find_normality(points, {0, 0});
+  find_normality(points, {0, 0}, 24);
   for (const YieldPoint& point : points) {
     // C^-1 sigma is not along sigma: the angle between them is the law's.
     const double px = c22 * point.stress[0] - c12 * point.stress[1];
@@ -88,6 +88,45 @@ TEST(YieldPoints, AreOnTheSurfaceAndFlowAlongItsNormal) {
         std::acos((px * point.stress[0] + py * point.stress[1]) / (std::hypot(px, py) * yield));
     ASSERT_TRUE(point.normality);
     EXPECT_NEAR(*point.normality, law, 0.15);
+  }
+}
+
+// The two sides of a wedge, of which only the outer ends yield: each has its own normal, and no line joins the ends.
+TEST(YieldPoints, AtTheEndsOfAnOpenSurfaceHaveNoNormal) {
+  std::vector<YieldPoint> points;
+  for (const int k : {7, 8, 9, 15, 16, 17}) {  // of 24: 105 to 135 degrees, 225 to 255 degrees
+    YieldPoint point;
+    point.angle = 2 * pi * k / 24;
+    const double side = k < 12 ? 1 : -1, along = std::abs(k - 12);
+    point.stress = {-along, side * along, 0, 0};
+    point.plastic = {std::sqrt(0.5), side * std::sqrt(0.5)};
+    points.push_back(point);
+  }
+  find_normality(points, {-8, 0}, 24);
+  for (const YieldPoint& point : points) {
+    const double k = std::round(point.angle * 24 / (2 * pi));
+    EXPECT_EQ(point.normality.has_value(), k == 8 || k == 16) << k;
+    EXPECT_NEAR(point.normality.value_or(0), 0, 1e-7) << k;
+  }
+}
+
+// Where two points share nearly one stress, such as at a vertex, their order may be reversed: that is no gap.
+TEST(YieldPoints, ThatFollowInAnotherOrderAreNoGap) {
+  std::vector<YieldPoint> points;
+  for (int k = 0; k < 12; ++k) {
+    if (k == 6) continue;  // the surface is open there
+    YieldPoint point;
+    point.angle = 2 * pi * k / 12;
+    const double turned = k == 2 ? 3.0 : k == 3 ? 2.0 : k;
+    point.stress = {std::cos(2 * pi * turned / 12), std::sin(2 * pi * turned / 12), 0, 0};
+    point.plastic = {point.stress[0], point.stress[1]};
+    points.push_back(point);
+  }
+  find_normality(points, {0, 0}, 12);
+  for (const YieldPoint& point : points) {
+    const double k = std::round(point.angle * 12 / (2 * pi));
+    EXPECT_EQ(point.normality.has_value(), k != 5 && k != 7) << k;
+    EXPECT_NEAR(point.normality.value_or(0), 0, 1e-7) << k;
   }
 }
 
