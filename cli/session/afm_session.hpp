@@ -40,6 +40,8 @@ class AfmSession {
 
   // Folder for the run's files; without one nothing is written.
   void write_to(const std::filesystem::path& folder, const CheckpointOptions& options);
+  // Starts the programme at a checkpoint, once; without it, go() starts at the beginning.
+  void begin(const Checkpoint* from);
   // To the end of the programme, or until it is stopped; without actions, the load cases of the calibration.
   void run(const Checkpoint* from = nullptr);
   // The same in parts, with bitwise identical results: to a target, until over(); then, or earlier, leave().
@@ -61,7 +63,6 @@ class AfmSession {
 
  private:
   bool writes() const { return !folder_.empty(); }
-  void begin(const Checkpoint* from);
   void open_recorder(const Checkpoint* from);
   void run_programme();
   bool reached() const;

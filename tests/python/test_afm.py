@@ -59,7 +59,7 @@ def test_an_error_in_a_callback_ends_the_run_with_whole_files_and_it_is_resumed(
         lever.run()
     assert read_summary(tmp_path / "run")["outcome"] == "interrupted"
     resumed = pulvis.resume(tmp_path / "run")
-    assert resumed.finished and resumed.hash == whole.hash
+    assert not resumed.finished and resumed.run().finished and resumed.hash == whole.hash
     assert read_summary(tmp_path / "run")["outcome"] == "done"
 
 
@@ -74,7 +74,7 @@ def test_what_belongs_to_powders_is_refused(scenes):
     assert lever.is_afm
     with pytest.raises(pulvis.SceneError, match="no particles"):
         pulvis.pack(lever)
-    with pytest.raises(AttributeError):
+    with pytest.raises(pulvis.RunError, match="no lever to calibrate; allowed: a scene with family"):
         pulvis.Scene(scenes / "compaction/unit-cell.toml").calibration()
 
 
@@ -121,7 +121,31 @@ def test_a_lever_that_is_closed_is_resumed(coarse, read_summary, tmp_path):
         lever.step(6)
     assert read_summary(tmp_path / "run")["outcome"] == "interrupted"
     resumed = pulvis.resume(tmp_path / "run")
-    assert resumed.finished and resumed.hash == coarse().simulation().run().hash
+    assert not resumed.finished and resumed.run().finished and resumed.hash == coarse().simulation().run().hash
+
+
+def test_a_resumed_lever_goes_on_in_parts(coarse, tmp_path):
+    with coarse().simulation(folder=tmp_path / "run") as lever:
+        lever.step(6)
+    resumed = pulvis.resume(tmp_path / "run", checkpoint_every=1e9)
+    assert resumed.increments == 6
+    assert resumed.step(2).increments == 8 and not resumed.finished
+    assert resumed.run().hash == coarse().simulation().run().hash
+
+
+def test_a_lever_writes_its_checkpoints_when_it_is_told_to(coarse, tmp_path):
+    lever = coarse().simulation(folder=tmp_path / "run", checkpoint_every=1e9, checkpoint_steps=4)
+    kept = []
+    lever.every(1, lambda one: kept.append(sorted(file.name for file in (tmp_path / "run").glob("checkpoint-*.h5"))))
+    lever.step(6)
+    assert [files[-1] for files in kept[3:]] == [f"checkpoint-{step:012}.h5" for step in (0, 4, 4)]
+    with pytest.raises(ValueError, match="checkpoint_every: 0, allowed: > 0 s"):
+        coarse().simulation(folder=tmp_path / "other", checkpoint_every=0).run()
+
+
+def test_an_unknown_series_is_told_with_those_that_there_are(coarse):
+    with pytest.raises(KeyError, match="no series 'force', allowed: actions, .*probe/force_z"):
+        coarse().simulation().history["force"]
 
 
 def test_a_callback_takes_no_increments_of_its_own_lever(coarse):

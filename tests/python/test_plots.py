@@ -150,6 +150,10 @@ def test_a_lever_has_its_curves(loop, pull_off):
     _, axes = pulvis.open(loop).plot.friction_loop()
     assert [text.get_text() for text in axes.get_legend().get_texts()][:2] in (
         ["trace", "retrace"], ["action 1, trace", "action 1, retrace"])
+    assert axes.get_ylabel().startswith("Force that drags the tip / ")
+    shown = [np.nanmedian(line.get_ydata()) for line in axes.lines]
+    values = pulvis.open(loop).loops[0].values
+    assert np.sign(shown[0]) == np.sign(values["trace"]) and np.sign(shown[1]) == np.sign(values["retrace"])
     _, axes = pulvis.open(pull_off).plot.force_curve()
     assert [line.get_label() for line in axes.lines] == ["approach", "retract"]
     assert axes.get_xlabel() == "Scanner $z$ / µm" and axes.get_ylabel().startswith("Force on the tip $F_z$ / ")

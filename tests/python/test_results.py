@@ -204,10 +204,12 @@ def test_a_friction_loop_is_handed_back_way_by_way(loop):
     for way, sign in ((one.trace, 1), (one.retrace, -1)):
         steps = np.diff(way.position)
         assert abs(np.sign(steps).sum()) == len(steps)
-        np.testing.assert_array_equal(run.series(f"probe/force_{one.axis}")[way.rows], way.force)
+        np.testing.assert_array_equal(run.series(f"probe/force_{one.axis}")[way.rows], -way.force)
         assert sign * np.sign(steps[0]) == np.sign(np.diff(one.trace.position)[0])
     half = abs(np.median(one.trace.force) - np.median(one.retrace.force)) / 2
     assert half == pytest.approx(one.values["half_width"], rel=0.3)
+    for way, name in ((one.trace, "trace"), (one.retrace, "retrace")):
+        assert np.median(way.force) == pytest.approx(one.values[name], rel=0.3)
 
 
 def test_a_force_curve_has_its_pull_off(pull_off):

@@ -7,6 +7,10 @@ import pulvis
 
 def test_a_driven_tool_moves_as_it_is_told(cell):
     sim = cell.simulation().step(50)
+    with pytest.raises(KeyError, match="no tool 'punch', allowed: .*top"):
+        sim.tools["punch"]
+    with pytest.raises(KeyError, match="no series 'force', allowed: time, "):
+        sim.history["force"]
     top = sim.tools["top"]
     heights = []
     top.drive((0, "-4 m/s"))

@@ -58,12 +58,13 @@ class PythonLever {
     every_calls_.emplace_back(increments, f);
   }
 
-  void write_to(const std::string& folder, bool overwrite) {
+  void write_to(const std::string& folder, bool overwrite, double checkpoint_every,
+                std::int64_t checkpoint_steps) {
     if (folder.empty() || lock_ != nullptr || is_finished_) return;
     require_free_folder(session_->loaded(), folder);
     lock_ = std::unique_ptr<FolderLock>(new FolderLock(open_run_folder(folder, overwrite)));
     save_scene(folder, session_->loaded());
-    session_->write_to(folder, {});
+    session_->write_to(folder, checkpoints(checkpoint_every, checkpoint_steps));
   }
   // Runs until its target is reached, it is stopped, or the programme ends.
   void go(const AfmSession::Target& target) {
@@ -88,11 +89,20 @@ class PythonLever {
     if (is_going_) throw NotNow("a callback cannot close its own lever");
     finish();
   }
-  void resume(const std::string& folder, OpenFolder stopped) {
+  // Waits at the checkpoint.
+  void resume(const std::string& folder, OpenFolder stopped, double checkpoint_every) {
+    session_->write_to(folder, checkpoints(checkpoint_every, 0));
     lock_ = std::move(stopped.lock);
-    session_->write_to(folder, {});
-    whole([&] { session_->run(stopped.run.checkpoint.get()); });
-    finish();
+    whole([&] { session_->begin(stopped.run.checkpoint.get()); });
+  }
+  static CheckpointOptions checkpoints(double every, std::int64_t steps) {
+    if (!(every > 0))
+      throw py::value_error(fmt::format("checkpoint_every: {}, allowed: > 0 s", every));
+    if (steps < 0) throw py::value_error(fmt::format("checkpoint_steps: {}, allowed: >= 0", steps));
+    CheckpointOptions options;
+    options.every = every;
+    options.steps = steps;
+    return options;
   }
 
   const AfmSession& session() const { return *session_; }
@@ -275,7 +285,8 @@ void bind_afm(py::module_& core) {
   using Self = const PythonLever&;
   py::class_<PythonLever, std::shared_ptr<PythonLever>>(core, "Lever")
       .def(py::init<const LoadedScene&, int>(), py::arg("scene"), py::arg("threads"))
-      .def("write_to", &PythonLever::write_to, py::arg("folder"), py::arg("overwrite"))
+      .def("write_to", &PythonLever::write_to, py::arg("folder"), py::arg("overwrite"),
+           py::arg("checkpoint_every"), py::arg("checkpoint_steps"))
       .def("run", [](PythonLever& lever) { lever.go({}); })
       .def("run_until", &PythonLever::run_until)
       .def("step", &PythonLever::step)
@@ -301,12 +312,15 @@ void bind_afm(py::module_& core) {
       .def_property_readonly("elements",
                              [](Self lever) { return lever.session().report().elements; });
   core.def("afm_series", &series_of_levers);
-  core.def("resume_lever", [](const std::string& folder, int threads) {
-    OpenFolder stopped = open_stopped(folder, true);
-    auto lever = std::make_shared<PythonLever>(stopped.run.scene, threads);
-    lever->resume(folder, std::move(stopped));
-    return lever;
-  });
+  core.def(
+      "resume_lever",
+      [](const std::string& folder, int threads, double checkpoint_every) {
+        OpenFolder stopped = open_stopped(folder, true);
+        auto lever = std::make_shared<PythonLever>(stopped.run.scene, threads);
+        lever->resume(folder, std::move(stopped), checkpoint_every);
+        return lever;
+      },
+      py::arg("folder"), py::arg("threads"), py::arg("checkpoint_every"));
   core.def("is_lever_folder", [](const std::string& folder) {
     return load_scene(std::filesystem::path(folder) / "scene.toml").scene.afm != nullptr;
   });

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pulvis import _core
+from pulvis.errors import Named
 
 if TYPE_CHECKING:
     from pulvis.results import Run
@@ -29,17 +30,19 @@ class Lever:
     """
 
     def __init__(self, scene: Scene, threads: int = 0, folder: str | os.PathLike[str] | None = None,
-                 overwrite: bool = False, core: _core.Lever | None = None) -> None:
+                 overwrite: bool = False, checkpoint_every: float = 60.0, checkpoint_steps: int = 0,
+                 core: _core.Lever | None = None) -> None:
         self.scene = scene
         self.folder = None if folder is None else Path(folder)
-        self._overwrite = overwrite
+        self._files = (overwrite, checkpoint_every, checkpoint_steps)
         self._core = core or _core.Lever(scene._core, threads)
 
     @classmethod
-    def resumed(cls, folder: str | os.PathLike[str], threads: int = 0) -> Lever:
+    def resumed(cls, folder: str | os.PathLike[str], threads: int = 0, checkpoint_every: float = 60.0) -> Lever:
+        """A stopped lever at its latest checkpoint; `run` continues it."""
         from pulvis.scene import Scene
 
-        core = _core.resume_lever(os.fspath(folder), threads)
+        core = _core.resume_lever(os.fspath(folder), threads, checkpoint_every)
         return cls(Scene(Path(folder) / "scene.toml"), folder=folder, core=core)
 
     # ---- running ------------------------------------------------------------------------------------------------
@@ -60,7 +63,7 @@ class Lever:
         return self._go(lambda: self._core.step(count))
 
     def _go(self, part):
-        self._core.write_to("" if self.folder is None else os.fspath(self.folder), self._overwrite)
+        self._core.write_to("" if self.folder is None else os.fspath(self.folder), *self._files)
         part()
         return self
 
@@ -127,12 +130,12 @@ class Lever:
         return self.outcome == "done"
 
     @property
-    def history(self) -> dict[str, np.ndarray]:
+    def history(self) -> Mapping[str, np.ndarray]:
         """Arrays [increments] by series name, SI units: dict; ``actions`` counts the completed actions."""
         rows = self._core.samples
         series = {"actions": np.asarray(self._core.sample_times)}
         series.update({name: rows[:, i] for i, (name, _, _) in enumerate(_core.afm_series())})
-        return series
+        return Named("series", series)
 
     @property
     def results(self) -> Run:

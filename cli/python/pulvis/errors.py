@@ -32,3 +32,14 @@ class SceneError(PulvisError):
 
 class RunError(PulvisError):
     """A run failed, or the request does not apply to it."""
+
+
+class Named(dict):
+    """A dict whose KeyError tells the names that there are; `kind` is what they name."""
+
+    def __init__(self, kind, *args):
+        super().__init__(*args)
+        self.kind = kind
+
+    def __missing__(self, name):
+        raise KeyError(f"no {self.kind} {name!r}, allowed: {', '.join(map(str, self)) or 'none'}")

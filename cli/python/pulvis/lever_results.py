@@ -4,8 +4,9 @@ from collections import namedtuple
 import numpy as np
 
 Motion = namedtuple("Motion", "rows position force signal")
-Motion.__doc__ = """One way of the scanner: `rows` of the history, its `position` in m, the `force` on the tip in N along
-it (vertical of a force curve), and the `signal` of the detector in V."""
+Motion.__doc__ = """One way of the scanner: `rows` of the history, its `position` in m, a `force` in N and the `signal` of the
+detector in V. Of a force curve, the vertical force on the tip. Of a friction loop, the force with which the lever drags the tip
+along the scan, as in the loop's values: force on the tip (`probe/force_y`) and signal have the opposite sign in the history."""
 Loop = namedtuple("Loop", "action axis trace retrace values")
 Loop.__doc__ = """A friction loop: the action that scanned it, "x" or "y", two Motions, and what summary.json says of it."""
 ForceCurve = namedtuple("ForceCurve", "action approach retract values")
@@ -14,10 +15,11 @@ Image = namedtuple("Image", "values unit pixel_width pixel_height")
 Image.__doc__ = """Lines of a raster [lines, pixels], first line first, in `unit`; sizes of a pixel in m or None."""
 
 
-def motion_of(run, rows, axis):
+def motion_of(run, rows, axis, sign=1):
     lateral = {"x": "normal", "y": "lateral", "z": "normal"}[axis]
     columns = [f"scanner/{axis}", f"probe/force_{axis}", f"detector/{lateral}"]
-    return Motion(rows, *(run.series(name)[rows] if run.has(name) else None for name in columns))
+    return Motion(rows, *(way * run.series(name)[rows] if run.has(name) else None
+                          for name, way in zip(columns, (1, sign, sign))))
 
 
 def loops_of(run):
@@ -30,7 +32,7 @@ def loops_of(run):
             continue
         reach = {axis: np.ptp(run.series(f"scanner/{axis}")[both]) for axis in "yx" if run.has(f"scanner/{axis}")}
         axis = max(reach, key=lambda one: reach[one])
-        trace, retrace = (motion_of(run, rows, axis) for rows in within)
+        trace, retrace = (motion_of(run, rows, axis, -1) for rows in within)
         loops.append(Loop(action, axis, trace, retrace, values))
     return loops
 

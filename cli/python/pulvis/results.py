@@ -265,7 +265,7 @@ class Run:
 
     @property
     def family(self) -> str:
-        """"afm" for a lever; "compaction" or "shear" for powders."""
+        """"afm" for a lever; "compaction" for powders, also if they are sheared."""
         return self.summary.get("family") or ("afm" if self.is_solid else "compaction")
 
     @property

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from pulvis import _core
+from pulvis.errors import RunError
 from pulvis.toml_text import toml_text, toml_value
 
 # File name of a scene without a file; its paths are relative to the working directory.
@@ -102,7 +103,7 @@ class Scene:
         checkpoint_every : float
             Wall-clock seconds between checkpoints.
         checkpoint_steps : int
-            Also write one every this many steps; 0: off.
+            Also write one every this many steps (of a lever: increments); 0: off.
 
         Returns
         -------
@@ -111,7 +112,7 @@ class Scene:
         if self.is_afm:
             from pulvis.afm import Lever
 
-            return Lever(self, threads=threads, folder=folder, overwrite=overwrite)
+            return Lever(self, threads, folder, overwrite, checkpoint_every, checkpoint_steps)
         from pulvis.simulation import Simulation
 
         where = "" if folder is None else os.fspath(folder)
@@ -119,7 +120,15 @@ class Scene:
         return Simulation(run, self, folder)
 
     def calibration(self, threads: int = 0) -> dict[str, float]:
-        """Stiffnesses and detector constants of a lever, in SI units: dict (docs/afm.md)."""
+        """Stiffnesses and detector constants of a lever, in SI units: dict (docs/afm.md).
+
+        Raises
+        ------
+        RunError
+            If this is not an AFM scene.
+        """
+        if not self.is_afm:
+            raise RunError(f"{self.title}: a powder has no lever to calibrate; allowed: a scene with family = \"afm\"")
         return self.simulation(threads=threads).calibration
 
     def __repr__(self) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 
 from pulvis import _core
 from pulvis.columns import Column, ColumnInfo
+from pulvis.errors import Named
 from pulvis.progress import progress_bar
 
 if TYPE_CHECKING:
@@ -216,12 +217,12 @@ class Simulation:
     @property
     def tools(self) -> dict[str, Tool]:
         """The tools by name: mapping to `Tool`."""
-        return {name: Tool(self._run, name, i) for i, name in enumerate(self._run.tools)}
+        return Named("tool", {name: Tool(self._run, name, i) for i, name in enumerate(self._run.tools)})
 
     @property
     def servos(self) -> dict[str, Servo]:
         """The servos, by the names of the tools whose force they control: mapping to `Servo`."""
-        return {name: Servo(self._run, name) for name in self._run.servos}
+        return Named("servo", {name: Servo(self._run, name) for name in self._run.servos})
 
     @property
     def mesh(self) -> dict[str, np.ndarray]:
@@ -320,7 +321,7 @@ class History(Mapping[str, np.ndarray]):
     def __init__(self, run: _core.Run) -> None:
         self.units = {"time": "s"}
         self.meanings = {"time": "simulated time"}
-        self._arrays = {"time": run.sample_times}
+        self._arrays = Named("series", {"time": run.sample_times})
         rows = run.samples
         for i, (name, unit, meaning) in enumerate(run.series):
             self._arrays[name] = rows[:, i]
@@ -346,14 +347,14 @@ class History(Mapping[str, np.ndarray]):
 
 
 def resume(folder: str | os.PathLike[str], threads: int = 0, checkpoint_every: float = 60.0) -> Any:
-    """Restarts a stopped run from its latest checkpoint: a `Simulation`, or a finished `Lever`."""
+    """A stopped run at its latest checkpoint: a `Simulation`, or a `Lever`. Its `run` continues it."""
     from pulvis.scene import Scene
 
     folder = Path(folder)
     if (folder / "scene.toml").is_file() and _core.is_lever_folder(os.fspath(folder)):
         from pulvis.afm import Lever
 
-        return Lever.resumed(folder, threads)
+        return Lever.resumed(folder, threads, checkpoint_every)
     run = _core.Run.resume(os.fspath(folder), threads, checkpoint_every)
     return Simulation(run, Scene(folder / "scene.toml"), folder)
 

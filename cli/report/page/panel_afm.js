@@ -50,11 +50,13 @@ function curveLines(run, name, label) {
     onlySamples(run.series(name), label ? `${label}, ${part}` : part, motion[part], {colour: colours[k], dash: k ? RETURN : undefined}));
 }
 
+// With the sign of the loop's table: the force that drags the tip is opposite to the force on it.
 function loopLines(run, axis, name) {
   const loops = loopParts(run).filter(loop => loop.axis === axis);
   if (!run.has(name)) return [];
+  const series = run.series(name), dragging = {...series, values: Array.from(series.values, v => -v)};
   const label = (loop, part) => loops.length > 1 ? `action ${loop.action}, ${part}` : part;
-  return loops.flatMap((loop, i) => ["trace", "retrace"].map((part, k) => onlySamples(run.series(name), label(loop, part), loop[part],
+  return loops.flatMap((loop, i) => ["trace", "retrace"].map((part, k) => onlySamples(dragging, label(loop, part), loop[part],
     {colour: LIGHT.lines[(loops.length > 1 ? i : k) % LIGHT.lines.length], dash: k ? RETURN : undefined})));
 }
 
@@ -68,8 +70,8 @@ addCurves(run => {
   const group = (title, first, y, lines, more) => ({title, y, xs: against(first), lines, ...more});
   const loops = ["y", "x"].flatMap(axis => {
     const lateral = axis === "y", along = lateral ? "" : " along the lever";
-    return [group(`Friction loop${along}`, axis, "lateral force on the tip", loopLines(run, axis, `probe/force_${axis}`), {first: true}),
-            group(`Friction loop${along}, volts`, axis, "signal", loopLines(run, axis, `detector/${lateral ? "lateral" : "normal"}`))];
+    return [group(`Friction loop${along}`, axis, "force that drags the tip", loopLines(run, axis, `probe/force_${axis}`), {first: true}),
+            group(`Friction loop${along}, volts`, axis, "signal, as of that force", loopLines(run, axis, `detector/${lateral ? "lateral" : "normal"}`))];
   });
   return [group("Force curve", "z", "vertical force", curveLines(run, "probe/force_z"), {first: Boolean(run.summary.force_curves)}),
           group("Force curve, volts", "z", "normal signal", curveLines(run, "detector/normal")), ...loops,

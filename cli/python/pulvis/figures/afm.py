@@ -155,22 +155,23 @@ def plastic_zones(run, options=None):
     return figure
 
 
-def draw_motions(run, motions, keys, title, options, axes):
-    """motions: [(label, rows)]; keys: series of the x and y axes."""
+def draw_motions(run, motions, keys, title, options, axes, reversed_as=None):
+    """motions: [(label, rows)]; keys: series of the x and y axes. `reversed_as`: y with the opposite sign, called so."""
     x_key, y_key = keys
     figure, axes = sheet(options, (6.4, 4.2), axes)
-    x, y = run.series(x_key), run.series(y_key)
+    x, y = run.series(x_key), run.series(y_key) * (-1 if reversed_as else 1)
     (x_factor, x_unit), (factor, unit) = unit_for(run.unit(x_key), x), unit_for(run.unit(y_key), y)
     for k, (words, rows) in enumerate(motions):
         shown = np.full(y.shape, np.nan)  # no line between separate parts
         shown[rows] = factor * y[rows]
         axes.plot(x_factor * x, shown, label=words, color=LINES[k // 2 % len(LINES)] if len(motions) > 2
                   else LINES[k], linestyle="--" if k % 2 else "-")
-    axes.set(xlabel=label(x_key, x_unit), ylabel=label(y_key, unit))
+    axes.set(xlabel=label(x_key, x_unit), ylabel=over(reversed_as, unit) if reversed_as else label(y_key, unit))
     options.head(axes, title, run)
     axes.legend()
+    y_name = reversed_as.lower() if reversed_as else y_key
     figure.table = [column for words, rows in motions for column in
-                    ((f"{x_key}, {words}", run.unit(x_key), x[rows]), (f"{y_key}, {words}", run.unit(y_key), y[rows]))]
+                    ((f"{x_key}, {words}", run.unit(x_key), x[rows]), (f"{y_name}, {words}", run.unit(y_key), y[rows]))]
     return figure
 
 
@@ -197,7 +198,8 @@ def friction_loop(run, options=None, axes=None, signal="force"):
     motions = [((f"action {loop.action}, " if len(loops) > 1 else "") + words, np.append(way.rows[0] - 1, way.rows)) for loop in loops
                for words, way in (("trace", loop.trace), ("retrace", loop.retrace))]
     title = "Friction loop" if signal == "force" else "Lateral signal" if axis == "y" else "Normal signal"
-    return draw_motions(run, motions, (f"scanner/{axis}", y), title, options or Options(), axes)
+    called = "Force that drags the tip" if signal == "force" else "Signal, as of that force"
+    return draw_motions(run, motions, (f"scanner/{axis}", y), title, options or Options(), axes, called)
 
 
 def detector(run, options=None, axes=None):
