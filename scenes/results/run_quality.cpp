@@ -18,18 +18,39 @@ constexpr const char* of_energy_balance =
     "use smaller steps (a lower time.safety), or more elements where they are most distorted";
 constexpr const char* of_kinetic_energy =
     "move the tools more slowly: longer stages, or a longer ramp of their moves";
-constexpr const char* of_hourglass =
-    "the mesh is too coarse for the bending in it: use more elements (accuracy = \"fine\"), or "
-    "element.formulation = \"four-point\"";
-constexpr const char* of_hourglass_in_space =
-    "the mesh is too coarse for the bending in it: use more elements (accuracy = \"fine\"), or "
-    "element.formulation = \"eight-point\"";
 constexpr const char* of_projections =
     "outlines turn too sharply for their boundary edges: use more of them (boundary_edges)";
 constexpr const char* of_projections_in_space =
     "surfaces turn too sharply for their faces: use more of them (particle.mesh.divisions)";
 
 std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
+
+// The keys that refine these meshes, whatever gives their present size: these replace `accuracy`, which may be "fine"
+// already, or have no effect because the meshes have keys of their own.
+std::string refining_keys(const Scene& scene) {
+  if (scene.space) return "divisions and rings of [particle.mesh]";
+  bool counts = false, rows = false, grains = false;
+  for (const ParticleSpec& particle : scene.particles) {
+    const bool is_grain = std::holds_alternative<GrainOutline>(particle.outline);
+    const bool in_rows = std::holds_alternative<RectangleMesh>(particle.mesh);
+    (is_grain ? grains : in_rows ? rows : counts) = true;
+  }
+  std::string keys;
+  const auto add = [&](bool used, const char* more) {
+    if (used) keys += (keys.empty() ? "" : "; ") + std::string(more);
+  };
+  add(counts, "boundary_edges and rings of [particle.mesh]");
+  add(rows, "columns and rows of [particle.mesh]");
+  add(grains, "edges of [particle.grains]");
+  return keys;
+}
+
+std::string of_hourglass(const Scene& scene) {
+  return fmt::format(
+      "the mesh is too coarse for the bending in it: use more elements ({}, in place of "
+      "`accuracy`), or element.formulation = \"{}\"",
+      refining_keys(scene), scene.space ? "eight-point" : "four-point");
+}
 
 std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
   if (contacts.stiffness_to_do() <= scene.contact.stiffness)
@@ -126,8 +147,7 @@ std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
     figures.add(
         "Hourglass energy",
         "largest hourglass energy, including plastic work, relative to the largest internal energy",
-        peaks.hourglass / internal, most_hourglass,
-        scene.space ? of_hourglass_in_space : of_hourglass);
+        peaks.hourglass / internal, most_hourglass, of_hourglass(scene));
   if (scene.space && world.has<ContactRules>())
     add_contacts_in_space(figures, scene, totals, peaks.penetration, contacts);
   if (!world.has<ContactQuality>()) return figures.all;

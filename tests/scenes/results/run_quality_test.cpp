@@ -63,6 +63,20 @@ TEST(RunQuality, IsContentWithStiffContactsAFineMeshAndFourPoints) {
     EXPECT_FALSE(one.beyond()) << one.line();
 }
 
+// Whatever sets the resolution of the meshes, the advised keys can be set. Draft discs pressed between platens bend enough.
+TEST(RunQuality, AdvisesOfKeysThatTheSceneAccepts) {
+  auto changes = soft();
+  changes[3] = "particle.disc.mesh.boundary_edges=24";
+  changes[2] = "particle.disc.mesh.rings=0";
+  changes[4] = "contact.stiffness=20";
+  changes[5] = "stage.press.move.top.displacement=[\"0 mm\", \"-1.5 mm\"]";
+  changes[6] = "stage.press.move.bottom.displacement=[\"0 mm\", \"1.5 mm\"]";
+  const QualityFigure bent = figure(judged("basic/disc-platens.toml", changes), "Hourglass energy");
+  ASSERT_TRUE(bent.beyond()) << bent.line();
+  EXPECT_THAT(bent.advice, HasSubstr("(boundary_edges and rings of [particle.mesh], in place of "));
+  EXPECT_THAT(bent.advice, HasSubstr("element.formulation = \"four-point\""));
+}
+
 // Of a powder in three dimensions stiffness alone is no help: coarse faces bear too much.
 TEST(RunQuality, AsksForSmallerFacesWithStifferContactsOfAPowder) {
   const auto figures = judged("extreme/space-box-rd-97.toml", {});
