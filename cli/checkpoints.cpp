@@ -23,6 +23,11 @@ std::string run_of(const fs::path& folder) {
   return file.has_attribute("/", "run") ? file.text_attribute("/", "run") : "";
 }
 
+bool is_finished(const fs::path& folder) {
+  const auto file = hdf5::File::open(folder / "run.h5");
+  return file.has_attribute("/", "outcome") && file.text_attribute("/", "outcome") == "done";
+}
+
 std::unique_ptr<Checkpoint> newest_whole(const fs::path& folder) {
   const std::vector<fs::path> files = checkpoints_in(folder);
   const std::string run = run_of(folder);
@@ -39,6 +44,9 @@ std::unique_ptr<Checkpoint> newest_whole(const fs::path& folder) {
       is_any_damaged = true;
     }
   }
+  if (files.empty() && is_finished(folder))
+    throw CannotResume(fmt::format(
+        "{}: cannot resume: the run is finished, allowed: one that was stopped", folder.string()));
   if (is_any_damaged) throw OutputError(folder, "resume", "there is no intact checkpoint");
   throw CannotResume(fmt::format(
       "{}: cannot resume: there is no checkpoint{} (checkpoint-*.h5)", folder.string(),

@@ -38,8 +38,9 @@ Json facet_json(const wedge::Facet& facet) {
 }
 
 std::string text_of(const wedge::Value& v, double scale, const char* format_unit) {
-  if (!v.error) return fmt::format("{:.5g} {}", v.value * scale, format_unit);
-  return fmt::format("{:.5g} +- {:.2g} {}", v.value * scale, *v.error * scale, format_unit);
+  std::string text = fmt::format("{:.5g}", v.value * scale);
+  if (v.error) text += fmt::format(" +- {:.2g}", *v.error * scale);
+  return *format_unit == 0 ? text : text + " " + format_unit;
 }
 
 std::string cell(const std::optional<wedge::Value>& v) {

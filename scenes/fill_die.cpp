@@ -212,6 +212,14 @@ void fill_die(Table& root, Problems& problems) {
   }
   const std::string* family = document::find_text(root, "family");
   if (family != nullptr && *family != "compaction") return;  // refused by the reader
+  const auto tool = std::ranges::find(root, "tool", &Entry::key);
+  if (tool != root.end() && tool->value.as<Table>() != nullptr) {  // as by --set tool.left.friction
+    problems.add(tool->origin, "tool",
+                 "the walls and punches of [die] cannot be set one by one, allowed: keys of [die], "
+                 "[[friction]] between a material and one of them, or [[tool]] tables instead of "
+                 "[die]");
+    return;
+  }
   const Origin origin = entry->origin;
   Value die = std::move(entry->value);
   root.erase(entry);

@@ -38,6 +38,8 @@ struct Inputs {
 Inputs sorted_inputs(const Paths& files) {
   Inputs inputs;
   for (const std::filesystem::path& file : files) {
+    if (!std::filesystem::exists(file))
+      refuse(file, "records", "there is no such file, allowed: records (CSV) and settings (.toml)");
     if (file.extension() != ".toml") {
       inputs.records.push_back(file);
       continue;

@@ -9,10 +9,10 @@ namespace pulvis {
 namespace {
 
 std::string duration_text(double seconds) {
-  if (seconds < 1) return "less than 1 s";
-  if (seconds < 100) return fmt::format("about {:.2g} s", seconds);
-  if (seconds < 100 * 60) return fmt::format("about {:.2g} min", seconds / 60);
-  return fmt::format("about {:.2g} h", seconds / 3600);
+  if (seconds < 1) return "a second or more";
+  if (seconds < 100) return fmt::format("at least {:.2g} s", seconds);
+  if (seconds < 100 * 60) return fmt::format("at least {:.2g} min", seconds / 60);
+  return fmt::format("at least {:.2g} h", seconds / 3600);
 }
 
 // Rounds to two digits, written out: 1234567 is 1,200,000.
@@ -47,8 +47,9 @@ RunEstimate estimate_run(Simulation& simulation) {
 
 std::string estimate_text(const RunEstimate& estimate) {
   return fmt::format(
-      "run: about {} steps of {:.2g} s; {} on one thread of this machine (estimated from its first "
-      "steps; during compaction, steps get shorter and more expensive)",
+      "run: at least {} steps of up to {:.2g} s; {} on one thread of this machine (estimated from "
+      "its first steps; they get shorter and more expensive as elements are flattened and contacts "
+      "form: a dense compact takes several times as many steps, and longer for each)",
       rounded(estimate.steps), estimate.dt, duration_text(estimate.seconds));
 }
 

@@ -17,7 +17,7 @@ struct RunEstimate {
 // Advances the simulation for a few hundredths of a second. Throws RunFailure.
 RunEstimate estimate_run(Simulation& simulation);
 
-// "run: about 120,000 steps of 1.5e-08 s; about 3 min on one thread of this machine (...)". A rough guess, labelled as one:
+// "run: at least 120,000 steps of up to 1.5e-08 s; at least 3 min on one thread of this machine (...)". A lower bound:
 // powder in contact costs more per step than powder at rest, and the time step drops where elements are compressed.
 std::string estimate_text(const RunEstimate& estimate);
 

@@ -106,6 +106,8 @@ void fill_meshes(document::Table& root, Problems& problems) {
     for (Value& element : particles->value.get<document::Array>())
       used |= fill_mesh(element, level(root), number++, problems);
   }
+  const std::string* family = document::find_text(root, "family");
+  if (family != nullptr && *family == "afm") return;  // refused by the reader
   const Entry* accuracy = document::find(root, "accuracy");
   if (accuracy != nullptr && !used)
     problems.add(accuracy->value.origin, "accuracy",

@@ -52,9 +52,14 @@ class LibraryFiller {
     const bool elastic = is_elastic(table, path);
     const document::Origin origin = entry->value.origin;
     std::erase_if(table, [](const Entry& e) { return e.key == "library" || e.key == "elastic"; });
+    const std::size_t own = table.size();
     for (const Entry& value : material->values)
       if (is_wanted(table, value.key, elastic))
         table.push_back({value.key, origin, {value.value.data, origin}});
+    if (table.size() == own)
+      problems_.add(origin, path + ".library",
+                    "has no effect: the material has all of these values itself, allowed: a "
+                    "material without those that the library is to give");
   }
 
  private:

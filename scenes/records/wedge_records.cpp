@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -69,9 +70,11 @@ std::vector<Loop> loops_of_traces(const csv::Table& table, double skip) {
 bool holds_loops(const std::filesystem::path& file) {
   try {
     const csv::Table table = csv::read(file);
-    return csv::has_column(table, "slope") && csv::has_column(table, "load") &&
-           (csv::has_column(table, "half_width") || csv::has_column(table, "trace") ||
-            csv::has_column(table, "forth"));  // rejected with a hint to its new name
+    const auto has = [&](const char* name) { return csv::has_column(table, name); };
+    // Names that no other instrument uses, two of former tables among them; read_loops tells which ones are wrong.
+    const std::array own{"slope", "half_width", "trace", "retrace", "forth", "back"};
+    const auto found = std::ranges::count_if(own, has);
+    return found > 1 || (found == 1 && (has("load") || has("offset")));
   } catch (const SceneError&) {
     return false;
   }
@@ -80,8 +83,9 @@ bool holds_loops(const std::filesystem::path& file) {
 std::vector<Loop> read_loops(const std::filesystem::path& file, double skip) {
   const csv::Table table = csv::read(file);
   csv::refuse_former(table, {{"forth", "trace"}, {"back", "retrace"}});
-  std::vector<Loop> loops =
-      csv::has_column(table, "trace") ? loops_of_traces(table, skip) : loops_of_figures(table);
+  std::vector<Loop> loops = csv::has_column(table, "trace") || csv::has_column(table, "retrace")
+                                ? loops_of_traces(table, skip)
+                                : loops_of_figures(table);
   if (loops.empty()) csv::refuse(table, "slope", "there is no loop, allowed: rows of numbers");
   return loops;
 }

@@ -16,7 +16,7 @@
 
 namespace pulvis::wedge {
 
-// Whether the first line contains the columns of loops.
+// Whether the first line contains columns of loops, although others may be missing or misspelt.
 bool holds_loops(const std::filesystem::path& file);
 
 // Throws SceneError with file, line and what is allowed.

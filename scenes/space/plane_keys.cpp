@@ -70,6 +70,14 @@ class PlaneKeys {
 }  // namespace
 
 void refuse_keys_of_the_plane(const Table& root, Problems& problems) {
+  const std::string* family = document::find_text(root, "family");
+  if (family != nullptr && *family == "afm") {
+    problems.add(
+        document::find(root, "dimension")->origin, "dimension",
+        "belongs to scenes of particles (family = \"compaction\"): a lever always has three "
+        "dimensions, allowed: no `dimension` with family = \"afm\"");
+    return;
+  }
   PlaneKeys(problems).look_through(root, "", "");
 }
 

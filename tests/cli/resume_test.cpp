@@ -265,7 +265,7 @@ TEST_F(KilledRun, AFolderWithoutARunOrCheckpointIsRefused) {
   ASSERT_EQ(pulvis(run_words(brief, "done")).code, 0);
   const Outcome done = pulvis({"resume", "done"});
   EXPECT_EQ(done.code, 2);
-  EXPECT_THAT(done.err, HasSubstr("there is no checkpoint"));
+  EXPECT_THAT(done.err, HasSubstr("cannot resume: the run is finished"));
 }
 
 // ---- two at once, and somebody who looks on -----------------------------------------------------------

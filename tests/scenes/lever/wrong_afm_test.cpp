@@ -25,6 +25,10 @@ TEST(WrongAfm, TablesAndKeysOfOtherFamiliesAreRefused) {
             std::string::npos);
   expect_refusal({"thickness=1 mm"}, "has no effect with family = \"afm\"");
   expect_refusal({"material.lever.density=1 kg/m^3"}, "has no effect with family = \"afm\"");
+  expect_refusal({"dimension=3"}, "dimension: belongs to scenes of particles");
+  const std::string accuracy = refusal(beam_with_tip, {"accuracy=fine"});
+  EXPECT_NE(accuracy.find("has no effect with family = \"afm\""), std::string::npos) << accuracy;
+  EXPECT_EQ(accuracy.find("the mesh of every particle"), std::string::npos) << accuracy;
 }
 
 TEST(WrongAfm, ATipBesideTheLeverIsRefused) {

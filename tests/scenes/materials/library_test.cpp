@@ -7,6 +7,7 @@
 #include "scenes/materials/library.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/right_scene.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -80,6 +81,14 @@ TEST(MaterialLibrary, GivesWayToOwnValues) {
   EXPECT_EQ(spec.yield_stress, 280e6);
   EXPECT_EQ(spec.youngs_modulus, 200e9);
   EXPECT_EQ(spec.hardening_modulus, 440e6);
+}
+
+TEST(MaterialLibrary, WithoutAnyValueToGiveIsRefused) {
+  const std::string wrong =
+      message_of([] { loaded_with(std::string(values_of_316l) + "library = \"316L\"\n"); });
+  EXPECT_NE(wrong.find("material[0].library: has no effect: the material has all of these values"),
+            std::string::npos)
+      << wrong;
 }
 
 TEST(MaterialLibrary, GivesWayToAnotherLawOfHardening) {

@@ -57,6 +57,12 @@ TEST(Die, StandsAroundALattice) {
   EXPECT_EQ(scene.tools[1].normal, Vec2(-1, 0));
 }
 
+// As by --set tool.left.rounding=0.4, before there are tools.
+TEST(Die, RefusesChangesOfItsTools) {
+  EXPECT_THAT(problem_with(lattice + "[die]\n[tool.left]\nrounding = 0.4\n"),
+              HasSubstr("tool: the walls and punches of [die] cannot be set one by one"));
+}
+
 TEST(Die, GivesRandomPackingsItsWidthAndCorner) {
   const Scene scene =
       scene_with("[die]\nwidth = \"8 mm\"\ncorner = [\"1 mm\", \"0 mm\"]\n" + random_bed);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -136,6 +137,26 @@ TEST(WedgeRecords, RawTracesGiveTheTruthBackWithinTheStatedUncertainty) {
   EXPECT_LT(*c.friction.error, 0.05 * truth.friction);
   EXPECT_LT(std::abs(c.friction.value - truth.friction), 3 * *c.friction.error);
   EXPECT_LT(std::abs(c.sensitivity.value - truth.sensitivity), 3 * *c.sensitivity.error);
+}
+
+// Recognised by the columns that are right, and refused for those that are wrong.
+TEST(WedgeRecords, WithAMisspeltColumnAreStillLoops) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("pulvis-loops-" + std::to_string(getpid()) + ".csv");
+  const auto refusal = [&](const char* header) {
+    std::ofstream(file) << header << "\n14,20,0.1,0.2\n";
+    EXPECT_TRUE(holds_loops(file)) << header;
+    return message_of([&] { read_loops(file, 0.1); });
+  };
+  EXPECT_THAT(refusal("slop [deg],load [nN],trace [V],retrace [V]"),
+              HasSubstr("slop: the column is unknown, allowed: slope, load"));
+  EXPECT_THAT(refusal("slope [deg],load [nN],trace [V],retrce [V]"),
+              HasSubstr("retrce: the column is unknown, allowed: slope, load"));
+  EXPECT_THAT(refusal("slope [deg],load [nN],half_with [V],offset [V]"),
+              HasSubstr("half_with: the column is unknown, allowed: slope, load, half_width"));
+  std::ofstream(file) << "time [s],load [N]\n0,1\n";
+  EXPECT_FALSE(holds_loops(file));
+  std::filesystem::remove(file);
 }
 
 }  // namespace
