@@ -25,26 +25,6 @@ constexpr const char* of_projections_in_space =
 
 std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
-// The keys that refine these meshes, whatever gives their present size: these replace `accuracy`, which may be "fine"
-// already, or have no effect because the meshes have keys of their own.
-std::string refining_keys(const Scene& scene) {
-  if (scene.space) return "divisions and rings of [particle.mesh]";
-  bool counts = false, rows = false, grains = false;
-  for (const ParticleSpec& particle : scene.particles) {
-    const bool is_grain = std::holds_alternative<GrainOutline>(particle.outline);
-    const bool in_rows = std::holds_alternative<RectangleMesh>(particle.mesh);
-    (is_grain ? grains : in_rows ? rows : counts) = true;
-  }
-  std::string keys;
-  const auto add = [&](bool used, const char* more) {
-    if (used) keys += (keys.empty() ? "" : "; ") + std::string(more);
-  };
-  add(counts, "boundary_edges and rings of [particle.mesh]");
-  add(rows, "columns and rows of [particle.mesh]");
-  add(grains, "edges of [particle.grains]");
-  return keys;
-}
-
 std::string of_hourglass(const Scene& scene) {
   return fmt::format(
       "the mesh is too coarse for the bending in it: use more elements ({}, in place of "
@@ -123,6 +103,24 @@ void add_contacts(Figures& figures, const Scene& scene, const ContactFindings& c
 }
 
 }  // namespace
+
+std::string refining_keys(const Scene& scene) {
+  if (scene.space) return "divisions and rings of [particle.mesh]";
+  bool counts = false, rows = false, size = false, grains = false;
+  for (const ParticleSpec& particle : scene.particles) {
+    const bool in_rows = std::holds_alternative<RectangleMesh>(particle.mesh);
+    (particle.grains ? grains : particle.mesh_size ? size : in_rows ? rows : counts) = true;
+  }
+  std::string keys;
+  const auto add = [&](bool used, const char* more) {
+    if (used) keys += (keys.empty() ? "" : "; ") + std::string(more);
+  };
+  add(counts, "boundary_edges and rings of [particle.mesh]");
+  add(rows, "columns and rows of [particle.mesh]");
+  add(size, "a smaller size of [particle.mesh]");
+  add(grains, "edges of [particle.grains]");
+  return keys;
+}
 
 std::string QualityFigure::line() const {
   std::string text = name;

@@ -24,6 +24,10 @@ struct QualityFigure {
   std::string line() const;  // "hourglass energy 5.4% (limit 3%)", and what to do
 };
 
+// The keys that refine the scene's meshes, whatever gives their present size: these replace `accuracy`, which may be "fine"
+// already, or have no effect because the meshes have keys of their own.
+std::string refining_keys(const Scene& scene);
+
 // Omits those that the run does not have.
 std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
                                        const Results& results, const ContactFindings& contacts);

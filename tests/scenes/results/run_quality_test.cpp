@@ -75,6 +75,12 @@ TEST(RunQuality, AdvisesOfKeysThatTheSceneAccepts) {
   ASSERT_TRUE(bent.beyond()) << bent.line();
   EXPECT_THAT(bent.advice, HasSubstr("(boundary_edges and rings of [particle.mesh], in place of "));
   EXPECT_THAT(bent.advice, HasSubstr("element.formulation = \"four-point\""));
+  const auto keys = [](const char* scene) {
+    return refining_keys(read_scene(paths::source_dir() + "/scenes/" + scene));
+  };
+  EXPECT_EQ(keys("bonds/brazilian-disc.toml"), "edges of [particle.grains]");
+  EXPECT_EQ(keys("bonds/pulled-blocks.toml"), "columns and rows of [particle.mesh]");
+  EXPECT_EQ(keys("compaction-3d/unit-cell-sc.toml"), "divisions and rings of [particle.mesh]");
 }
 
 // Of a powder in three dimensions stiffness alone is no help: coarse faces bear too much.
