@@ -4,7 +4,7 @@
 
 Particles of one or two shapes and materials, elastic or plastic, from micrometres to decimetres, lie at random or in a lattice
 in a box or a round die. A punch presses them to a density that was drawn, holds a force, or is hit by them; they are unloaded
-and pushed out. Meshes, sizes, friction, damping, contact stiffness, formulation and speed are drawn too. All that is asked of a
+and pushed out. Meshes, sizes, friction, adhesion, damping, contact stiffness, formulation and speed are drawn too. All that is asked of a
 run is in `faults` of random_scenes.py. A scene that is refused, or that stops in a health check that names what went wrong, is
 reported and counted apart.
 """
@@ -42,9 +42,23 @@ class Scene:
         self.pressed = draw.uniform(0.7, 0.95 if self.plastic() else 0.8)
         self.action = draw.choice(["press", "press", "press and eject", "hold", "throw"])
         self.particles = "".join(self.particle(k) for k in range(len(self.materials)))
+        # Drawn apart, so that all else stays what it was before there was adhesion.
+        own = random.Random(f"adhesion/{seed}/{number}")
+        self.adhesion = None if own.random() < 0.6 else (log_uniform(own, 1e-3, 0.2), log_uniform(own, 1e-3, 0.1))
 
     def plastic(self):
         return all(MATERIALS[material][3] for material in self.materials)
+
+    def weakest(self):
+        return min(MATERIALS[m][3] or 0.002 * MATERIALS[m][1] for m in self.materials)
+
+    def bonds(self):
+        if self.adhesion is None:
+            return ""
+        traction, reach = self.adhesion[0] * self.weakest(), self.adhesion[1] * self.size
+        pairs = [(a, b) for i, a in enumerate(self.materials) for b in [*self.materials[i:], "bottom"]]
+        return "".join(f'[[bond]]\nbetween = ["{a}", "{b}"]\norigin = "adhesion"\nwork = "{traction * reach / 2:.9g} J/m^2"\n'
+                       f'range = "{reach:.9g} m"\n' for a, b in pairs)
 
     # ---- particles ------------------------------------------------------------------------------------
     def mesh(self, sphere):
@@ -136,8 +150,7 @@ class Scene:
         if self.action == "throw":
             return self.stage("throw", "settle", height)
         if self.action == "hold":
-            weak = min(MATERIALS[m][3] or 0.002 * MATERIALS[m][1] for m in self.materials)
-            force = self.draw.uniform(0.1, 1.5) * weak * self.width * self.depth
+            force = self.draw.uniform(0.1, 1.5) * self.weakest() * self.width * self.depth
             return self.stage("hold", "hold", height,
                               more=f'[[stage.servo]]\ntool = "top"\nforce = "{force:.9g} N"\nrise = 0.6\n'
                                    f'max_speed = "{2 * self.speed * self.wave():.9g} m/s"\ntolerance = 1e6\n')
@@ -163,7 +176,7 @@ class Scene:
                 materials += f'[material.damping]\nmass_proportional = "{rate:.9g} 1/s"\n'
         stiffness = f"stiffness = {self.contact:.9g}\n" if self.contact else ""
         return f'family = "compaction"\ndimension = 3\ntitle = "{self.name}"\nseed = {self.seed + 1}\n' \
-            + materials + self.particles + packing + tools + stages \
+            + materials + self.particles + packing + tools + stages + self.bonds() \
             + f"[contact]\nfriction = {self.friction:.9g}\n{stiffness}damping = {self.damping:.9g}\n" \
             + f'[element]\nformulation = "{self.formulation}"\n[output]\nsamples = 200\nframes = 2\n'
 
@@ -171,7 +184,8 @@ class Scene:
         shapes = ", ".join(f"{shape} of {material}" for shape, material in zip(self.shapes, self.materials))
         return f"{shapes}, {self.size:.2g} m, {'lattice' if self.lattice else 'random'} in a " \
                f"{'die' if self.round_die else 'box'}; {self.action} to {self.pressed:.2f} at {self.speed:.2g}; friction " \
-               f"{self.friction:.2g}, contact {self.contact or 'default'}, damping {self.damping:.2g}, {self.formulation}"
+               f"{self.friction:.2g}, contact {self.contact or 'default'}, damping {self.damping:.2g}, {self.formulation}" \
+               + ("" if self.adhesion is None else f", adhesion {self.adhesion[0]:.2g} within {self.adhesion[1]:.2g}")
 
 
 def density(summary, last):
