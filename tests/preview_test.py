@@ -33,9 +33,9 @@ NO_SCENES = {"studies", "probes", "lab", "parts", "materials"}
 CHOSEN = ["afm/calibration-beam", "afm/colloid-316l", "afm/force-curve", "afm/incline-friction", "afm/meshed-v",
           "afm/raster", "basic/groove-wedge", "basic/oblique-impact", "basic/tension", "benchmark/cattaneo-mindlin",
           "bonds/double-cantilever", "bonds/green-strength", "bonds/sheared-blocks", "brittle/salt-and-copper",
-          "compaction/ejection-25", "compaction/random-100", "extreme/friction-20-cycles",
-          "extreme/one-particle-free", "extreme/size-metres", "extreme/size-micrometres", "periodic/cap-die",
-          "periodic/shear", "shear/grooves-16", "shear/stick-slip"]
+          "compaction/ejection-25", "compaction/random-100", "compaction-3d/tablet-adhesion",
+          "extreme/friction-20-cycles", "extreme/one-particle-free", "extreme/size-metres",
+          "extreme/size-micrometres", "periodic/cap-die", "periodic/shear", "shear/grooves-16", "shear/stick-slip"]
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -62,6 +62,8 @@ def kinds_of(setup):
     for name in ("moves", "servos", "until", "cell"):
         if any(stage.get(name) for stage in setup["stages"]):
             kinds.add(f"stage with {name}")
+    if setup["bonds"]["laws"]:
+        kinds.add("laws of bonds")
     if setup.get("dimension") == 3:
         return {f"space {kind}" for kind in kinds}
     if len(setup["particles"]) > setup["count"]:
@@ -82,7 +84,7 @@ MUST_COVER = {"lever beam", "lever v", "lever mesh", "tip none", "tip block", "t
               "action raster", "tool plane", "tool polyline", "tool constraint", "stage compact", "stage eject",
               "stage shear", "stage hold", "stage with moves", "stage with servos", "stage with cell",
               "grains", "bonds", "classes", "velocity", "cell", "die",
-              "space tool plane", "space stage with moves"}
+              "space tool plane", "space stage with moves", "space laws of bonds"}
 
 
 def drawn_count(svg):

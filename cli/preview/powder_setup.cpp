@@ -209,22 +209,27 @@ void add_bonded_edges(const World& world, json& out) {
 constexpr std::array<const char*, 3> bond_origins{"initial", "pressed", "adhesion"};
 
 json bonds_setup(const Scene& scene, const World& world) {
-  json laws = json::array(), edges = json::array();
+  json edges = json::array();
+  add_bonded_edges<Contact>(world, edges);
+  add_bonded_edges<ToolContact>(world, edges);
+  return {{"laws", bond_laws(scene)}, {"edges", edges}};
+}
+
+}  // namespace
+
+json bond_laws(const Scene& scene) {
+  json laws = json::array();
   for (const BondSpec& bond : scene.bonds) {
     json law{{"first", bond.first},
              {"second", bond.second},
              {"origin", bond_origins[static_cast<std::size_t>(bond.origin)]},
              {"inside", bond.inside}};
     if (bond.strength) law["strength"] = *bond.strength;
-    if (bond.work > 0) law["work"] = bond.work;
+    if (bond.work > 0) law.update({{"work", bond.work}, {"range", bond.range}});
     laws.push_back(std::move(law));
   }
-  add_bonded_edges<Contact>(world, edges);
-  add_bonded_edges<ToolContact>(world, edges);
-  return {{"laws", laws}, {"edges", edges}};
+  return laws;
 }
-
-}  // namespace
 
 json materials_setup(const Scene& scene) {
   json out = json::array();

@@ -17,5 +17,6 @@ nlohmann::json powder_setup(const Scene& scene, const std::vector<BodySpec>& par
 nlohmann::json materials_setup(const Scene& scene);
 nlohmann::json pairs_setup(
     const Scene& scene);  // friction between particles, for every pair of materials
+nlohmann::json bond_laws(const Scene& scene);
 
 }  // namespace pulvis

@@ -53,8 +53,7 @@ std::string memory_line(const MemoryNeed& need) {
 std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                                      Simulation* simulation) {
   std::vector<std::string> lines = bending_warnings(scene);
-  if (simulation != nullptr &&
-      has_bonds(scene))  // bonds are known only after a contact search
+  if (simulation != nullptr && has_bonds(scene))  // bonds are known only after a contact search
     std::ranges::move(bond_warnings(scene, simulation->world()), std::back_inserter(lines));
   std::ranges::move(setup_warnings(scene, bodies), std::back_inserter(lines));
   return lines;

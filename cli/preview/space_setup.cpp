@@ -159,7 +159,8 @@ json space_setup(const Scene& scene, const std::vector<space::BodySpec>& bodies,
              {"materials", materials_setup(scene)},
              {"particles", particles_in_space(scene, bodies, world)},
              {"count", bodies.size()},
-             {"stages", stages_in_space(scene)}};
+             {"stages", stages_in_space(scene)},
+             {"bonds", {{"laws", bond_laws(scene)}, {"edges", json::array()}}}};
   setup["classes"] = classes_in_space(scene, bodies, setup["particles"]);
   setup["tools"] = tools_in_space(scene, setup["particles"], world);
   return setup;

@@ -257,7 +257,7 @@ class PowderDrawing:
             if "strength" in law:
                 text += f", strength {words.quantity(law['strength'], 'Pa')}"
             if "work" in law:
-                text += f", {words.quantity(law['work'], 'J/m²')}"
+                text += f", {words.quantity(law['work'], 'J/m²')} within {words.quantity(law['range'], 'm')}"
             column.line(text + (", inside particles" if law["inside"] else ""))
         if bonds["edges"]:
             column.line(f"{len(bonds['edges']):,} edges bonded at the start", {"facecolor": BOND, "edgecolor": BOND})
