@@ -37,17 +37,32 @@ inline void add_friction(Scene& scene, const char* other, FrictionSpec friction)
   scene.frictions = {friction};
 }
 
+// Of the balls' steel to itself. (J/m^2, m)
+inline BondSpec adhesion(double work, double range) {
+  BondSpec bond;
+  bond.origin = BondSpec::Origin::adhesion;
+  bond.first = bond.second = "steel";
+  bond.work = work;
+  bond.range = range;
+  return bond;
+}
+
 // Two balls that overlap by `depth`, turned at random, nodes of both displaced a little.
 struct TwoBalls : TouchingBodies {
-  explicit TwoBalls(double depth, std::uint64_t seed, const FrictionSpec& friction = {})
-      : TwoBalls(depth, std::mt19937_64(seed), friction) {}
+  explicit TwoBalls(double depth, std::uint64_t seed, const FrictionSpec& friction = {},
+                    const std::vector<BondSpec>& bonds = {})
+      : TwoBalls(depth, std::mt19937_64(seed), friction, bonds) {}
 
  private:
-  TwoBalls(double depth, std::mt19937_64 random, const FrictionSpec& friction)
+  TwoBalls(double depth, std::mt19937_64 random, const FrictionSpec& friction,
+           const std::vector<BondSpec>& bonds)
       : TouchingBodies({ball()},
                        {body_at(Vec3::Zero(), any_rotation(random)),
                         body_at((diameter - depth) * any_direction(random), any_rotation(random))},
-                       [&](Scene& s) { add_friction(s, "steel", friction); }) {
+                       [&](Scene& s) {
+                         add_friction(s, "steel", friction);
+                         s.bonds = bonds;
+                       }) {
     std::uniform_real_distribution<double> noise(-2e-5, 2e-5);
     for (int body = 0; body < 2; ++body)
       move(body, [&](const Vec3& x) {
