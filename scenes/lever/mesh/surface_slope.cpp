@@ -43,7 +43,7 @@ std::vector<int> SurfaceSlope::grown(const std::vector<int>& points) const {
       all.insert(all.end(), elements_[static_cast<std::size_t>(e)].begin(),
                  elements_[static_cast<std::size_t>(e)].end());
   std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
