@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 #include <type_traits>
 
 #include "scenes/meshes/mesh.hpp"

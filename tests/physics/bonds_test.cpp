@@ -31,7 +31,7 @@ poissons_ratio = 0.25
 mass_proportional = "60000 1/s"
 )";
 
-std::string piece(const char* name, double length, double x) {
+std::string piece(const char* name, double length, double x, double y = 0) {
   return fmt::format(R"(
 [[particle]]
 name = "{0}"
@@ -44,9 +44,9 @@ columns = {2}
 rows = 10
 [[body]]
 particle = "{0}"
-position = ["{3} mm", "0 mm"]
+position = ["{3} mm", "{4} mm"]
 )",
-                     name, length, std::lround(10 * length), x);
+                     name, length, std::lround(10 * length), x, y);
 }
 
 std::string bar(bool glued) {
@@ -301,19 +301,8 @@ TEST(Glue, OfColdWeldingHoldsACompactTogether) {
 
 // A block pressed onto another and lifted: every step is looked at, those in which points weld, too.
 TEST(Glue, OfColdWeldingIsCountedOnceInEveryStep) {
-  Experiment e(own_scene(std::string(bar_material) + piece("base", 3, 0) + R"(
-[[particle]]
-name = "head"
-material = "stone"
-outline = "rectangle"
-width = "1 mm"
-height = "1 mm"
-[particle.mesh]
-columns = 5
-rows = 4
-[[body]]
-particle = "head"
-position = ["0 mm", "1 mm"]
+  Experiment e(own_scene(std::string(bar_material) + piece("base", 3, 0) + piece("head", 1, 0, 1) +
+                         R"(
 [[bond]]
 between = ["stone", "stone"]
 origin = "pressed"
