@@ -136,6 +136,10 @@ class Fitting {
             "the simulated friction does not depend on {}, which therefore cannot be determined",
             name));
     }
+    if (search_.is_at_limit())
+      told.push_back(
+          "the best values are at the limit of valid scenes, which keeps them from a better fit: "
+          "the intervals are not meaningful");
     if (search_.state() != GaussNewton::State::converged)
       told.push_back("not converged: the values are those of the best run");
     return told;

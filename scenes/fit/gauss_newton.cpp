@@ -1,9 +1,8 @@
 #include "scenes/fit/gauss_newton.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "scenes/solve/least_squares.hpp"
+#include "scenes/fit/limited_step.hpp"
 
 namespace pulvis {
 
@@ -42,46 +41,76 @@ void GaussNewton::ask(const Point& point) {
   }
 }
 
+// Whether the round has a point that is better than all before. The slopes of the round are those between its points, for
+// whichever of them is the best.
+bool GaussNewton::take_best(const std::vector<Eigen::VectorXd>& residuals) {
+  const auto best = std::ranges::min_element(residuals, {}, &Eigen::VectorXd::squaredNorm);
+  if (!best_.empty() && !(best->squaredNorm() < residuals_.squaredNorm())) return false;
+  best_ = asks_[static_cast<std::size_t>(best - residuals.begin())];
+  residuals_ = *best;
+  jacobian_.resize(residuals_.size(), static_cast<Eigen::Index>(parameters_.size()));
+  inside_ = asks_.front();
+  for (std::size_t k = 0; k < parameters_.size(); ++k) {
+    const double change = asks_[k + 1][k] - asks_.front()[k];
+    jacobian_.col(static_cast<Eigen::Index>(k)) = (residuals[k + 1] - residuals.front()) / change;
+    inside_[k] += change / static_cast<double>(asks_.size());
+  }
+  if (!is_allowed_(inside_)) inside_ = best_;
+  return true;
+}
+
 void GaussNewton::tell(const std::vector<Eigen::VectorXd>& residuals) {
   ++rounds_;
-  if (best_.empty() || residuals.front().squaredNorm() < residuals_.squaredNorm()) {
-    best_ = asks_.front();
-    residuals_ = residuals.front();
-    jacobian_.resize(residuals_.size(), static_cast<Eigen::Index>(parameters_.size()));
-    for (std::size_t k = 0; k < parameters_.size(); ++k)
-      jacobian_.col(static_cast<Eigen::Index>(k)) =
-          (residuals[k + 1] - residuals_) / (asks_[k + 1][k] - best_[k]);
-    lambda_ = std::max(lambda_ / 10, 1e-9);
-  } else {
-    lambda_ = std::max(lambda_ * 10, 1e-2);
-  }
+  lambda_ = take_best(residuals) ? std::max(lambda_ / 10, 1e-9) : std::max(lambda_ * 10, 1e-2);
   move();
 }
 
-void GaussNewton::move() {
-  const Eigen::MatrixXd normal = jacobian_.transpose() * jacobian_;
-  const Eigen::MatrixXd damped = normal + Eigen::MatrixXd(lambda_ * normal.diagonal().asDiagonal());
-  const Eigen::VectorXd change =
-      -shortest_least_squares(damped, jacobian_.transpose() * residuals_);
-  Point next = best_;
-  constexpr int max_halvings = 20;
-  double share = 1;
-  for (int halving = 0; halving < max_halvings; ++halving, share /= 2) {
-    for (std::size_t k = 0; k < next.size(); ++k)
-      next[k] = std::clamp(best_[k] + share * change[static_cast<Eigen::Index>(k)],
-                           parameters_[k].low, parameters_[k].high);
-    if (is_allowed_(next)) break;
-    next = best_;
+// From the best point, by multiples of the steps.
+GaussNewton::Point GaussNewton::moved(const Eigen::VectorXd& steps) const {
+  Point to = best_;
+  for (std::size_t k = 0; k < to.size(); ++k)
+    to[k] += steps[static_cast<Eigen::Index>(k)] * parameters_[k].step;
+  return to;
+}
+
+// What is at a bound but for rounding is exactly there.
+GaussNewton::Point GaussNewton::within_bounds(Point point) const {
+  constexpr double rounding = 1e-9;
+  for (std::size_t k = 0; k < point.size(); ++k) {
+    const FreeParameter& p = parameters_[k];
+    if (point[k] < p.low + rounding * p.step) point[k] = p.low;
+    if (point[k] > p.high - rounding * p.step) point[k] = p.high;
   }
-  bool is_small = true;
-  for (std::size_t k = 0; k < next.size(); ++k)
-    is_small &= std::abs(next[k] - best_[k]) <= tolerance_ * parameters_[k].step;
-  if (is_small)
-    state_ = State::converged;
+  return point;
+}
+
+void GaussNewton::move() {
+  const auto count = static_cast<Eigen::Index>(parameters_.size());
+  Eigen::MatrixXd slopes = jacobian_;  // per step
+  Eigen::VectorXd inside(count);
+  std::vector<HalfSpace> bounds;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const FreeParameter& p = parameters_[static_cast<std::size_t>(k)];
+    const double at = best_[static_cast<std::size_t>(k)];
+    slopes.col(k) *= p.step;
+    inside[k] = (inside_[static_cast<std::size_t>(k)] - at) / p.step;
+    bounds.push_back({Eigen::VectorXd::Unit(count, k), (p.high - at) / p.step});
+    bounds.push_back({-Eigen::VectorXd::Unit(count, k), (at - p.low) / p.step});
+  }
+  const Eigen::MatrixXd normal = slopes.transpose() * slopes;
+  const QuadraticModel model{normal + Eigen::MatrixXd(lambda_ * normal.diagonal().asDiagonal()),
+                             slopes.transpose() * residuals_};
+  const LimitedStep step =
+      limited_step(model, bounds,
+                   {[this](const Eigen::VectorXd& steps) { return is_allowed_(moved(steps)); },
+                    inside, 0.1 * tolerance_});
+  is_at_limit_ = step.at_border;
+  if (step.to.cwiseAbs().maxCoeff() <= tolerance_)
+    state_ = step.is_best ? State::converged : State::gave_up;
   else if (rounds_ >= max_rounds_)
     state_ = State::gave_up;
   else
-    ask(next);
+    ask(within_bounds(moved(step.to)));
 }
 
 }  // namespace pulvis

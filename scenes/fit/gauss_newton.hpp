@@ -3,6 +3,7 @@
 // Source   Levenberg (1944), Marquardt (1963): (J'J + lambda diag(J'J)) d = -J' r; lambda falls tenfold with every round
 //          that improves the fit and rises tenfold with every one that does not
 // Rounds   a point plus one neighbour per parameter, which give J by differences: all points of a round can run in parallel
+// Limits   bounds of the parameters and points that are not allowed: limited_step.hpp
 // End      when the next move is a small fraction of every parameter's step
 #pragma once
 
@@ -34,14 +35,19 @@ class GaussNewton {
   // Residuals of each of them, all of the same length.
   void tell(const std::vector<Eigen::VectorXd>& residuals);
 
-  // The best point so far, once residuals have been passed in.
+  // The best of all points so far, neighbours included, once residuals have been passed in.
   const Point& best() const { return best_; }
   const Eigen::VectorXd& residuals() const { return residuals_; }
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
   bool is_at_bound(std::size_t parameter) const;
+  // Points that are not allowed keep the search from a better fit.
+  bool is_at_limit() const { return is_at_limit_; }
 
  private:
   void ask(const Point& point);
+  bool take_best(const std::vector<Eigen::VectorXd>& residuals);
+  Point moved(const Eigen::VectorXd& steps) const;
+  Point within_bounds(Point point) const;
   void move();
 
   std::vector<FreeParameter> parameters_;
@@ -49,9 +55,10 @@ class GaussNewton {
   int max_rounds_, rounds_ = 0;
   Allowed is_allowed_;
   State state_ = State::going;
+  bool is_at_limit_ = false;
   std::vector<Point> asks_;
   double lambda_ = 1e-3;
-  Point best_;
+  Point best_, inside_;  // middle of the round of the best point
   Eigen::VectorXd residuals_;
   Eigen::MatrixXd jacobian_;
 };

@@ -123,6 +123,38 @@ TEST_F(FitCommand, FindsAKnownFrictionAgainAndKeepsItsRuns) {
               0.23, half);
 }
 
+// A friction that rises: a static coefficient below the dynamic one is no scene, so both have the same value.
+TEST_F(FitCommand, FollowsTheLimitOfValidScenes) {
+  write("fit.toml", R"(scene = "plate.toml"
+[[parameter]]
+key = "friction[0].coefficient"
+start = 0.15
+low = 0.0
+high = 0.5
+step = 0.02
+[[parameter]]
+key = "friction[0].static_coefficient"
+start = 0.2
+low = 0.0
+high = 0.6
+step = 0.02
+[measured]
+static = 0.2
+static_error = 0.01
+dynamic = 0.26
+dynamic_error = 0.01
+[fit]
+dynamic_from = "1 mm"
+)");
+  const Outcome outcome = pulvis({"fit", "fit.toml", "-o", "fitted", "--jobs", "2", "--set",
+                                  "friction[0].decay_length=0.3 mm"});
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("the best values are at the limit of valid scenes"));
+  const auto json = nlohmann::json::parse(text_of(place / "fitted/fit.json"));
+  EXPECT_NEAR(json["parameters"][0]["value"], 0.23, 0.01);
+  EXPECT_NEAR(json["parameters"][0]["value"], json["parameters"][1]["value"], 1e-3);
+}
+
 // Folders of fits stand alone: scene, record and what --set changed lie in them.
 TEST_F(FitCommand, AMovedFolderDoesTheSameAgain) {
   fs::create_directories(place / "given/records");
