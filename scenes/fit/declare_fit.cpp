@@ -94,7 +94,8 @@ std::vector<Key<PlateMeasured>> record_keys() {
       {{.name = "friction",
         .kind = Kind::text,
         .fallback = value_of("friction"),
-        .doc = "Name of the coefficient column; \"mean\" in `curves.csv`."},
+        .doc = "Name of the coefficient column; \"mean\" in `curves.csv`. Rows without a value in "
+               "it are left out."},
        to(&PlateMeasured::friction)},
       {{.name = "from",
         .kind = Kind::quantity,

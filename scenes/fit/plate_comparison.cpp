@@ -56,14 +56,16 @@ double dynamic_coefficient(const lab::SimulatedCurve& curve, double from) {
 PlateComparison::PlateComparison(const PlateFit& fit)
     : fit_(fit), simulated_diameter_(mean_diameter(fit.scene)) {
   const PlateMeasured& m = fit.spec.measured;
-  if (m.record.empty()) return;
-  const csv::Table table = csv::read(fit.file.parent_path() / m.record);
+  if (!has_record()) return;
+  const csv::Table all = csv::read(fit.file.parent_path() / m.record);
+  const std::size_t friction_column = csv::column_at(all, m.friction);
+  const csv::Table table = csv::with_value(all, friction_column);
   const std::vector<double> distance = csv::numbers(table, csv::column_at(table, m.distance), "m");
-  const std::vector<double> friction = csv::numbers(table, csv::column_at(table, m.friction), "");
-  measured_way_ = std::ranges::max(distance);
+  const std::vector<double> friction = csv::numbers(table, friction_column, "");
   const double scale = m.by_diameters() ? simulated_diameter_ / *m.particle_diameter : 1;
   for (std::size_t i = 0; i < distance.size(); ++i) {
     if (distance[i] < 0) continue;  // before the plate started
+    measured_way_ = std::max(measured_way_, distance[i]);
     distance_.push_back(scale * distance[i]);
     friction_.push_back(friction[i]);
   }
@@ -81,7 +83,8 @@ void PlateComparison::set_reach(const lab::SimulatedCurve& simulated) {
                          fit_.spec.dynamic_from * 1e3, simulated_way_ * 1e3));
     return;
   }
-  until_ = std::min({until_, std::ranges::max(distance_), m.until.value_or(until_)});
+  const double recorded = distance_.empty() ? 0 : std::ranges::max(distance_);
+  until_ = std::min({until_, recorded, m.until.value_or(until_)});
   compared_.clear();
   for (std::size_t i = 0; i < distance_.size(); ++i)
     if (distance_[i] >= from() && distance_[i] <= until_) compared_.push_back(i);

@@ -25,7 +25,7 @@ class PlateComparison {
   void set_reach(const lab::SimulatedCurve& simulated);
   Eigen::VectorXd residuals(const lab::SimulatedCurve& simulated) const;
 
-  bool has_record() const { return !distance_.empty(); }
+  bool has_record() const { return !fit_.spec.measured.record.empty(); }
   // The record on the simulation's distance scale.
   const std::vector<double>& distance() const { return distance_; }
   const std::vector<double>& friction() const { return friction_; }

@@ -143,6 +143,11 @@ class PlateFitReader {
         problems_.add(origins.at("scene"), "scene", problem.text());
       return;
     }
+    if (fit_.scene.space) {
+      problems_.add(origins.at("scene"), "scene",
+                    "the scene is three-dimensional, allowed: two-dimensional scenes");
+      return;
+    }
     const auto& tools = fit_.scene.tools;
     if (std::ranges::find(tools, fit_.spec.target, &ToolSpec::name) == tools.end())
       problems_.add(origins.at("scene"), "fit.target",

@@ -294,6 +294,18 @@ void refuse_former(const Table& table,
       refuse(table, former, fmt::format("is called '{0}' now, allowed: {0}", name));
 }
 
+Table with_value(Table table, std::size_t column) {
+  std::size_t kept = 0;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (table.rows[row][column].text.empty()) continue;
+    std::swap(table.rows[kept], table.rows[row]);
+    table.lines[kept++] = table.lines[row];
+  }
+  table.rows.resize(kept);
+  table.lines.resize(kept);
+  return table;
+}
+
 std::vector<double> numbers(const Table& table, std::size_t column, double factor) {
   std::vector<double> values;
   values.reserve(table.rows.size());

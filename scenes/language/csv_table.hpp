@@ -70,6 +70,9 @@ void only(const Table& table, const std::vector<std::string>& names);
 void refuse_former(const Table& table,
                    const std::vector<std::pair<std::string, std::string>>& former_and_new);
 
+// Leaves out the rows that have no value in this column.
+Table with_value(Table table, std::size_t column);
+
 // A column in the SI unit `unit`; "" for dimensionless numbers. Every cell must hold a finite number
 // that does not exceed the largest.
 std::vector<double> numbers(const Table& table, std::size_t column, const std::string& unit);

@@ -218,6 +218,43 @@ TEST_F(FitCommand, RefusesARecordThatDoesNotReachTheSimulation) {
               HasSubstr("1 of its samples lie between 1 and 2 mm, allowed: at least 20"));
 }
 
+TEST_F(FitCommand, RefusesARecordFromBeforeTheStart) {
+  std::string samples = "distance [mm],friction\n";
+  for (int i = 1; i <= 40; ++i) samples += std::to_string(-i) + ",0.2\n";
+  write("measured.csv", samples);
+  const PlateFit read = load_plate_fit(place / "fit.toml");
+  PlateComparison comparison(read);
+  EXPECT_THAT(message_of([&] {
+                comparison.set_reach({"s", {0, 1e-3, 2e-3}, {0, 0.1, 0.1}});
+              }),
+              HasSubstr("0 of its samples lie between"));
+}
+
+// As `mean` in curves.csv where only one run reaches.
+TEST_F(FitCommand, LeavesOutRowsWithoutAValue) {
+  write("measured.csv", "distance [mm],mean\n0,0.1\n1,0.2\n1.5,\n2,0.3\n9,\n");
+  write("fit.toml", one_key + "friction = \"mean\"\n");
+  const PlateFit read = load_plate_fit(place / "fit.toml");
+  const PlateComparison comparison(read);
+  EXPECT_THAT(comparison.distance(), ::testing::ElementsAre(0, 1e-3, 2e-3));
+  EXPECT_THAT(comparison.friction(), ::testing::ElementsAre(0.1, 0.2, 0.3));
+}
+
+TEST_F(FitCommand, RefusesSceneInThreeDimensions) {
+  const std::string scene = (sources / "scenes/compaction-3d/one-sphere.toml").string();
+  write("fit.toml", "scene = \"" + scene + R"("
+[[parameter]]
+key = "contact.friction"
+start = 0.3
+low = 0.1
+high = 0.5
+step = 0.02
+[measured]
+record = "measured.csv"
+)");
+  EXPECT_THAT(refusal(), HasSubstr("the scene is three-dimensional, allowed: two-dimensional"));
+}
+
 TEST_F(FitCommand, TheShippedFitAndItsReferenceAreWhole) {
   const PlateFit shipped = load_plate_fit(sources / "scenes/lab/plate-fit.toml");
   EXPECT_EQ(shipped.spec.parameters.size(), 2u);
