@@ -79,8 +79,8 @@ class Fitting {
   StudyRun run_of(const std::vector<double>& values) const {
     StudyRun run;
     for (std::size_t k = 0; k < values.size(); ++k)
-      run.name += fmt::format("{}{}={:.6g}", k > 0 ? "," : "", fit_.spec.parameters[k].short_name(),
-                              values[k]);
+      run.name += fmt::format("{}{}={}", k > 0 ? "," : "", fit_.spec.parameters[k].short_name(),
+                              fit_.spec.parameters[k].text(values[k]));
     run.variation = run.name;
     run.file = fit_.scene_file();
     run.overrides = fit_.settings_at(values);

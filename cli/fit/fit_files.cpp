@@ -43,7 +43,8 @@ std::string trials_csv(const FitResult& r) {
   text += ",misfit [-]\n";
   for (const FitTrial& trial : r.trials) {
     text += "\"" + trial.run + "\"";
-    for (const double value : trial.values) text += fmt::format(",{:.6g}", value);
+    for (std::size_t k = 0; k < trial.values.size(); ++k)
+      text += "," + r.fit.spec.parameters[k].text(trial.values[k]);
     text += fmt::format(",{:.6g}\n", trial.misfit);
   }
   return text;

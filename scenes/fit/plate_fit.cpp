@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/fit/declare_fit.hpp"
 #include "scenes/language/describe.hpp"
@@ -12,6 +13,7 @@ namespace pulvis {
 namespace {
 
 constexpr std::size_t most_parameters = 3;
+constexpr double smallest_step = 1e-12;  // of the largest value: a thousandth has 15 digits
 const char* const introduction = R"(# The fit file
 
 <!-- Generated from the declarations in scenes/fit/declare_fit.cpp: change those, not this file. -->
@@ -103,6 +105,9 @@ class PlateFitReader {
       else if (one.step > (one.high - one.low) / 2)
         add("step", fmt::format("{:g}, allowed: up to half of high - low, {:g}", one.step,
                                 (one.high - one.low) / 2));
+      else if (const double least = smallest_step * std::max(std::abs(one.low), std::abs(one.high));
+               one.step < least)
+        add("step", fmt::format("{:g}, allowed: at least {:g}", one.step, least));
       for (std::size_t k = 0; k < i; ++k)
         if (all[k].short_name() == one.short_name())
           add("name",
@@ -190,8 +195,14 @@ std::string SoughtKey::short_name() const {
   return name.empty() ? key.substr(key.rfind('.') + 1) : name;
 }
 
+std::string SoughtKey::text(double value) const {
+  int digits = 3;  // of a thousandth step
+  for (double left = std::max(std::abs(low), std::abs(high)) / step; left > 1; left /= 10) ++digits;
+  return fmt::format("{:.{}g}", value, std::max(6, digits));
+}
+
 std::string SoughtKey::setting(double value) const {
-  return fmt::format("{}={:.6g}{}{}", key, value, unit.empty() ? "" : " ", unit);
+  return fmt::format("{}={}{}{}", key, text(value), unit.empty() ? "" : " ", unit);
 }
 
 std::vector<std::string> PlateFit::settings_at(const std::vector<double>& values) const {

@@ -18,6 +18,7 @@ struct SoughtKey {  // [[parameter]]
   SourceMark mark = {};
 
   std::string short_name() const;           // "coefficient" of "friction[0].coefficient"
+  std::string text(double value) const;     // with as many digits as its step needs, at least six
   std::string setting(double value) const;  // as used by --set
 };
 

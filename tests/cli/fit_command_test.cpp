@@ -198,6 +198,25 @@ TEST_F(FitCommand, RefusesWhatCannotBeSought) {
   EXPECT_FALSE(fs::exists(place / "fitted"));
 }
 
+// Runs are named after their values: a step must change the name.
+TEST_F(FitCommand, SmallStepsGetMoreDigits) {
+  const auto with_step = [&](const std::string& step) {
+    std::string fit = one_key;
+    fit.replace(fit.find("step = 0.02"), 11, "step = " + step);
+    write("fit.toml", fit);
+  };
+  write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n");
+  with_step("1e-7");
+  const PlateFit read = load_plate_fit(place / "fit.toml");
+  EXPECT_EQ(read.settings_at({0.2300001}).front(), "friction[0].coefficient=0.2300001");
+  EXPECT_EQ(read.settings_at({0.23000001}).front(), "friction[0].coefficient=0.23000001");
+  with_step("0.02");
+  EXPECT_EQ(load_plate_fit(place / "fit.toml").settings_at({0.23000001}).front(),
+            "friction[0].coefficient=0.23");
+  with_step("1e-13");
+  EXPECT_THAT(refusal(), HasSubstr("parameter[0].step: 1e-13, allowed: at least 5e-13"));
+}
+
 // It would be the same in all runs, whatever values the search asks for.
 TEST_F(FitCommand, RefusesToReplaceAParameter) {
   const fs::path shipped = sources / "scenes/lab/plate-fit.toml";
