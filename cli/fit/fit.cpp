@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "cli/fit/fit_files.hpp"
@@ -67,7 +66,7 @@ class Fitting {
     FitResult result{fit_, comparison_, search_, std::move(trials_), {}, {}};
     result.parameters =
         comparison_.parameters(search_.best(), search_.residuals(), search_.jacobian());
-    result.warnings = warnings();
+    result.warnings = warnings(result.parameters);
     write_fit(folder_, result);
     for (const std::string& sentence : comparison_.limits()) tell("{}\n", sentence);
     for (const std::string& sentence : result.warnings) tell("warning: {}\n", sentence);
@@ -121,11 +120,8 @@ class Fitting {
     return std::nullopt;
   }
 
-  std::vector<std::string> warnings() const {
+  std::vector<std::string> warnings(const std::vector<lab::Measured>& found) const {
     std::vector<std::string> told;
-    double largest = 0;
-    for (Eigen::Index k = 0; k < search_.jacobian().cols(); ++k)
-      largest = std::max(largest, search_.jacobian().col(k).norm());
     for (std::size_t k = 0; k < fit_.spec.parameters.size(); ++k) {
       const std::string name = fit_.spec.parameters[k].short_name();
       if (search_.is_at_bound(k))
@@ -134,6 +130,11 @@ class Fitting {
       if (!(search_.jacobian().col(static_cast<Eigen::Index>(k)).norm() > 0))
         told.push_back(fmt::format(
             "the simulated friction does not depend on {}, which therefore cannot be determined",
+            name));
+      else if (!found[k].has_interval())
+        told.push_back(fmt::format(
+            "changes of the other keys have the same effect on the friction as those of {}, which "
+            "therefore cannot be determined",
             name));
     }
     if (search_.is_at_limit())

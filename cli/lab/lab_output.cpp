@@ -74,9 +74,12 @@ nlohmann::ordered_json chart_of(const std::string& title, const char* x_label, c
 }
 
 nlohmann::ordered_json measured_cell(const lab::Measured& figure, double confidence) {
-  return {{"value", figure.value}, {"error", figure.half_width(confidence)}, {"unit", figure.unit}};
+  Json cell{{"value", figure.value}, {"unit", figure.unit}};
+  if (figure.has_interval()) cell["error"] = figure.half_width(confidence);
+  return cell;
 }
 
+// nlohmann::json writes infinite numbers as null.
 nlohmann::ordered_json measured_json(const lab::Measured& figure, double confidence) {
   Json json{{"name", figure.name},
             {"unit", figure.unit},
@@ -92,6 +95,8 @@ std::string measured_text(const lab::Measured& figure, double confidence) {
   std::string unit = figure.unit == "-" ? "" : " " + figure.unit;
   if (figure.unit == "Pa") factor = 1e-6, unit = " MPa";
   if (figure.unit == "1/Pa") factor = 1e6, unit = " 1/MPa";
+  if (!figure.has_interval())
+    return fmt::format("{} {:.5g}{} (no interval)", figure.name, figure.value * factor, unit);
   return fmt::format("{} {:.5g} +- {:.2g}{}", figure.name, figure.value * factor,
                      figure.half_width(confidence) * factor, unit);
 }

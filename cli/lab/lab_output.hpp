@@ -38,11 +38,11 @@ nlohmann::ordered_json chart_line(const std::string& label, const char* unit,
 nlohmann::ordered_json chart_of(const std::string& title, const char* x_label, const char* x_unit,
                                 const char* y_label);
 
-// {value, error, unit} as a table cell of the page; the error is the half-width of the interval.
+// {value, error, unit} as a table cell of the page; the error is the half-width of the interval, if there is one.
 nlohmann::ordered_json measured_cell(const lab::Measured& figure, double confidence);
-// The same with all contributions, for summary.json.
+// The same with all contributions, for summary.json; without an interval they are null.
 nlohmann::ordered_json measured_json(const lab::Measured& figure, double confidence);
-// "yield_pressure 420.1 +- 0.8 MPa" with the most readable prefix.
+// "yield_pressure 420.1 +- 0.8 MPa" with the most readable prefix, "yield_pressure 420.1 MPa (no interval)".
 std::string measured_text(const lab::Measured& figure, double confidence);
 
 }  // namespace pulvis

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scenes/language/csv_table.hpp"
@@ -27,6 +29,39 @@ double mean_diameter(const Scene& scene) {
   }
   return sum / static_cast<double>(bodies.size());
 }
+
+// J'J may not be inverted as it is: the units of the parameters differ by many orders.
+struct ScaledSlopes {
+  Eigen::VectorXd lengths;  // of the columns of J; 1 if it is 0
+  Eigen::MatrixXd slopes;   // J with columns of length 1
+
+  explicit ScaledSlopes(const Eigen::MatrixXd& jacobian)
+      : lengths(jacobian.colwise().norm().transpose()) {
+    for (double& length : lengths)
+      if (!(length > 0)) length = 1;
+    slopes = jacobian * lengths.cwiseInverse().asDiagonal();
+  }
+  // Directions in which the residuals do not change, one per column.
+  Eigen::MatrixXd null_space() const {
+    constexpr double no_effect = 1e-6;  // the curves have nine digits
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(slopes, Eigen::ComputeFullV);
+    const Eigen::VectorXd& effects = svd.singularValues();
+    const auto rank = (effects.array() > no_effect * effects.maxCoeff()).count();
+    return svd.matrixV().rightCols(slopes.cols() - rank);
+  }
+  // Standard errors of the parameters for residuals of unit variance; infinite where others can make up for a change.
+  Eigen::VectorXd errors() const {
+    constexpr double no_part = 1e-4;
+    const Eigen::MatrixXd inverse = pseudo_inverse(slopes.transpose() * slopes),
+                          free = null_space();
+    Eigen::VectorXd found(lengths.size());
+    for (Eigen::Index k = 0; k < lengths.size(); ++k)
+      found[k] = free.row(k).norm() > no_part
+                     ? std::numeric_limits<double>::infinity()
+                     : std::sqrt(std::max(0.0, inverse(k, k))) / lengths[k];
+    return found;
+  }
+};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& key,
                          const std::string& what) {
@@ -150,7 +185,7 @@ std::vector<lab::Measured> PlateComparison::parameters(const std::vector<double>
                                                        const Eigen::VectorXd& residuals,
                                                        const Eigen::MatrixXd& jacobian) const {
   const PlateMeasured& m = fit_.spec.measured;
-  const Eigen::MatrixXd inverse = pseudo_inverse(jacobian.transpose() * jacobian);
+  const Eigen::VectorXd errors = ScaledSlopes(jacobian).errors();
   double variance = 1, freedom = certain;
   const char* source = "stated";
   if (has_record()) {
@@ -169,12 +204,11 @@ std::vector<lab::Measured> PlateComparison::parameters(const std::vector<double>
   std::vector<lab::Measured> found;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const SoughtKey& sought = fit_.spec.parameters[k];
-    const auto at = static_cast<Eigen::Index>(k);
     found.push_back({sought.short_name(),
                      sought.unit.empty() ? "-" : sought.unit,
                      values[k],
                      freedom,
-                     {{source, std::sqrt(variance * std::max(0.0, inverse(at, at)))}}});
+                     {{source, std::sqrt(variance) * errors[static_cast<Eigen::Index>(k)]}}});
   }
   return found;
 }

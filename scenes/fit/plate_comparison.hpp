@@ -5,7 +5,8 @@
 //           particle diameters
 // Interval  (J'J)^-1 s^2 (1 + r)/(1 - r), s^2 the mean square of the residuals over n - p, r the correlation of
 //           neighbouring ones; a stated uncertainty is used if it is larger. Student's distribution with n (1 - r)/(1 + r)
-//           - p degrees of freedom; for coefficients alone, the normal one with their stated uncertainties
+//           - p degrees of freedom; for coefficients alone, the normal one with their stated uncertainties. Infinite if
+//           the residuals do not depend on a parameter, or the others can make up for its change
 #pragma once
 
 #include <Eigen/Dense>

@@ -13,7 +13,7 @@ namespace pulvis::lab {
 
 struct Contribution {
   std::string source;  // "scatter", "height", ...
-  double error = 0;    // one standard uncertainty, in the value's unit
+  double error = 0;    // one standard uncertainty, in the value's unit; infinite: not determined
 };
 
 struct Measured {
@@ -24,6 +24,7 @@ struct Measured {
 
   double standard() const;                     // u
   double half_width(double confidence) const;  // of the confidence interval
+  bool has_interval() const;                   // its half width is finite
 };
 
 }  // namespace pulvis::lab

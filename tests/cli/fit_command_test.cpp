@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "cli/lab/lab_output.hpp"
 #include "scenes/fit/plate_comparison.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/program.hpp"
@@ -215,6 +216,40 @@ TEST_F(FitCommand, SmallStepsGetMoreDigits) {
             "friction[0].coefficient=0.23");
   with_step("1e-13");
   EXPECT_THAT(refusal(), HasSubstr("parameter[0].step: 1e-13, allowed: at least 5e-13"));
+}
+
+// A key without effect, and two that have the same effect in units that differ by many orders.
+TEST_F(FitCommand, GivesNoIntervalToWhatItCannotDetermine) {
+  write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n");
+  const std::string second = R"([[parameter]]
+key = "limits.energy_balance"
+start = 0.5
+low = 0.3
+high = 0.9
+step = 0.02
+[measured])";
+  std::string fit = one_key;
+  write("fit.toml", fit.replace(fit.find("[measured]"), 10, second));
+  const PlateFit read = load_plate_fit(place / "fit.toml");
+  const PlateComparison comparison(read);
+  const Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(50, 1, 2);
+  const Eigen::VectorXd scatter = ramp.unaryExpr([](double x) { return 0.01 * std::cos(1e4 * x); });
+  const auto with_slopes = [&](const Eigen::VectorXd& first, const Eigen::VectorXd& other) {
+    Eigen::MatrixXd jacobian(50, 2);
+    jacobian << first, other;
+    return comparison.parameters({0.2, 0.5}, scatter, jacobian);
+  };
+  const auto without = with_slopes(ramp, 0 * ramp);
+  EXPECT_TRUE(without[0].has_interval());
+  EXPECT_FALSE(without[1].has_interval());
+  EXPECT_TRUE(measured_json(without[1], 0.95).dump().find("\"half_width\":null") !=
+              std::string::npos);
+  EXPECT_EQ(measured_text(without[1], 0.95), "energy_balance 0.5 (no interval)");
+  EXPECT_FALSE(measured_cell(without[1], 0.95).contains("error"));
+  for (const lab::Measured& p : with_slopes(ramp, 1e-12 * ramp)) EXPECT_FALSE(p.has_interval());
+  const auto apart = with_slopes(ramp, 1e-12 * ramp.cwiseAbs2());
+  EXPECT_TRUE(apart[0].has_interval());
+  EXPECT_NEAR(apart[1].standard() / with_slopes(ramp, ramp.cwiseAbs2())[1].standard(), 1e12, 1e6);
 }
 
 // It would be the same in all runs, whatever values the search asks for.
