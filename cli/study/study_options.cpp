@@ -24,15 +24,25 @@ const CLI::Validator time_limit(
     },
     "", "time_limit");
 
-// Options that tell a task its runs and its folder may not be set by users.
+// Whether sbatch (getopt_long) reads the word as an option that tells a task its runs, its folder or its processors. It takes
+// abbreviated long options, values attached to short ones, and short ones in front of them that have no value.
+bool is_own_option(const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  if (name.starts_with("--")) {
+    for (const std::string own : {"--array", "--chdir", "--cpus-per-task"})
+      if (own.starts_with(name)) return true;
+    return false;
+  }
+  const std::size_t letter = word.find_first_not_of("hHOQsuvVW", 1);
+  return letter != std::string::npos && std::string("aDc").find(word[letter]) != std::string::npos;
+}
+
+// Options that the study sets may not be set by users.
 const CLI::Validator other_option(
     [](const std::string& text) {
-      if (!text.starts_with('-'))
+      if (!text.starts_with('-') || text == "-" || text == "--")
         return "'" + text + "': allowed: an option, e.g. --account=powders";
-      const std::string name = text.substr(0, text.find('='));
-      for (const char* const own : {"--array", "--chdir", "--cpus-per-task", "-a", "-D", "-c"})
-        if (name == own) return "'" + name + "' is set by the study itself";
-      return std::string();
+      return is_own_option(text) ? "'" + text + "' is set by the study itself" : std::string();
     },
     "", "other_option");
 

@@ -111,8 +111,16 @@ TEST_F(SlurmCommand, WrongOptionsAreRefused) {
   EXPECT_THAT(time.err, HasSubstr("'half an hour' is not a time limit, allowed: minutes, "));
   EXPECT_EQ(submit({"--array-size", "0"}).code, 2);
   EXPECT_EQ(submit({"--partition", "two\nlines"}).code, 2);
-  EXPECT_EQ(submit({"--sbatch=--array=0-9"}).code, 2);
-  EXPECT_EQ(submit({"--sbatch=account"}).code, 2);
+  for (const char* own :
+       {"--array=0-9", "--arr=1", "--chdir=/tmp", "-c", "-c4", "-a0-3", "-D/tmp", "-Hc4"}) {
+    const Outcome set = submit({"--sbatch=" + std::string(own), "--dry-run"});
+    EXPECT_EQ(set.code, 2) << own;
+    EXPECT_THAT(set.err, HasSubstr("is set by the study itself"));
+  }
+  for (const char* wrong : {"account", "--", "-"})
+    EXPECT_EQ(submit({"--sbatch=" + std::string(wrong)}).code, 2) << wrong;
+  for (const char* other : {"-Apowders", "-C", "-H", "--constraint=fast", "-d1"})
+    EXPECT_EQ(submit({"--sbatch=" + std::string(other), "--dry-run"}).code, 0) << other;
   const Outcome run = study({"--run", "friction=0.4"});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("there is no run 'friction=0.4' in this study"));
@@ -252,8 +260,8 @@ TEST_F(SlurmCommand, NamesOfStudiesAreNoCommands) {
   const fs::path study = place / "a\ntouch INJECTED\nb.toml";
   std::ofstream(study) << "scene = \"" << scene("compaction/random-100.toml")
                        << "\"\n[grid]\ncontact.friction = [0.1]\n";
-  const Outcome end = end_of(
-      start({"study", study.string(), "-o", results.string(), "--slurm", "--dry-run"}));
+  const Outcome end =
+      end_of(start({"study", study.string(), "-o", results.string(), "--slurm", "--dry-run"}));
   ASSERT_EQ(end.code, 0) << end.err;
   EXPECT_THAT(end.out, HasSubstr("--job-name=pulvis-a"));
   EXPECT_THAT(end.out, Not(HasSubstr("\ntouch")));
