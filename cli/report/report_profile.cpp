@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cli/report/report_parts.hpp"
 #include "cli/report/report_tags.hpp"
+#include "cli/report/report_tetrahedra.hpp"
 
 namespace pulvis {
 namespace {
@@ -47,44 +47,37 @@ std::vector<Piece> pieces_of(const hdf5::File& file, const std::string& frame) {
   return pieces;
 }
 
-// A slice gets the fraction of a part's volume that equals its share of the part's height.
-void spread(std::vector<double>& volume, double part, double from, double to) {
+// Adds what lies in each slice; heights in slices.
+void add(std::vector<double>& volume, const Tetrahedron& one) {
   const auto count = static_cast<double>(volume.size());
-  const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, count - 1));
-  const auto last = static_cast<std::size_t>(std::clamp(to, 0.0, count - 1));
-  for (std::size_t slice = first; slice <= last; ++slice) {
-    const auto below = static_cast<double>(slice);
-    const double inside = std::min(to, below + 1) - std::max(from, below);
-    volume[slice] += to > from ? part * std::max(0.0, inside) / (to - from) : part;
-    if (!(to > from)) return;
+  if (one.z[3] <= 0 || one.z[0] >= count) return;
+  const auto first = static_cast<std::size_t>(std::max(one.z[0], 0.0));
+  double below = one.share_below(static_cast<double>(first));
+  for (std::size_t slice = first; slice < volume.size() && below < 1; ++slice) {
+    const double next = one.share_below(static_cast<double>(slice + 1));
+    volume[slice] += one.volume * (next - below);
+    below = next;
   }
 }
 
-}  // namespace
-
-DensityProfile density_along_z(std::span<const double> xyz, std::span<const std::int32_t> hexahedra,
-                               const CrossSection& section, std::size_t slices) {
-  const Box box = box_of(xyz);
-  const double low = std::max(box.min().z(), section.low);
-  const double step = (std::min(box.max().z(), section.high) - low) / static_cast<double>(slices);
-  if (!(step > 0) || !(section.area > 0)) return {};
-  DensityProfile profile{std::vector(slices, 0.0), {}};
-  for (std::size_t i = 0; i <= slices; ++i)
-    profile.edges.push_back(low + step * static_cast<double>(i));
-  for (std::size_t first = 0; first < hexahedra.size(); first += 8)
-    for_parts(xyz, hexahedra.subspan(first, 8), [&](double volume, double from, double to) {
-      spread(profile.density, volume, (from - low) / step, (to - low) / step);
-    });
-  for (double& density : profile.density) density /= section.area * step;
-  return profile;
+// The nearest level plane on either side of the powder.
+void find_ends(const std::vector<Piece>& pieces, CrossSection& section) {
+  for (const Piece& piece : pieces) {
+    const Vec3 normal = piece.normal();
+    if (piece.kind != "plane" || !(normal.head<2>().cwiseAbs().maxCoeff() < upright)) continue;
+    const double z = piece.corners[0].z();
+    if (normal.z() > 0)
+      section.bottom = std::max(section.bottom.value_or(z), z);
+    else
+      section.top = std::min(section.top.value_or(z), z);
+  }
 }
 
-CrossSection cross_section(const hdf5::File& file, const std::string& frame,
-                           std::span<const double> xyz) {
+CrossSection room_across_z(const std::vector<Piece>& pieces, std::span<const double> xyz) {
   Box room = box_of(xyz), die,
       mouth;  // the die: its upright wall; the mouth: what widens or closes around its end
   bool walls = false;
-  for (const Piece& piece : pieces_of(file, frame)) {
+  for (const Piece& piece : pieces) {
     const Vec3 normal = piece.normal(), &at = piece.corners[0];
     const bool stands = std::abs(normal.z()) < upright;
     if (piece.kind == "die")
@@ -105,6 +98,35 @@ CrossSection cross_section(const hdf5::File& file, const std::string& frame,
   const bool above = mouth.center().z() > die.center().z();
   (above ? bore.high : bore.low) = above ? die.max().z() : die.min().z();
   return bore;
+}
+
+}  // namespace
+
+DensityProfile density_along_z(std::span<const double> xyz, std::span<const std::int32_t> hexahedra,
+                               const CrossSection& section, std::size_t slices) {
+  const Box box = box_of(xyz);
+  const double low = std::max(section.bottom.value_or(box.min().z()), section.low);
+  const double high = std::min(section.top.value_or(box.max().z()), section.high);
+  const double step = (high - low) / static_cast<double>(slices);
+  if (!(step > 0) || !(section.area > 0)) return {};
+  DensityProfile profile{std::vector(slices, 0.0), {}};
+  for (std::size_t i = 0; i <= slices; ++i)
+    profile.edges.push_back(low + step * static_cast<double>(i));
+  for (std::size_t first = 0; first < hexahedra.size(); first += 8)
+    for_tetrahedra(xyz, hexahedra.subspan(first, 8), [&](Tetrahedron one) {
+      for (double& z : one.z) z = (z - low) / step;
+      add(profile.density, one);
+    });
+  for (double& density : profile.density) density /= section.area * step;
+  return profile;
+}
+
+CrossSection cross_section(const hdf5::File& file, const std::string& frame,
+                           std::span<const double> xyz) {
+  const std::vector<Piece> pieces = pieces_of(file, frame);
+  CrossSection section = room_across_z(pieces, xyz);
+  find_ends(pieces, section);
+  return section;
 }
 
 }  // namespace pulvis

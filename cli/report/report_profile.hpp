@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,13 +21,14 @@ struct DensityProfile {
 struct CrossSection {
   double area = 0;    // m^2
   std::string bound;  // whose inside it is: "die", "die with a mouth", "walls", "powder"
+  std::optional<double> bottom = {}, top = {};  // m, z of level planes below and above the powder
   // m, the part of z in which the space has this cross-section: a die ends at its mouth.
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 };
 
-// Hexahedra: eight rows of `xyz` each. The slices are equally thick and reach from the lowest to the highest point within
-// the ends of the section; there are none if nothing is between these.
+// Hexahedra: eight rows of `xyz` each. The slices are equally thick and reach from the bottom to the top, or to the lowest
+// and the highest point where there is no plane, within the ends of the section; there are none if nothing is between these.
 DensityProfile density_along_z(std::span<const double> xyz, std::span<const std::int32_t> hexahedra,
                                const CrossSection& section, std::size_t slices);
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "cli/report/report_parts.hpp"
+#include "cli/report/report_tetrahedra.hpp"
 
 namespace pulvis {
 namespace {
@@ -68,7 +68,7 @@ std::vector<std::int32_t> outer_sides(std::span<const std::int32_t> hexahedra) {
 
 double hexahedron_volume(std::span<const double> xyz, std::span<const std::int32_t> corners) {
   double volume = 0;
-  for_parts(xyz, corners, [&](double part, double, double) { volume += part; });
+  for_tetrahedra(xyz, corners, [&](const Tetrahedron& one) { volume += one.volume; });
   return volume;
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -84,6 +85,39 @@ TEST(DensityAlongZ, HoldsTheWholeVolume) {
   const double sum = std::accumulate(density.begin(), density.end(), 0.0);
   EXPECT_NEAR(2.0 * sum * (edges[1] - edges[0]), 1, 1e-12);
   EXPECT_LT(density.front(), 0.5 * density[5]);  // only a corner reaches down there
+}
+
+// A cube of one element on its corner: its section is a triangle, a hexagon, a triangle.
+TEST(DensityAlongZ, HasTheExactVolumeOfEachSlice) {
+  SpaceMesh mesh = block(1);
+  for (std::size_t i = 0; i < mesh.reference.size(); i += 3) {
+    const double x = mesh.reference[i], y = mesh.reference[i + 1], z = mesh.reference[i + 2];
+    mesh.reference[i] = (x - y) / std::sqrt(2.0);
+    mesh.reference[i + 1] = (x + y - 2 * z) / std::sqrt(6.0);
+    mesh.reference[i + 2] = (x + y + z) / std::sqrt(3.0);
+  }
+  const auto [density, edges] =
+      density_along_z(mesh.reference, mesh.hexahedra, {.area = 2, .bound = {}}, 9);
+  const auto below = [](double z) {
+    const auto cube = [](double s) { return s > 0 ? s * s * s / 6 : 0; };
+    const double s = std::sqrt(3.0) * z;
+    return cube(s) - 3 * cube(s - 1) + 3 * cube(s - 2) - cube(s - 3);
+  };
+  ASSERT_EQ(density.size(), 9U);
+  for (std::size_t i = 0; i < 9; ++i)
+    EXPECT_NEAR(2 * density[i] * (edges[i + 1] - edges[i]), below(edges[i + 1]) - below(edges[i]),
+                1e-14);
+}
+
+// What has penetrated the lower one does not count; above the powder there is nothing.
+TEST(DensityAlongZ, IsThatBetweenThePunches) {
+  const SpaceMesh mesh = block(3);
+  const auto [density, edges] = density_along_z(
+      mesh.reference, mesh.hexahedra, {.area = 1, .bound = {}, .bottom = 0.2, .top = 1.4}, 3);
+  ASSERT_EQ(density.size(), 3U);
+  EXPECT_NEAR(density[0], 1, 1e-12);
+  EXPECT_NEAR(density[1], 1, 1e-12);
+  EXPECT_NEAR(density[2], 0, 1e-12);
 }
 
 TEST(DensityAlongZ, EndsWhereTheSpaceEnds) {

@@ -11,7 +11,7 @@ from PIL import Image
 import pulvis
 from pulvis.errors import PulvisError
 from pulvis.figures.space_mesh import density_along_z, outer_sides, section
-from pulvis.figures.space_tools import cross_section, normals, pieces
+from pulvis.figures.space_tools import CrossSection, cross_section, normals, pieces
 
 N = 3  # cells along an edge of a block
 SIZE = 1e-3  # m
@@ -108,6 +108,47 @@ def test_density_along_z_is_that_of_the_block_in_its_room(blocks):
     assert z[-1] == pytest.approx(2.2 * SIZE)
     figure, axes = run.plot.density_profile()
     assert axes.get_ylabel() == "$z$ / mm" and len(axes.lines) == 3
+
+
+def test_density_along_z_has_the_exact_volume_of_each_slice():
+    """A cube of one element on its corner: its section is a triangle, a hexagon, a triangle."""
+    turn = np.array([[1, -1, 0], [1, 1, -2], [1, 1, 1]]) / np.sqrt([[2], [6], [3]])
+    cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+    density, z = density_along_z(np.arange(8)[None], cube @ turn.T, CrossSection(2), 9)
+    s = np.sqrt(3) * z
+    below = sum(sign * np.maximum(s - k, 0)**3 for k, sign in enumerate((1, -3, 3, -1))) / 6
+    np.testing.assert_allclose(2 * density * np.diff(z), np.diff(below), atol=1e-14)
+
+
+def test_density_along_z_is_that_between_the_punches(blocks, tmp_path):
+    folder = tmp_path / "run"
+    shutil.copytree(blocks, folder)
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for name in ("tools/quads", "tools/quad_tool"):
+            del file[name]
+        write(file, "tools/quads", np.array([[0, 1, 2, 3], [4, 5, 6, 7]], np.int32))
+        write(file, "tools/quad_tool", np.array([0, 1], np.int32), names="bottom\ntop", kinds="plane\nplane")
+        for frame in file["frames"].values():
+            del frame["tools/outline"]
+            square = SIZE * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+            corners = [np.column_stack([square, np.full(4, 0.2 * SIZE)]), np.column_stack([square[::-1], np.full(4, 2.5 * SIZE)])]
+            write(frame, "tools/outline", np.concatenate(corners), place="list", components=3, unit="m")
+    run = pulvis.open(folder)
+    room = cross_section(run, run.frame(0), run.frame(0).nodes)
+    density, z = density_along_z(run.mesh.cells, run.frame(0).nodes, room, 23)
+    assert (z[0], z[-1]) == pytest.approx((0.2 * SIZE, 2.5 * SIZE))
+    np.testing.assert_allclose(density, [1] * 18 + [0] * 5, atol=1e-12)  # what has penetrated the lower one does not count
+
+
+def test_the_recorded_profile_is_drawn_if_there_is_one(blocks, tmp_path):
+    folder = tmp_path / "run"
+    shutil.copytree(blocks, folder)
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for frame in file["frames"].values():
+            write(frame, "density_profile", np.array([0.25, 0.75]))
+            write(frame, "density_grid/z", SIZE * np.array([0.0, 1, 2]))
+    _, axes = pulvis.open(folder).plot.density_profile()
+    assert {0.25, 0.75} <= set(np.concatenate([line.get_xdata() for line in axes.lines]))
 
 
 @pytest.fixture(scope="module")

@@ -227,6 +227,13 @@ def section_picture(run, options=None, axes=None):
     return figure
 
 
+def profile_of(run, frame, room):
+    """The recorded one, if it has several layers; else that of the mesh."""
+    if "density_profile" in frame and len(frame["density_profile"]) > 1:
+        return frame["density_profile"][()], frame["density_grid/z"][()]
+    return density_along_z(run.mesh.cells, frame["position"][()], room)
+
+
 def space_profile(run, options=None, axes=None):
     """Relative density along z, at several times or in the requested frame."""
     options = options or Options()
@@ -236,9 +243,8 @@ def space_profile(run, options=None, axes=None):
         np.linspace(0, len(run.frames) - 1, PROFILES).round().astype(int))
     profiles = []
     for frame in (run.frame(int(number)) for number in numbers):
-        position = frame["position"][()]
-        room = cross_section(run, frame, position)
-        profile = density_along_z(run.mesh.cells, position, room)
+        room = cross_section(run, frame, frame["position"][()])
+        profile = profile_of(run, frame, room)
         if profile is not None:
             profiles.append((moment(frame), *profile))
     if not profiles:

@@ -4,7 +4,6 @@ import numpy as np
 # Corners of a hexahedron's faces, counter-clockwise from outside, and its edges; corners in VTK order.
 SIDES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
 EDGES = np.array([[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]])
-NATURAL = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
 SLICES = 20
 
 
@@ -38,28 +37,38 @@ def section(hexahedra, position, axis, at):
     return [ordered[i, :count[i]] for i in range(len(cells))], cells
 
 
-def parts(hexahedra, position):
-    """(volumes, low z, high z) of the eight parts of each hexahedron, halved along its natural coordinates:
-    [cells, 8]; by the Jacobian at their centres."""
-    corners = position[hexahedra]
-    volume, low, high = (np.empty((len(hexahedra), 8)) for _ in range(3))
-    for part, place in enumerate(NATURAL / 2):
-        shape = np.prod(1 + NATURAL * place, axis=1) / 8
-        slope = np.stack([NATURAL[:, k] * np.prod(np.delete(1 + NATURAL * place, k, axis=1), axis=1) / 8 for k in range(3)])
-        sides = np.einsum("kn,cnx->ckx", slope, corners)  # each part has length one in natural coordinates
-        middle, half = corners[..., 2] @ shape, np.abs(sides[..., 2]).sum(axis=1) / 2
-        volume[:, part] = np.linalg.det(sides)
-        low[:, part], high[:, part] = middle - half, middle + half
-    return volume, low, high
+def tetrahedra(hexahedra, position):
+    """(volumes [n], heights of their corners [n, 4], ascending): the solid as tetrahedra between a common point and its
+    outer faces, which are four triangles each. A volume has the sign of the side of its face that it is on: the sum over
+    all, also of what is below a height, is that of the solid."""
+    corners = position[outer_sides(hexahedra)[0]]
+    apex, middle = position.mean(axis=0), corners.mean(axis=1)
+    edges = np.stack([corners, np.roll(corners, -1, axis=1), np.repeat(middle[:, None], 4, axis=1)], axis=2).reshape(-1, 3, 3)
+    heights = np.column_stack([edges[..., 2], np.full(len(edges), apex[2])])
+    return np.linalg.det(edges - apex) / 6, np.sort(heights, axis=1)
+
+
+def share_below(heights, z):
+    """Of the volume of tetrahedra: the integral of the area of their sections, which is a quadratic B-spline."""
+    a, b, c, d = heights.T
+    up, down = z - a, d - z
+    with np.errstate(divide="ignore", invalid="ignore"):
+        low = up**3 / ((b - a) * (c - a) * (d - a))
+        high = 1 - down**3 / ((d - a) * (d - b) * (d - c))
+        between = ((z - b)**2 / ((c - b) * (d - b)) + up * (c - z) * (z - b) / ((c - a) * (c - b) * (d - b))
+                   + up**2 * down / ((c - a) * (d - a) * (d - b)))
+    return np.select([z <= a, z >= d, z <= b, z >= c], [0, 1, low, high], between)
 
 
 def density_along_z(hexahedra, position, section, slices=SLICES):
-    """(density [slices], z [slices + 1], m): solid volume over available volume in slices of equal thickness. section:
-    space_tools.CrossSection; None if nothing is between its ends."""
-    bottom, top = max(position[:, 2].min(), section.low), min(position[:, 2].max(), section.high)
+    """(density [slices], z [slices + 1], m): solid volume over available volume in slices of equal thickness between the
+    level tools, or to the end of the powder where there is none. section: space_tools.CrossSection; None if nothing is
+    between its ends."""
+    bottom = max(position[:, 2].min() if section.bottom is None else section.bottom, section.low)
+    top = min(position[:, 2].max() if section.top is None else section.top, section.high)
     if not bottom < top:
         return None
-    volume, low, high = (values.ravel() for values in parts(hexahedra, position))
+    volume, heights = tetrahedra(hexahedra, position)
     z = np.linspace(bottom, top, slices + 1)
-    below = np.clip((z[:, None] - low) / np.maximum(high - low, 1e-30), 0, 1) @ volume
+    below = np.array([share_below(heights, place) @ volume for place in z])
     return np.diff(below) / (section.area * np.diff(z)), z

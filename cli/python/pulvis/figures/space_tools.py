@@ -53,12 +53,21 @@ class CrossSection(NamedTuple):
     inside: str = ""  # of a die, in words
     low: float = -np.inf  # m, the part of z in which the space has this cross-section: a die ends at its mouth
     high: float = np.inf
+    bottom: float | None = None  # m, z of level planes below and above the powder
+    top: float | None = None
 
 
 def cross_section(run, frame, position):
     """Of a round die, or of the box between the vertical walls; the width of the powder where there is no wall."""
     corners, kinds = pieces(run, frame)
     normal = normals(corners)
+    level = (np.abs(normal[:, :2]).max(axis=1, initial=0) < UPRIGHT) & (kinds == "plane")
+    floors, lids = (corners[level & (sign * normal[:, 2] > 0)][:, 0, 2] for sign in (1, -1))
+    ends = {"bottom": floors.max() if len(floors) else None, "top": lids.min() if len(lids) else None}
+    return area_between(corners, kinds, normal, position)._replace(**ends)
+
+
+def area_between(corners, kinds, normal, position):
     upright = np.abs(normal[:, 2]) < UPRIGHT
     die = corners[upright & (kinds == "die")].reshape(-1, 3)
     if len(die):
