@@ -2,7 +2,8 @@
 //
 // Source   systems/space/observe/cell_volume_kernel.hpp, room_kernel.hpp. The surface of a particle is that of its elements:
 //          four triangles between the corners of a face and its centre, which give the volume of the bilinear face exactly.
-//          The grid spans the current room; at a punch with a profile it reaches to the deepest point
+//          The grid spans the current room; at a punch with a profile it reaches to the deepest point. What has penetrated a
+//          round wall or such a punch is counted in its cell
 // Runs     in sampled steps
 // Active   if the scene asks for density cells
 #include <limits>
