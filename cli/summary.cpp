@@ -166,8 +166,8 @@ void add_shear(Json& json, const Results& results) {
                    {"dilation", of(figures->dilation)}};
 }
 
-Json diameters_json(const std::vector<FragmentSize>& fragments, SizeDistribution::Weight weight) {
-  const SizeDistribution sizes(fragments, weight);
+Json diameters_json(const BondFindings& found, SizeDistribution::Weight weight) {
+  const SizeDistribution sizes(found.fragments, weight, found.space ? 3 : 2);
   return {{"d10", sizes.diameter(0.1)}, {"d50", sizes.diameter(0.5)}, {"d90", sizes.diameter(0.9)}};
 }
 
@@ -177,15 +177,16 @@ void add_bonds(Json& json, const World& world) {
   using Weight = SizeDistribution::Weight;
   Json bonds{{"made", found->made},
              {"broken", found->broken},
-             {"crack_length", found->crack_length},
+             {found->space ? "crack_area" : "crack_length", found->crack_size},
              {"fracture_energy", found->fracture_energy},
              {"crack_energy", found->crack_energy}};
   if (found->shear_share) bonds["mode_2_share"] = *found->shear_share;
   if (found->damage) bonds["damage"] = *found->damage;
   bonds["fragments"] = found->fragments.size();
   bonds["largest_fragment"] = found->largest_share;
-  bonds["diameter_by_number"] = diameters_json(found->fragments, Weight::number);
-  bonds["diameter_by_area"] = diameters_json(found->fragments, Weight::area);
+  bonds["diameter_by_number"] = diameters_json(*found, Weight::number);
+  bonds[found->space ? "diameter_by_volume" : "diameter_by_area"] =
+      diameters_json(*found, Weight::size);
   json["bonds"] = bonds;
 }
 

@@ -2,6 +2,7 @@
 // of the other surface; while it is bonded, the `bonds` system handles it and the narrow phase skips it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -83,6 +84,9 @@ struct BondRules {
   std::vector<std::uint8_t> tool_initial, tool_pressed;  // [tools * materials]
 
   const Law& law(int number) const { return entry(laws, number - 1); }
+  static bool any(const std::vector<std::uint8_t>& numbers) {
+    return std::ranges::any_of(numbers, [](std::uint8_t number) { return number != 0; });
+  }
   // -, contact stiffness of surfaces that may be bonded initially: as stiff as the bond, so that a bond breaking under
   // pressure hands its load over to the contact.
   double contact_stiffness(int initial_law) const {
@@ -90,6 +94,12 @@ struct BondRules {
   }
   int initial_between(const Bodies::Slot& a, const Bodies::Slot& b) const {
     return entry(a.parent == b.parent ? inside : initial, a.material * materials + b.material);
+  }
+  std::uint8_t pressed_between(const Bodies::Slot& a, const Bodies::Slot& b) const {
+    return entry(pressed, a.material * materials + b.material);
+  }
+  std::uint8_t pressed_with_tool(int tool, const Bodies::Slot& a) const {
+    return entry(tool_pressed, tool * materials + a.material);
   }
   int initial_with_tool(int tool, const Bodies::Slot& a) const {
     return entry(tool_initial, tool * materials + a.material);
@@ -100,19 +110,21 @@ struct BondRules {
 // A broken point.
 struct Crack {
   double time = 0;        // s
-  std::int32_t slot = 0;  // of the sampled particle; then its edge and Gauss point
+  std::int32_t slot = 0;  // of the sampled particle; then its edge or face, and Gauss point
   std::int32_t edge = 0;
   std::int32_t point = 0;
   std::int32_t other = 0;  // slot; for a tool -1 - its number
   std::int32_t law = 0;    // numbered as in BondRules
-  double x = 0, y = 0;     // m, location
-  double length = 0;       // m, half the length of the point: the other side is sampled too
-  double shear = 0;        // -, shear share of the energy at failure: 0 mode I, 1 mode II
-  double energy = 0;       // J, dissipated by breaking it, from damage initiation on
+  double x = 0, y = 0;     // m, location; with z in three dimensions
+  double z = 0;
+  // m (in three dimensions m^2), half the length (area) of the point: the other side is sampled too. All of it for tools.
+  double size = 0;
+  double shear = 0;   // -, shear share of the energy at failure: 0 mode I, 1 mode II
+  double energy = 0;  // J, dissipated by breaking it, from damage initiation on
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(time, slot, edge, point, other, law, x, y, length, shear, energy);
+    bytes(time, slot, edge, point, other, law, x, y, z, size, shear, energy);
   }
 };
 
@@ -149,7 +161,7 @@ struct BondTotals {
   double energy = 0;               // J, stored now
   double fracture = 0;             // J, dissipated by damage
   double area = 0;                 // m^2, bonded now, mean of both sides
-  double crack_length = 0;         // m, broken
+  double crack_size = 0;           // m, broken; in three dimensions m^2
   std::vector<std::int32_t> made;  // [laws] points bonded at the start
   struct Gap {
     double width = std::numeric_limits<double>::infinity();  // m
@@ -165,7 +177,7 @@ struct BondTotals {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(energy, fracture, area, crack_length, made, cracks);
+    bytes(energy, fracture, area, crack_size, made, cracks);
   }
 };
 
@@ -175,10 +187,16 @@ struct Fragments {
   // [particles], by number: the lowest particle number in the same fragment. Kept even after parts have broken off.
   std::vector<std::int32_t> of_particle;
   std::vector<std::int64_t> points;  // [laws], bonded now
-  // m, [particles], length of the bonds made at the start: intact, and broken. Both sides are sampled: half each.
+  // m (in three dimensions m^2), [particles], size of the bonds made at the start: intact, and broken. Both sides are
+  // sampled: half each.
   std::vector<double> bonded, broken;
   std::int64_t counted = 0;  // cracks already included in `broken`
 
+  void restart(int particles, std::size_t laws) {
+    bonded.assign(static_cast<std::size_t>(particles), 0);
+    broken.resize(static_cast<std::size_t>(particles), 0);
+    points.assign(laws, 0);
+  }
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(of_particle, points, bonded, broken, counted);

@@ -127,6 +127,14 @@ void add_bond_columns(World& world, bool welds) {
   world.emplace<BondSums<At>>();
 }
 
+// m, of the outlines.
+double longest_edge(const Bodies& bodies) {
+  double longest = 0;
+  for (const Shape& shape : bodies.shapes)
+    for (const Shape::Edge& edge : shape.edges) longest = std::max(longest, edge.length);
+  return longest;
+}
+
 void add_bonds(World& world, const Needs& needs) {
   if (needs.bonds) {
     add_bond_columns<Contact>(world, needs.welds);
@@ -319,13 +327,10 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
     index.skin = scene.contact.skin * rules.shortest_edge;
     if (needs.any_bonds()) {
       add_bonds(*world, needs);
-      const BondRules& bonds =
-          world->emplace<BondRules>(bounded_by(layout.bodies, scene, bond_rules(scene)));
-      for (int m = 0; m < bonds.materials; ++m) {
-        rules.initial_stiffness.push_back(stiffest_bond(bonds, m, false));
-        rules.weld_stiffness.push_back(stiffest_bond(bonds, m, true));
-      }
-      index.reach = longest_gap(layout.bodies, bonds);
+      const BondRules& bonds = world->emplace<BondRules>(
+          bounded_by(layout.bodies, surface_springs(layout.bodies), scene, bond_rules(scene)));
+      set_stiffest_bonds(bonds, rules);
+      index.reach = longest_gap(longest_edge(layout.bodies), bonds);
     }
     index.reach = std::max(index.reach, rules.longest_range());
     index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;

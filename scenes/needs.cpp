@@ -47,14 +47,12 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
                     any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
   if (!scene.bonds.empty()) {
     const BondRules bonds = bond_rules(scene);
-    const auto any_law = [](const std::vector<std::uint8_t>& numbers) {
-      return std::ranges::any_of(numbers, [](std::uint8_t number) { return number != 0; });
-    };
     needs.adhesion = needs.contact() && !rules.adhesion.empty();
-    needs.welds = needs.pairs && any_law(bonds.pressed);
-    needs.tool_welds = needs.tools && any_law(bonds.tool_pressed);
-    needs.bonds = needs.welds || (needs.pairs && (any_law(bonds.initial) || any_law(bonds.inside)));
-    needs.tool_bonds = needs.tool_welds || (needs.tools && any_law(bonds.tool_initial));
+    needs.welds = needs.pairs && BondRules::any(bonds.pressed);
+    needs.tool_welds = needs.tools && BondRules::any(bonds.tool_pressed);
+    needs.bonds = needs.welds ||
+                  (needs.pairs && (BondRules::any(bonds.initial) || BondRules::any(bonds.inside)));
+    needs.tool_bonds = needs.tool_welds || (needs.tools && BondRules::any(bonds.tool_initial));
   }
   needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;

@@ -93,7 +93,7 @@ class Observed {
     std::vector<FragmentSize> sizes;
     for (const double area : numbers("fragments/area")) sizes.push_back({0, 1, area});
     using Weight = SizeDistribution::Weight;
-    const SizeDistribution by_number(sizes, Weight::number), by_area(sizes, Weight::area);
+    const SizeDistribution by_number(sizes, Weight::number), by_area(sizes, Weight::size);
     const std::size_t count = std::min(sizes.size(), max_sizes);
     std::vector<double> diameter, number, area;
     for (std::size_t i = 1; i <= count; ++i) {  // the last is the largest

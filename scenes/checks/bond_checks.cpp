@@ -11,6 +11,7 @@
 
 #include "components/bond.hpp"
 #include "components/run_state.hpp"
+#include "components/space/bond.hpp"
 #include "engine/portable_math.hpp"
 #include "scenes/language/problem.hpp"
 
@@ -41,10 +42,10 @@ std::string what_would_bond(const BondTotals::Gap& nearest, const World& world) 
 }
 
 // ---- length of interfaces ------------------------------------------------------------------------------
-// One side's bonded edges with one neighbour.
+// One side's bonded edges, or faces, with one neighbour.
 struct Interface {
   int edges = 0;
-  double length = 0;   // m
+  double length = 0;   // m; in three dimensions, while faces are being added, m^2
   double longest = 0;  // m, longest edge
 };
 struct InterfaceKey {
@@ -72,6 +73,45 @@ void add_interfaces(const World& world, Interfaces& all) {
     found.length += edge.length * std::popcount(bonded) / edge_points;
     found.longest = std::max(found.longest, edge.length);
   }
+}
+
+// In three dimensions; the extent of an interface is that of a square with its area.
+template <class At>
+void add_interfaces_in_space(const World& world, Interfaces& all) {
+  if (!world.has<space::BondedPoints<At>>()) return;
+  const auto& bodies = world.resource<Bodies>();
+  const auto& pair = world.column<ContactPair<At>>();
+  const auto& points = world.column<space::BondedPoints<At>>();
+  const auto& rules = world.resource<BondRules>();
+  for (std::size_t r = 0; r < pair.table.rows; ++r) {
+    const auto bonded = static_cast<unsigned>(points.values()[2 * r]);
+    if (bonded == 0) continue;
+    const std::int32_t* key = pair.values() + 3 * r;
+    const Bodies::Slot& slot = entry(bodies.slots, key[0]);
+    constexpr bool tool = std::is_same_v<At, FaceToolContact>;
+    const int law = tool ? rules.initial_with_tool(key[2], slot)
+                         : rules.initial_between(slot, entry(bodies.slots, key[2]));
+    const auto& shape = entry(world.resource<space::Shapes>().list, slot.shape);
+    const double size = entry(shape.faces, key[1]).size;
+    Interface& found = all[{law - 1, key[0], key[2], tool}];
+    found.edges += 1;
+    found.length += size * size * std::popcount(bonded) / space::face_points;
+    found.longest = std::max(found.longest, size);
+  }
+}
+
+Interfaces interfaces_of(const World& world) {
+  Interfaces all;
+  add_interfaces<Contact>(world, all);
+  add_interfaces<ToolContact>(world, all);
+  Interfaces in_space;
+  add_interfaces_in_space<FaceContact>(world, in_space);
+  add_interfaces_in_space<FaceToolContact>(world, in_space);
+  for (auto& [key, found] : in_space) {
+    found.length = std::sqrt(found.length);
+    all[key] = found;
+  }
+  return all;
 }
 
 double plane_strain_modulus(const MaterialSpec& m) {
@@ -134,14 +174,11 @@ std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
   if (!world.has<BondRules>()) return {};
   const auto& rules = world.resource<BondRules>();
   const auto& bodies = world.resource<Bodies>();
-  Interfaces all;
-  add_interfaces<Contact>(world, all);
-  add_interfaces<ToolContact>(world, all);
   struct Coarsest {
     double zone = 0, edge = 0;
   };
   std::map<int, Coarsest> coarse;  // by law
-  for (const auto& [key, found] : all) {
+  for (const auto& [key, found] : interfaces_of(world)) {
     const int material = entry(bodies.slots, key.slot).material;
     const int other = key.tool ? -1 : entry(bodies.slots, key.other).material;
     const double zone = zone_length(scene, rules.law(key.law + 1), material, other);
@@ -153,11 +190,11 @@ std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
   add_cut_strengths(scene, rules, lines);
   for (const auto& [law, worst] : coarse)
     lines.push_back(fmt::format(
-        "bond[{}] between '{}' and '{}': the cohesive zone ahead of a crack spans {:.3g} boundary "
-        "edges, at least {} are needed to resolve it: use edges of {:.3g} m, they are up to {:.3g} "
-        "m long",
+        "bond[{}] between '{}' and '{}': the cohesive zone ahead of a crack spans {:.3g} {}, at "
+        "least {} are needed to resolve it: use {} of {:.3g} m, they are up to {:.3g} m {}",
         law, entry(scene.bonds, law).first, entry(scene.bonds, law).second, worst.zone / worst.edge,
-        edges_in_zone, worst.zone / edges_in_zone, worst.edge));
+        scene.space ? "faces" : "boundary edges", edges_in_zone, scene.space ? "faces" : "edges",
+        worst.zone / edges_in_zone, worst.edge, scene.space ? "wide" : "long"));
   return lines;
 }
 

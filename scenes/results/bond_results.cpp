@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "components/bond.hpp"
+#include "components/space/shape.hpp"
+#include "scenes/space/results/bonded_faces.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "systems/contact/contact_outlines.hpp"
 
@@ -13,18 +15,26 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<FragmentSize> fragments_of(const World& world) {
+bool in_space(const World& world) { return world.has<space::Shapes>(); }
+
+// m^2, or in three dimensions m^3, undeformed.
+double size_of_particle(const World& world, int slot) {
   const Bodies& bodies = world.resource<Bodies>();
-  std::vector<double> areas;
-  for (const int slot : bodies.slot_of_number) areas.push_back(bodies.shape_of_slot(slot).area);
-  return fragment_sizes(world.resource<Fragments>().of_particle, areas);
+  if (!in_space(world)) return bodies.shape_of_slot(slot).area;
+  return entry(world.resource<space::Shapes>().list, entry(bodies.slots, slot).shape).volume;
+}
+std::vector<FragmentSize> fragments_of(const World& world) {
+  std::vector<double> sizes;
+  for (const int slot : world.resource<Bodies>().slot_of_number)
+    sizes.push_back(size_of_particle(world, slot));
+  return fragment_sizes(world.resource<Fragments>().of_particle, sizes);
 }
 
 double largest_share(const std::vector<FragmentSize>& fragments) {
   double all = 0, most = 0;
   for (const FragmentSize& fragment : fragments) {
-    all += fragment.area;
-    most = std::max(most, fragment.area);
+    all += fragment.size;
+    most = std::max(most, fragment.size);
   }
   return most / all;
 }
@@ -116,25 +126,70 @@ Lines crack_lines(const World& world) {
 
 constexpr const char* other_meaning =
     "number of the other particle; for a tool: -1 - its position in the scene";
+const char* damage_meaning(const Scene& scene) {
+  return scene.space ? "broken share of the area bonded at the start; NaN if nothing was bonded"
+                     : "broken share of the length bonded at the start; NaN if nothing was bonded";
+}
+
+// Where the bonds and cracks are: lines in two dimensions, in three one entry per bonded face.
+std::vector<FieldInfo> place_fields(const Scene& scene) {
+  constexpr auto list = FieldPlace::list;
+  const FieldInfo damage{"bonds/damage", "-", "mean of its bonded points, 0 ... 1", list, 1};
+  if (scene.space)
+    return {
+        {"bonds/ids", "-", std::string("number of the particle whose face it is; ") + other_meaning,
+         list, 2, true},
+        {"bonds/area", "m^2", "as in bonds/area: half of it where the other side is listed as well",
+         list, 1},
+        damage,
+        {"bonds/position", "m", "mean of its bonded points", list, 3}};
+  return {{"bonds/ids", "-",
+           std::string("number of the particle whose edge it is; ") + other_meaning, list, 2, true},
+          {"bonds/length", "m",
+           "as in bonds/area: half of it where the other side has a line as well", list, 1},
+          damage,
+          {"bonds/start", "m", "of a line along the bonded part of an edge", list, 2},
+          {"bonds/end", "m", "of a line along the bonded part of an edge", list, 2},
+          {"cracks/start", "m",
+           "of every row of /cracks so far: its part of the edge, where it is now", list, 2},
+          {"cracks/end", "m",
+           "of every row of /cracks so far: its part of the edge, where it is now", list, 2}};
+}
+
+void append_places(const World& world, std::vector<std::vector<double>>& fields) {
+  if (in_space(world)) return space::append_bonded_faces(world, fields);
+  BondLines bonds;
+  if (world.has<CurveAnchor>()) bonds.add<Contact>(world);
+  if (world.has<ToolAnchor>()) bonds.add<ToolContact>(world);
+  Lines cracks;
+  if (world.has<CurvePosition>()) cracks = crack_lines(world);
+  for (std::vector<double>* list : {&bonds.ids, &bonds.length, &bonds.damage, &bonds.lines.start,
+                                    &bonds.lines.end, &cracks.start, &cracks.end})
+    fields.push_back(std::move(*list));
+}
 
 }  // namespace
 
 // ---- series -------------------------------------------------------------------------------------------
 std::vector<SeriesInfo> bond_series(const Scene& scene) {
   if (!has_bonds(scene)) return {};
-  return {{"bonds/area", "m^2", "of the bonded surfaces"},
-          {"bonds/crack_length", "m", "of all cracks so far"},
-          {"bonds/damage", "-",
-           "broken share of the length bonded at the start; NaN if nothing was bonded"},
-          {"bonds/fragments", "-", "pieces held together by bonds, including loose particles"},
-          {"bonds/largest_fragment", "-", "area of the largest fragment / area of the particles"}};
+  std::vector<SeriesInfo> all{{"bonds/area", "m^2", "of the bonded surfaces"}};
+  all.push_back(scene.space ? SeriesInfo{"bonds/crack_area", "m^2", "of all cracks so far"}
+                            : SeriesInfo{"bonds/crack_length", "m", "of all cracks so far"});
+  all.insert(all.end(),
+             {{"bonds/damage", "-", damage_meaning(scene)},
+              {"bonds/fragments", "-", "pieces held together by bonds, including loose particles"},
+              {"bonds/largest_fragment", "-",
+               scene.space ? "volume of the largest fragment / volume of the particles"
+                           : "area of the largest fragment / area of the particles"}});
+  return all;
 }
 
 void append_bond_sample(const World& world, std::vector<double>& row) {
   if (!world.has<BondTotals>()) return;
   const BondTotals& bonds = world.resource<BondTotals>();
   const std::vector<FragmentSize> fragments = fragments_of(world);
-  row.insert(row.end(), {bonds.area, bonds.crack_length, total_damage(world.resource<Fragments>()),
+  row.insert(row.end(), {bonds.area, bonds.crack_size, total_damage(world.resource<Fragments>()),
                          static_cast<double>(fragments.size()), largest_share(fragments)});
 }
 
@@ -142,50 +197,38 @@ void append_bond_sample(const World& world, std::vector<double>& row) {
 std::vector<FieldInfo> bond_fields(const Scene& scene) {
   if (!has_bonds(scene)) return {};
   constexpr auto list = FieldPlace::list;
-  return {
-      {"bonds/ids", "-", std::string("number of the particle whose edge it is; ") + other_meaning,
-       list, 2, true},
-      {"bonds/length", "m", "as in bonds/area: half of it where the other side has a line as well",
-       list, 1},
-      {"bonds/damage", "-", "mean of the line's points, 0 ... 1", list, 1},
-      {"bonds/start", "m", "of a line along the bonded part of an edge", list, 2},
-      {"bonds/end", "m", "of a line along the bonded part of an edge", list, 2},
-      {"cracks/start", "m", "of every row of /cracks so far: its part of the edge, where it is now",
-       list, 2},
-      {"cracks/end", "m", "of every row of /cracks so far: its part of the edge, where it is now",
-       list, 2},
-      {"fragments/number", "-", "lowest particle number of each fragment", list, 1, true},
-      {"fragments/particles", "-", "number of its particles", list, 1, true},
-      {"fragments/area", "m^2", "of its particles, undeformed", list, 1},
-      {"fragment", "-", "lowest particle number of its fragment", FieldPlace::particle, 1, true},
-      {"damage", "-", "broken share of the length bonded at the start; NaN if nothing was bonded",
-       FieldPlace::particle, 1},
-      {"parent", "-", "number of the particle it is a grain of, or its own number",
-       FieldPlace::particle, 1, true}};
+  std::vector<FieldInfo> all = place_fields(scene);
+  all.insert(all.end(),
+             {{"fragments/number", "-", "lowest particle number of each fragment", list, 1, true},
+              {"fragments/particles", "-", "number of its particles", list, 1, true}});
+  const char* of_particles = "of its particles, undeformed";
+  all.push_back(scene.space ? FieldInfo{"fragments/volume", "m^3", of_particles, list, 1}
+                            : FieldInfo{"fragments/area", "m^2", of_particles, list, 1});
+  all.insert(all.end(), {{"fragment", "-", "lowest particle number of its fragment",
+                          FieldPlace::particle, 1, true},
+                         {"damage", "-", damage_meaning(scene), FieldPlace::particle, 1}});
+  if (!scene.space)  // no grains there
+    all.push_back({"parent", "-", "number of the particle it is a grain of, or its own number",
+                   FieldPlace::particle, 1, true});
+  return all;
 }
 
 void append_bond_frame(const World& world, std::vector<std::vector<double>>& fields) {
   if (!world.has<BondTotals>()) return;
-  BondLines bonds;
-  if (world.has<CurveAnchor>()) bonds.add<Contact>(world);
-  if (world.has<ToolAnchor>()) bonds.add<ToolContact>(world);
-  Lines cracks;
-  if (world.has<CurvePosition>()) cracks = crack_lines(world);
+  append_places(world, fields);
   const Fragments& found = world.resource<Fragments>();
-  for (std::vector<double>* list : {&bonds.ids, &bonds.length, &bonds.damage, &bonds.lines.start,
-                                    &bonds.lines.end, &cracks.start, &cracks.end})
-    fields.push_back(std::move(*list));
-  std::vector<double> number, particles, area;
+  std::vector<double> number, particles, size;
   for (const FragmentSize& fragment : fragments_of(world)) {
     number.push_back(fragment.number);
     particles.push_back(fragment.particles);
-    area.push_back(fragment.area);
+    size.push_back(fragment.size);
   }
-  fields.insert(fields.end(), {number, particles, area});
+  fields.insert(fields.end(), {number, particles, size});
   fields.emplace_back(found.of_particle.begin(), found.of_particle.end());
   std::vector<double>& of_particle = fields.emplace_back();
   for (std::size_t p = 0; p < found.bonded.size(); ++p)
     of_particle.push_back(damage(found.bonded[p], found.broken[p]));
+  if (in_space(world)) return;
   const Bodies& bodies = world.resource<Bodies>();
   std::vector<double>& parents = fields.emplace_back();
   for (const int slot : bodies.slot_of_number) parents.push_back(entry(bodies.slots, slot).parent);
@@ -194,17 +237,23 @@ void append_bond_frame(const World& world, std::vector<std::vector<double>>& fie
 // ---- cracks -------------------------------------------------------------------------------------------
 std::vector<TableInfo> bond_tables(const Scene& scene) {
   if (!has_bonds(scene)) return {};
-  return {{"cracks",
-           {{"time", "s", "when the point broke"},
-            {"x", "m", "where it was then"},
-            {"y", "m", "where it was then"},
-            {"particle", "-", "number of the particle whose edge it is on", true},
-            {"other", "-", other_meaning, true},
-            {"bond", "-", "position of its [[bond]] in the scene", true},
-            {"length", "m", "half of it where the points of the other side break as well"},
-            {"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"},
-            {"energy", "J", "dissipated in breaking it"},
-            {"inside", "-", "1 between grains of one particle, otherwise 0", true}}}};
+  const char* place = "where it was then";
+  const char* half = "half of it where the points of the other side break as well";
+  TableInfo cracks{"cracks",
+                   {{"time", "s", "when the point broke"}, {"x", "m", place}, {"y", "m", place}}};
+  const auto add = [&](const SeriesInfo& column) { cracks.columns.push_back(column); };
+  if (scene.space) add({"z", "m", place});
+  add({"particle", "-",
+       scene.space ? "number of the particle whose face it is on"
+                   : "number of the particle whose edge it is on",
+       true});
+  add({"other", "-", other_meaning, true});
+  add({"bond", "-", "position of its [[bond]] in the scene", true});
+  add(scene.space ? SeriesInfo{"area", "m^2", half} : SeriesInfo{"length", "m", half});
+  add({"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"});
+  add({"energy", "J", "dissipated in breaking it"});
+  if (!scene.space) add({"inside", "-", "1 between grains of one particle, otherwise 0", true});
+  return {cracks};
 }
 
 std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t first) {
@@ -214,12 +263,17 @@ std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t fir
   const auto number = [&](int slot) { return slot < 0 ? slot : entry(bodies.slots, slot).number; };
   const auto parent = [&](int slot) { return entry(bodies.slots, slot).parent; };
   const std::vector<Crack>& cracks = world.resource<BondTotals>().cracks;
+  const bool space = in_space(world);
   for (std::int64_t i = first; i < std::ssize(cracks); ++i) {
     const Crack& crack = entry(cracks, i);
+    std::vector<double>& row = rows.emplace_back();
+    row = {crack.time, crack.x, crack.y};
+    if (space) row.push_back(crack.z);
+    row.insert(row.end(), {1.0 * number(crack.slot), 1.0 * number(crack.other), crack.law - 1.0,
+                           crack.size, crack.shear, crack.energy});
+    if (space) continue;
     const bool inside = crack.other >= 0 && parent(crack.slot) == parent(crack.other);
-    rows.push_back({crack.time, crack.x, crack.y, 1.0 * number(crack.slot),
-                    1.0 * number(crack.other), crack.law - 1.0, crack.length, crack.shear,
-                    crack.energy, inside ? 1.0 : 0.0});
+    row.push_back(inside ? 1.0 : 0.0);
   }
   return rows;
 }
@@ -231,9 +285,10 @@ std::optional<BondFindings> bond_findings(const World& world) {
   const BondTotals& bonds = world.resource<BondTotals>();
   const Fragments& found = world.resource<Fragments>();
   BondFindings findings;
+  findings.space = in_space(world);
   findings.broken = std::ssize(bonds.cracks);
   findings.made = std::accumulate(found.points.begin(), found.points.end(), findings.broken);
-  findings.crack_length = bonds.crack_length;
+  findings.crack_size = bonds.crack_size;
   findings.fracture_energy = bonds.fracture;
   double shear = 0;
   for (const Crack& crack : bonds.cracks) {

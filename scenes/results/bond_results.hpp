@@ -26,14 +26,15 @@ std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t fir
 // From the last observation.
 struct BondFindings {
   std::int64_t made = 0, broken = 0;  // contact points; each side of a pair has its own
-  double crack_length = 0;            // m
+  bool space = false;                 // three dimensions
+  double crack_size = 0;              // m; in three dimensions m^2
   double fracture_energy = 0;         // J, dissipated by damage
   double crack_energy = 0;            // J, of the cracks, from their laws
   std::optional<double>
       shear_share;  // -, mode II share of the energy of broken bonds; empty if nothing broke
-  std::optional<double> damage;  // -, broken length over that of all bonds made at the start
+  std::optional<double> damage;  // -, broken length (area) over that of all bonds made at the start
   std::vector<FragmentSize> fragments;
-  double largest_share = 0;  // -, of the area
+  double largest_share = 0;  // -, of the area (volume)
 };
 std::optional<BondFindings> bond_findings(const World& world);
 

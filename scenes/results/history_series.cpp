@@ -154,6 +154,7 @@ std::vector<SeriesInfo> history_in_space(const Scene& scene) {
   list.add(space::tool_series(scene));
   list.add_energies();
   list.add(space::contact_series());
+  list.add(bond_series(scene));
   list.add_quality();
   list.add(space::stress_series(scene));
   list.add(space::network_series(scene));

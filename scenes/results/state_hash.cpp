@@ -11,6 +11,7 @@
 #include "components/probe.hpp"
 #include "components/run_state.hpp"
 #include "components/solid.hpp"
+#include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "engine/files/xxh3.hpp"
 
@@ -75,10 +76,17 @@ class StateHash {
     for (int g = 0; g < space::face_points; ++g)
       for (int k = Point::spring; k < Point::numbers; ++k) add(first[g * Point::numbers + k]);
     add_points<space::SlipWeakening<FaceContact>>(row);
+    add_bonds<FaceContact>(row);
   }
   void add_slip(int row) {
     add_points<space::ElasticSlip>(row);
     add_points<space::SlipWeakening<FaceToolContact>>(row);
+    add_bonds<FaceToolContact>(row);
+  }
+  template <class At>
+  void add_bonds(int row) {
+    add_points<space::BondedPoints<At>>(row);
+    add_points<space::BondDamage<At>>(row);
   }
   template <class C>
   void add_points(int row) {

@@ -7,10 +7,12 @@
 #include "components/body.hpp"
 #include "components/run_state.hpp"
 #include "components/space/body.hpp"
+#include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
 #include "scenes/space/tools/drives.hpp"
 #include "scenes/space/tools/tool_shapes.hpp"
+#include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis::space {
@@ -71,6 +73,65 @@ struct Touching {  // what can touch, and how
     damping = rules.damping > 0;
   }
 };
+
+// ---- bonds -------------------------------------------------------------------------------------------
+// Which kinds of bonds there can be.
+struct Bonding {
+  bool initial = false, pressed = false;  // between particles
+  bool tool_initial = false, tool_pressed = false;
+
+  Bonding(const Touching& touching, const BondRules& rules) {
+    initial = touching.pairs && BondRules::any(rules.initial);
+    pressed = touching.pairs && BondRules::any(rules.pressed);
+    tool_initial = touching.tools && BondRules::any(rules.tool_initial);
+    tool_pressed = touching.tools && BondRules::any(rules.tool_pressed);
+  }
+};
+
+template <class At>
+void add_bond_columns(World& world, bool initial, bool pressed) {
+  world.add<BondedPoints<At>>();
+  world.add<BondDamage<At>>();
+  world.add<BondStrength<At>>();
+  if (initial) world.add<BondOffset<At>>();
+  if (pressed) world.add<WeldPressure<At>>();
+}
+
+std::vector<SurfaceSprings> surface_springs(const Shapes& shapes) {
+  std::vector<SurfaceSprings> all;
+  for (const Shape& shape : shapes.list) {
+    SurfaceSprings& of =
+        all.emplace_back(std::numeric_limits<double>::infinity(), shape.mean_face_stiffness);
+    for (const Shape::Face& face : shape.faces) of.softest = std::min(of.softest, face.stiffness);
+  }
+  return all;
+}
+
+double largest_face(const Shapes& shapes) {
+  double largest = 0;
+  for (const Shape& shape : shapes.list)
+    for (const Shape::Face& face : shape.faces) largest = std::max(largest, face.size);
+  return largest;
+}
+
+// Returns how far bonds reach. (m)
+double add_bonds(World& world, const Scene& scene, const Touching& touching, ContactRules& rules) {
+  const Shapes& shapes = world.resource<Shapes>();
+  const BondRules& bonds = world.emplace<BondRules>(
+      bounded_by(world.resource<Bodies>(), surface_springs(shapes), scene, bond_rules(scene)));
+  const Bonding kinds(touching, bonds);
+  if (kinds.initial || kinds.pressed) {
+    add_bond_columns<FaceContact>(world, kinds.initial, kinds.pressed);
+    world.emplace<BondSums<Contact>>();
+  }
+  if (kinds.tool_initial || kinds.tool_pressed) {
+    add_bond_columns<FaceToolContact>(world, kinds.tool_initial, kinds.tool_pressed);
+    world.add<ToolAnchor>();
+    world.emplace<BondSums<ToolContact>>();
+  }
+  set_stiffest_bonds(bonds, rules);
+  return longest_gap(largest_face(shapes), bonds);
+}
 
 // The number of rows of each chunk, where `count` gives that of one particle.
 template <class Count>
@@ -152,6 +213,12 @@ void add_tools(World& world, const SpaceScene& scene, const Touching& touching) 
 void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   ContactRules rules = rules_of(scene);
   const Touching touching(scene, rules, bodies.size());
+  if (has_bonds(scene)) {
+    BondTotals& totals = world.emplace<BondTotals>();
+    totals.made.assign(scene.bonds.size(), 0);
+    totals.nearest.resize(scene.bonds.size());
+    world.emplace<Fragments>();
+  }
   if (!touching.pairs && !touching.tools) return;
   find_smallest(world.resource<Shapes>(), rules);
   add_surfaces(world, touching);
@@ -160,6 +227,8 @@ void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& 
   ContactIndex& index = world.emplace<ContactIndex>();
   index.skin = scene.contact.skin * rules.shortest_edge;
   index.reach = rules.longest_range();
+  if (has_bonds(scene))
+    index.reach = std::max(index.reach, add_bonds(world, scene, touching, rules));
   index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
   world.emplace<ContactRules>(std::move(rules));
 }

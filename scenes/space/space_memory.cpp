@@ -5,11 +5,13 @@
 
 #include "components/body.hpp"
 #include "components/space/body.hpp"
+#include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/formulation.hpp"
 #include "engine/chunk_lane.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/yield.hpp"
+#include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis::space {
@@ -43,6 +45,15 @@ std::uint64_t bytes_of_row(bool weakening, bool looked_at) {
          sizeof(PairLoads::Load) + (weakening ? size_of_columns<SlipWeakening<At>>() : 0) +
          (looked_at ? size_of_columns<ContactPointForce>() : 0);
 }
+std::uint64_t bond_bytes_of_row(const Scene& scene) {
+  using At = FaceContact;
+  if (!has_bonds(scene)) return 0;
+  const BondRules rules = bond_rules(scene);
+  if (!BondRules::any(rules.initial) && !BondRules::any(rules.pressed)) return 0;
+  return size_of_columns<BondedPoints<At>, BondDamage<At>, BondStrength<At>>() +
+         (BondRules::any(rules.initial) ? size_of_columns<BondOffset<At>>() : 0) +
+         (BondRules::any(rules.pressed) ? size_of_columns<WeldPressure<At>>() : 0);
+}
 
 template <class Is>
 bool any_friction(const Scene& scene, const Is& is) {
@@ -70,7 +81,8 @@ SpaceMemory memory_of(const Scene& scene) {
                              (damped ? size_of_columns<DampingForce>() : 0);
   const std::uint64_t point = size_of_columns<SurfacePosition, SurfaceBefore>() +
                               (friction ? size_of_columns<SurfaceVelocity>() : 0);
-  const std::uint64_t row = bytes_of_row(weakening, scene.output.contacts);
+  const std::uint64_t row =
+      bytes_of_row(weakening, scene.output.contacts) + bond_bytes_of_row(scene);
   SpaceMemory need;
   const auto [x, y, z] = scene.output.density_cells3;
   need.results = density_bytes_a_cell * static_cast<std::uint64_t>(x) *

@@ -8,6 +8,7 @@
 
 #include "engine/entry.hpp"
 #include "scenes/language/problem.hpp"
+#include "scenes/spec/space_scene.hpp"
 
 namespace pulvis {
 namespace {
@@ -29,6 +30,14 @@ BondRules::Law law_of(const Scene& scene, const BondSpec& spec) {
   return law;
 }
 
+std::vector<std::string> names_of_tools(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const ToolSpec& tool : scene.tools) names.push_back(tool.name);
+  if (scene.space)
+    for (const space::ToolSpec& tool : scene.space->tools) names.push_back(tool.name);
+  return names;
+}
+
 std::uint8_t number_of(const Scene& scene, BondSpec::Origin origin, const std::string& a,
                        const std::string& b, bool inside = false) {
   for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
@@ -41,6 +50,16 @@ std::uint8_t number_of(const Scene& scene, BondSpec::Origin origin, const std::s
 }
 
 }  // namespace
+
+std::vector<SurfaceSprings> surface_springs(const Bodies& bodies) {
+  std::vector<SurfaceSprings> all;
+  for (const Shape& shape : bodies.shapes) {
+    SurfaceSprings& of =
+        all.emplace_back(std::numeric_limits<double>::infinity(), shape.mean_edge_stiffness);
+    for (const Shape::Edge& edge : shape.edges) of.softest = std::min(of.softest, edge.stiffness);
+  }
+  return all;
+}
 
 bool has_bonds(const Scene& scene) {
   return std::ranges::any_of(
@@ -59,26 +78,23 @@ BondRules bond_rules(const Scene& scene) {
       const std::uint8_t inside = number_of(scene, Origin::initial, a.name, b.name, true);
       rules.inside.push_back(inside != 0 ? inside : rules.initial.back());
     }
-  for (const ToolSpec& tool : scene.tools)
+  for (const std::string& tool : names_of_tools(scene))
     for (const MaterialSpec& m : scene.materials) {
-      rules.tool_initial.push_back(number_of(scene, Origin::initial, tool.name, m.name));
-      rules.tool_pressed.push_back(number_of(scene, Origin::pressed, tool.name, m.name));
+      rules.tool_initial.push_back(number_of(scene, Origin::initial, tool, m.name));
+      rules.tool_pressed.push_back(number_of(scene, Origin::pressed, tool, m.name));
     }
   return rules;
 }
 
-double longest_gap(const Bodies& bodies, const BondRules& rules) {
-  double edge = 0;
-  for (const Shape& shape : bodies.shapes)
-    for (const Shape::Edge& e : shape.edges) edge = std::max(edge, e.length);
-  double longest = 0;
+double longest_gap(double longest, const BondRules& rules) {
+  double gap = 0;
   for (const BondRules::Law& law : rules.laws) {
     if (law.strength == 0) continue;
     const double opening =
         2 * std::max(law.energy / law.strength, law.shear_energy / law.shear_strength);
-    longest = std::max(longest, law.reach * edge + opening);
+    gap = std::max(gap, law.reach * longest + opening);
   }
-  return longest;
+  return gap;
 }
 
 double stiffest_bond(const BondRules& rules, int material, bool pressed) {
@@ -98,19 +114,27 @@ double stiffest_bond(const BondRules& rules, int material, bool pressed) {
   return stiffest;
 }
 
+void set_stiffest_bonds(const BondRules& bonds, ContactRules& rules) {
+  for (int m = 0; m < bonds.materials; ++m) {
+    rules.initial_stiffness.push_back(stiffest_bond(bonds, m, false));
+    rules.weld_stiffness.push_back(stiffest_bond(bonds, m, true));
+  }
+}
+
 namespace {
 
 // Smallest stiffness of the contact springs of each law, Pa/m.
 class SoftestSprings {
  public:
-  SoftestSprings(const Bodies& bodies, const Scene& scene, const BondRules& rules)
-      : bodies_(bodies), scene_(scene), rules_(rules), least_(rules.laws.size(), infinite) {
-    materials_of_shapes();
+  SoftestSprings(const Bodies& bodies, const std::vector<SurfaceSprings>& of_shape,
+                 const Scene& scene, const BondRules& rules)
+      : of_shape_(of_shape), scene_(scene), rules_(rules), least_(rules.laws.size(), infinite) {
+    for (const Bodies::Slot& slot : bodies.slots) used_.insert({slot.shape, slot.material});
     for (const auto& [a, m] : used_)
       for (const auto& [b, n] : used_)
         for (const auto* numbers : {&rules.initial, &rules.inside, &rules.pressed})
           take(entry(*numbers, m * rules.materials + n), pair(a, m, b, n));
-    const int tools = static_cast<int>(scene.tools.size());
+    const int tools = static_cast<int>(rules.tool_initial.size()) / rules.materials;
     for (const auto& [a, m] : used_)
       for (int tool = 0; tool < tools; ++tool)
         for (const auto* numbers : {&rules.tool_initial, &rules.tool_pressed})
@@ -120,24 +144,17 @@ class SoftestSprings {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
  private:
-  void materials_of_shapes() {
-    for (const Bodies::Slot& slot : bodies_.slots) used_.insert({slot.shape, slot.material});
-  }
   double bulk(int material) const {
     const MaterialSpec& m = entry(scene_.materials, material);
     return m.youngs_modulus / (3 * (1 - 2 * m.poissons_ratio));
   }
   double softest(int shape, int material) const {
-    double least = infinite;
-    for (const Shape::Edge& edge : entry(bodies_.shapes, shape).edges)
-      least = std::min(least, edge.stiffness);
-    return scene_.contact.stiffness * bulk(material) * least;
+    return scene_.contact.stiffness * bulk(material) * entry(of_shape_, shape).softest;
   }
-  // As in the broad phase: the sampled edge in series with the other outline's mean.
+  // As in the broad phase: the sampled edge or face in series with the mean of the other surface.
   double pair(int a, int m, int b, int n) const {
     const double first = softest(a, m);
-    const double second =
-        scene_.contact.stiffness * bulk(n) * entry(bodies_.shapes, b).mean_edge_stiffness;
+    const double second = scene_.contact.stiffness * bulk(n) * entry(of_shape_, b).mean;
     return first * second / (first + second);
   }
   void take(int number, double stiffness) {
@@ -146,7 +163,7 @@ class SoftestSprings {
     least = std::min(least, stiffness);
   }
 
-  const Bodies& bodies_;
+  const std::vector<SurfaceSprings>& of_shape_;
   const Scene& scene_;
   const BondRules& rules_;
   std::set<std::pair<int, int>> used_;
@@ -155,9 +172,10 @@ class SoftestSprings {
 
 }  // namespace
 
-BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules) {
+BondRules bounded_by(const Bodies& bodies, const std::vector<SurfaceSprings>& of_shape,
+                     const Scene& scene, BondRules rules) {
   constexpr double margin = 1.02;  // the law must soften, however little
-  const SoftestSprings springs(bodies, scene, rules);
+  const SoftestSprings springs(bodies, of_shape, scene, rules);
   std::vector<SceneProblem> problems;
   for (std::size_t i = 0; i < rules.laws.size(); ++i) {
     if (springs.of(i) == SoftestSprings::infinite) continue;  // no pair that could touch
@@ -173,9 +191,9 @@ BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules) 
           {scene.file_of(mark).string(), mark.line, mark.column, "",
            fmt::format("bond[{}].{}", i, key),
            fmt::format("{:.4g} J/m^2 is less than the energy stored in the bond when it starts to "
-                       "break at {:.4g} Pa, allowed: >= {:.4g} J/m^2 with this mesh; finer edges "
+                       "break at {:.4g} Pa, allowed: >= {:.4g} J/m^2 with this mesh; {} "
                        "or a higher `stiffness` allow less",
-                       energy, strength, least)});
+                       energy, strength, least, scene.space ? "smaller faces" : "finer edges")});
     };
     bound("fracture_energy", law.strength, law.energy);
     bound("shear_fracture_energy", law.shear_strength, law.shear_energy);

@@ -136,14 +136,12 @@ double initial_stiffness_with_tool(const Optional<Read<BondRules>>& bonds, const
 std::uint8_t weld_law(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
                       const RowKey& key) {
   if (!bonds || key.itself()) return 0;
-  const auto material = [&](int slot) { return entry(bodies.slots, slot).material; };
-  return entry((*bonds)->pressed, material(key.slot) * (*bonds)->materials + material(key.other));
+  return (*bonds)->pressed_between(entry(bodies.slots, key.slot), entry(bodies.slots, key.other));
 }
 std::uint8_t tool_weld_law(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
                            const RowKey& key) {
   if (!bonds) return 0;
-  return entry((*bonds)->tool_pressed,
-               key.other * (*bonds)->materials + entry(bodies.slots, key.slot).material);
+  return (*bonds)->pressed_with_tool(key.other, entry(bodies.slots, key.slot));
 }
 
 // A fold of one outline does not attract itself: what is near is usually the body's own neighbourhood.

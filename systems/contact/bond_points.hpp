@@ -10,9 +10,9 @@
 #pragma once
 
 #include "components/bond.hpp"
+#include "systems/contact/bond_strength.hpp"
 #include "systems/contact/broad_phase.hpp"
 #include "systems/contact/contact_law.hpp"
-#include "systems/laws/bond.hpp"
 
 namespace pulvis {
 
@@ -54,17 +54,6 @@ struct BondSumsOfLanes {
     return std::move(block);
   }
 };
-
-// The law of one bonded point. Weaker bonds open as far as strong ones before they break.
-inline kernels::CohesiveLaw cohesive_law(const BondRules::Law& law, double k, double strength) {
-  return {k,
-          k,
-          law.strength * strength,
-          law.shear_strength * strength,
-          law.energy * strength,
-          law.shear_energy * strength,
-          law.mixed_exponent};
-}
 
 inline void store_points(unsigned points, const Lane& x, const Lane& y, int half, double* eight) {
   if (points == all_of_a_half)
@@ -215,7 +204,7 @@ class BondPass {
             .law = s_.bonds.law(row, BondLawNumber<At>::bonded),
             .x = o.position.x[l],
             .y = o.position.y[l],
-            .length = b.weight[l] / s_.thickness,
+            .size = b.weight[l] / s_.thickness,
             .shear = shear,
             .energy = b.weight[l] * kernels::fracture_energy(of_point, shear)};
   }

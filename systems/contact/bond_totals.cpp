@@ -64,7 +64,7 @@ void bond_totals::operator()() const {
   if (link && of.count[Sums::cracks] > 0) of.broken = cracks_of_ranks(**link, std::move(of.broken));
   totals->touching += of.count[Sums::rows];
   for (const Crack& crack : of.broken) {
-    bonds->crack_length += crack.length;
+    bonds->crack_size += crack.size;
     bonds->cracks.push_back(crack);
   }
   bonds->energy = of.sum[Sums::energy].value();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "systems/contact/bond_strength.hpp"
 #include "systems/contact/systems.hpp"
 
 namespace pulvis {
@@ -24,16 +25,7 @@ void make_bond(const NewBonds<At>& rows, Row<At> row, int g, int law, double str
   rows.offset(row, edge_points + g) = opening.along;
 }
 
-// ---- at the start ---------------------------------------------------------------------------------
-// Strength of the bonds between two neighbours relative to the law's (Weibull 1951): P(share < s) = 1 - exp(-s^m).
-// Seeded by the two numbers, so that both sides draw the same. A tool's number is -1 - its position.
-double drawn_strength(const BondRules::Law& law, int first, int second);
-
 // ---- by pressure ------------------------------------------------------------------------------------
-// Surfaces weld once their pressure has dropped to this share of its maximum: while it grows they are in contact, and
-// slide with friction.
-inline constexpr double weld_at = 0.5;
-
 // Tracks the pressure of a row's points and welds those whose pressure has dropped. `anchor(g)` sets where point g is
 // held, and returns its position relative to it.
 template <class At, class Anchor>
@@ -49,7 +41,7 @@ void weld(const NewBonds<At>& rows, const Write<WeldPressure<At>>& pressure, con
     double& largest = pressure(row, WeldPressure<At>::largest + g);
     largest = std::max(largest, now);
     if (largest <= law.threshold) continue;
-    const double strength = std::min(1.0, law.growth * (largest - law.threshold) / law.strength);
+    const double strength = welded_strength(law, largest);
     if ((bonded >> g & 1) != 0)
       rows.strength(row, g) = std::max(rows.strength(row, g), strength);
     else if (now < weld_at * largest)

@@ -4,10 +4,10 @@
 //          tools join nothing. The broken share counts bonds made at the start, not welds
 // Runs     on sampled steps, after bond_totals
 // Active   when the scene has bonds
-#include "systems/observe/fragments_kernel.hpp"
-
 #include <bit>
 
+#include "systems/observe/fragments_kernel.hpp"
+#include "systems/observe/new_cracks.hpp"
 #include "systems/observe/systems.hpp"
 
 namespace pulvis {
@@ -54,12 +54,9 @@ class BondsThatHold {
 }  // namespace
 
 void fragments::operator()() const {
-  const auto particles = static_cast<std::size_t>(bodies->particles());
+  found->restart(bodies->particles(), totals->made.size());
   const auto number_of = [&](int slot) { return entry(bodies->slots, slot).number; };
   kernels::DisjointSets sets(bodies->particles());
-  found->bonded.assign(particles, 0);
-  found->broken.resize(particles, 0);
-  found->points.assign(totals->made.size(), 0);
   if (pairs)
     BondsThatHold<Contact>(*this, *pairs).add_to(sets, [&](Row<Contact> row) {
       return number_of(pairs->pair(row, 2));
@@ -67,12 +64,7 @@ void fragments::operator()() const {
   if (tools)
     BondsThatHold<ToolContact>(*this, *tools).add_to(sets, [](Row<ToolContact>) { return -1; });
   found->of_particle = sets.roots();
-  for (; found->counted < std::ssize(totals->cracks); ++found->counted) {
-    const Crack& crack = entry(totals->cracks, found->counted);
-    if ((*rules)->law(crack.law).pressed()) continue;
-    entry(found->broken, number_of(crack.slot)) += crack.length;
-    if (crack.other >= 0) entry(found->broken, number_of(crack.other)) += crack.length;
-  }
+  if (rules) count_new_cracks(*bodies, **rules, *totals, *found);
 }
 
 }  // namespace pulvis

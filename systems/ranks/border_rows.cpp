@@ -82,15 +82,21 @@ void list_border_rows::list() const {
 void list_border_pairs::operator()() const {
   if (index->due) list();
 }
+void list_border_pairs::rest(Row<FaceContact> row) const {
+  for (int g = 0; g < space::face_points; ++g) {
+    activation(row, g) = std::numeric_limits<float>::infinity();
+    if (weld_pressure) (*weld_pressure)(row, g) = 0;
+  }
+  if (bonded)
+    for (int i = 0; i < space::BondedPoints<FaceContact>::count; ++i) (*bonded)(row, i) = 0;
+}
 void list_border_pairs::list() const {
   Shared shared(*link, *bodies);
   for (int p = 0; p < pairs->count(); ++p) {
     const int first = entry(pairs->begin, p), end = entry(pairs->begin, p + 1);
     const Row<FaceContact> row(first);
     if (!shared.take(p, pair(row, 0), pair(row, 2))) continue;
-    for (int r = first; r < end; ++r)
-      for (int g = 0; g < space::face_points; ++g)
-        activation(Row<FaceContact>(r), g) = std::numeric_limits<float>::infinity();
+    for (int r = first; r < end; ++r) rest(Row<FaceContact>(r));
   }
   link->rows = shared.rows();
   link->outlines = shared.outlines();

@@ -5,6 +5,7 @@
 
 #include "components/bond.hpp"
 #include "components/bundles.hpp"
+#include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "systems/ranks/reduce.hpp"
 
@@ -55,9 +56,14 @@ struct list_border_pairs {
   Read<ContactPair<FaceContact>> pair;
   Read<space::FacePairs> pairs;
   Write<space::Activation<FaceContact>> activation;
+  Optional<Write<space::BondedPoints<FaceContact>>> bonded;
+  Optional<Write<space::WeldPressure<FaceContact>>> weld_pressure;
   Write<RankLink> link;
   void operator()() const;
-  void list() const;
+  void list() const;  // whether rows are due or not
+
+ private:
+  void rest(Row<FaceContact> row) const;
 };
 
 // ---- in every step ----------------------------------------------------------------------------------

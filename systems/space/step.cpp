@@ -25,6 +25,7 @@ struct Touches {  // which kinds of contact are possible
 void observe_whole(World& w, SystemList& observe) {
   // clang-format off
   observe.add<contact_network>    ("contact_network",   w.has<ContactNetwork>());
+  observe.add<fragments>          ("fragments",         w.has<Fragments>());
   observe.add<force_chains>       ("force_chains",      w.has<ForceChains>());
   observe.add<local_density>      ("local_density",     w.has<DensityGrid>());
   // clang-format on
@@ -67,6 +68,7 @@ Steps steps_with(World& w) {
   force.add<tool_contact>        ("tool_contact",      touches.tools);
   force.add<receive_loads>       ("receive_loads",     ranks);
   force.add<contact_totals>      ("contact_totals",    touches.any());
+  force.add<bond_totals>         ("bond_totals",       w.has<BondTotals>());
   force.add<contact_health>      ("contact_health",    touches.any());
   force.add<contact_force>       ("contact_force",     touches.any());
   force.add<elastic_force<F>>    ("elastic_force",     !plastic);
@@ -100,6 +102,9 @@ std::vector<System> start_with(World& w) {
   start.add<list_border_pairs>("list_border_pairs", ranks);
   start.add<face_contact>("face_contact", touches.pairs);
   start.add<tool_contact>("tool_contact", touches.tools);
+  start.add<initial_bonds>("initial_bonds", w.has<BondOffset<FaceContact>>());
+  start.add<initial_tool_bonds>("initial_tool_bonds", w.has<BondOffset<FaceToolContact>>());
+  start.add<initial_bond_totals>("initial_bond_totals", w.has<BondTotals>() && ranks);
   start.add<first_penetration>("first_penetration", touches.any());
   start.add<stable_time_step<F>>("stable_time_step");
   start.add<first_time_step>("first_time_step");

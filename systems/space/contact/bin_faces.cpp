@@ -62,6 +62,23 @@ double stiffness_of_pair(const ContactStiffness& material, const ShapedBodies& b
   return material.rules->stiffness * a * b / (a + b);
 }
 
+// Of surfaces that may be bonded from the start, relative to the others.
+double initial_stiffness(const ContactStiffness& material, const ShapedBodies& bodies,
+                         const FaceKey& key) {
+  if (!material.bonds) return 1;
+  const auto& slots = bodies.bodies->slots;
+  const BondRules& bonds = **material.bonds;
+  return bonds.contact_stiffness(
+      bonds.initial_between(entry(slots, key.slot), entry(slots, key.other)));
+}
+double initial_stiffness_with_tool(const ContactStiffness& material, const ShapedBodies& bodies,
+                                   const FaceKey& key) {
+  if (!material.bonds) return 1;
+  const BondRules& bonds = **material.bonds;
+  return bonds.contact_stiffness(
+      bonds.initial_with_tool(key.other, entry(bodies.bodies->slots, key.slot)));
+}
+
 template <class At>
 void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double kappa, double rho,
              double friction, double share_of_critical, const NewRows<At>& rows) {
@@ -106,7 +123,7 @@ void bin_faces::operator()() const {
     const FaceKey key = key_of(found.all[r]);
     const auto material_of = [&](int slot) { return entry(bodies.bodies->slots, slot).material; };
     set_row(row, key, entry(bodies.shape_of(key.slot).faces, key.face),
-            stiffness_of_pair(material, bodies, key),
+            stiffness_of_pair(material, bodies, key) * initial_stiffness(material, bodies, key),
             std::min(entry(material.density.values(), key.slot),
                      entry(material.density.values(), key.other)),
             rules.friction_between(material_of(key.slot), material_of(key.other)).coefficient,
@@ -149,7 +166,8 @@ void bin_tool_faces::operator()() const {
     const FaceKey key = key_of(found.all[r]);
     const Shape::Face& face = entry(bodies.shape_of(key.slot).faces, key.face);
     set_row(Row<FaceToolContact>(static_cast<std::int64_t>(r)), key, face,
-            rules.stiffness * entry(material.bulk.values(), key.slot) * face.stiffness,
+            rules.stiffness * entry(material.bulk.values(), key.slot) * face.stiffness *
+                initial_stiffness_with_tool(material, bodies, key),
             entry(material.density.values(), key.slot),
             rules.friction_with_tool(key.other, entry(bodies.bodies->slots, key.slot).material)
                 .coefficient,

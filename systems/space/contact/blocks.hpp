@@ -14,12 +14,11 @@
 
 namespace pulvis::space {
 
-// A phase defines the work: active(row), fetch(row) (which prefetches what the row needs), and (row, sums of
-// its block).
+// A phase defines the work: active(row), fetch(row) (which prefetches what the row needs), (row, Sums of
+// its block), and keep(block, Sums).
 template <class At, class Phase>
-void for_active_rows(const RowBlocks<At>& rows, std::vector<BlockSums>& sums, const Phase& phase) {
+void for_active_rows(const RowBlocks<At>& rows, const Phase& phase) {
   constexpr std::size_t rows_ahead = 3;
-  sums.resize(static_cast<std::size_t>(rows.count()));
   Deal tasks(rows.count(), tbb::this_task_arena::max_concurrency());
   for_pieces(tasks, [&](int block) {
     std::array<std::int32_t, RowBlocks<At>::most> active;
@@ -28,13 +27,13 @@ void for_active_rows(const RowBlocks<At>& rows, std::vector<BlockSums>& sums, co
       active[count] = r;
       count += phase.active(Row<At>(r)) ? 1 : 0;
     }
-    FaceSums of_block;
+    typename Phase::Sums of_block;
     for (std::size_t i = 0; i < std::min(rows_ahead, count); ++i) phase.fetch(Row<At>(active[i]));
     for (std::size_t i = 0; i < count; ++i) {
       if (i + rows_ahead < count) phase.fetch(Row<At>(active[i + rows_ahead]));
       phase(Row<At>(active[i]), of_block);
     }
-    entry(sums, block) = of_block.added_up();
+    phase.keep(block, of_block);
   });
 }
 

@@ -1,19 +1,23 @@
 // face_contact: narrow phase between particles in three dimensions: the Gauss points of every candidate face against the
 // smooth surface of the other particle, with pressure, damping and friction; and the loads on that surface.
 //
-// Stages   pair_points.hpp -> projection.hpp -> contact_law.hpp -> other_loads.hpp, eight points at a time
+// Stages   pair_points.hpp -> projection.hpp -> contact_law.hpp (bond_points.hpp) -> other_loads.hpp, eight points at a time
 // Runs     after bin_faces, before contact_force
 // Active   if the scene has more than one particle
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/deal.hpp"
 #include "engine/prefetch.hpp"
+#include "systems/space/contact/bond_points.hpp"
 #include "systems/space/contact/contact_law.hpp"
+#include "systems/space/contact/doubtful_points.hpp"
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/contact/other_loads.hpp"
+#include "systems/space/contact/other_motion.hpp"
 #include "systems/space/contact/pair_points.hpp"
 #include "systems/space/contact/projection.hpp"
 #include "systems/space/contact/systems.hpp"
@@ -21,33 +25,15 @@
 namespace pulvis::space {
 namespace {
 
-// Reciprocal slopes of the other surface.
-struct Reciprocal {
-  VectorLanes u, v;
-  static Reciprocal of(const kernels::PatchSlopes<Lane>& s) {
-    const Lane a = dot(s.u, s.u), b = dot(s.u, s.v), c = dot(s.v, s.v);
-    const Lane inv_det = 1.0 / fma(a, c, -(b * b));
-    return {inv_det * (c * s.u - b * s.v), inv_det * (a * s.v - b * s.u)};
-  }
-};
-
-// Motion of the points relative to the other surface, given its velocity and slopes.
-void set_rates(const VectorLanes& velocity, const kernels::PatchSlopes<Lane>& other,
-               const Reciprocal& to, PointMotion& m) {
-  const VectorLanes relative = velocity - other.x;
-  const Lane closing = dot(relative, m.normal);
-  const VectorLanes normal_rate = -(dot(other.u, m.normal) * to.u + dot(other.v, m.normal) * to.v);
-  m.gap_rate = -closing;
-  m.slip = fma(m.gap, normal_rate, fma(-closing, m.normal, relative));
-  const Lane drill = 0.5 * dot(m.normal, cross(to.u, other.u) + cross(to.v, other.v));
-  m.spin = cross(m.normal, normal_rate) + drill * m.normal;
-}
-
 // Processes the points of one pair.
 class PairPass {
  public:
   PairPass(const face_contact& system, int pair, FaceSums& sums)
-      : s_(system), sums_(sums), loads_(fetched(entry(system.loads->pairs, pair))), faces_(loads_) {
+      : s_(system),
+        pair_(pair),
+        sums_(sums),
+        loads_(fetched(entry(system.loads->pairs, pair))),
+        faces_(loads_) {
     const FacePairs& pairs = *s_.pairs;
     first_ = entry(pairs.begin, pair);
     end_ = entry(pairs.begin, pair + 1);
@@ -56,6 +42,7 @@ class PairPass {
     friction_ = s_.columns.law(row, ContactLaw<FaceContact>::friction);
     rubs_ = s_.columns.law(row, ContactLaw<FaceContact>::friction) > 0;
     find_rules(slot, other);
+    if (s_.columns.bonds) find_bonds(slot, other);
     own_ = &s_.bodies.shape_of(slot);
     its_ = &s_.bodies.shape_of(other);
     own_surface_ = s_.bodies.surface(slot);
@@ -82,6 +69,7 @@ class PairPass {
     }
     work();
     faces_.finish();
+    if (bonds_) entry(s_.columns.bonds->sums->blocks, pair_) = bond_sums_.added_up();
   }
 
  private:
@@ -101,8 +89,18 @@ class PairPass {
     if (rubs_ && !friction.only_coulomb()) weakening_ = &friction;
   }
 
+  void find_bonds(int slot, int other) {
+    const auto& slots = s_.bodies.bodies->slots;
+    const face_contact::Columns::Bonds& bonds = *s_.columns.bonds;
+    const BondRules& rules = *bonds.columns.rules;
+    const auto &a = entry(slots, slot), &b = entry(slots, other);
+    bonds_.emplace(bonds.columns, s_.clock->time,
+                   PointBonds<FaceContact>::Between{rules.initial_between(a, b),
+                                                    rules.pressed_between(a, b), slot, other},
+                   share, bond_sums_);
+  }
+
   static constexpr double share = 0.5;  // of the stiffness: the other particle samples back
-  static constexpr double doubtful_depth = 0.25;  // relative to the size of a face
   static constexpr std::int32_t rows_at_once = 32;
 
   unsigned active_points(Row<FaceContact> row) const {
@@ -156,6 +154,7 @@ class PairPass {
     const double kappa = share * s_.columns.law(row, Law::stiffness),
                  damping = share * s_.columns.law(row, Law::damping),
                  inv_size = s_.columns.law(row, Law::inv_size);
+    const unsigned bonded = bonds_ ? bonds_->bonded(row) : 0;
     for (unsigned left = active; left != 0; left &= left - 1) {
       const auto g = static_cast<std::size_t>(std::countr_zero(left));
       const int place = static_cast<int>(g);
@@ -163,7 +162,7 @@ class PairPass {
       const int its = static_cast<int>(kept[ContactPoint::face_u]);
       if (its != fetched_) fetch_face(*its_, its_surface_, its);
       fetched_ = its;
-      PairPoint& p = points_.add(its);
+      PairPoint& p = points_.add(its, (bonded >> g & 1) != 0);
       p.motion = {x[g],
                   x[face_points + g],
                   x[2 * face_points + g],
@@ -179,6 +178,7 @@ class PairPass {
       p.lost = weakening_ != nullptr ? &(*s_.columns.lost)(row, place) : nullptr;
       p.force = s_.columns.force ? &(*s_.columns.force)(row, 3 * place) : nullptr;
       p.row = static_cast<std::int32_t>(row.value);
+      p.place = static_cast<std::int16_t>(place);
     }
     s_.columns.touches(row) = 0;
   }
@@ -197,27 +197,26 @@ class PairPass {
     const ProjectionStart start{eight.face,
                                 kept[ContactPoint::face_u] - whole(kept[ContactPoint::face_u]),
                                 kept[ContactPoint::v]};
-    Projection p = projection(points, start);
-    Standing standing = p.standing();
-    const LaneMask real = LaneMask::of(eight.real);
-    const LaneMask deep = standing.gap * motion[7] > doubtful_depth;
-    if (const unsigned doubtful = (deep.bits() | p.unconverged()) & eight.real; doubtful != 0) {
-      p = projection(points, better_start(p, start, doubtful));
+    Projection p(*its_, positions_ + its_surface_, points, start);
+    Standing standing;
+    if (eight.bonded) {
+      p.stay();
       standing = p.standing();
-      p.done &= ~in_folds(p, standing, doubtful);
+    } else {
+      standing = closest(eight, start, motion[7], p);
     }
-    book(eight, p.unconverged());
-    // Points that did not converge carry no force.
-    const Lane apart(-adhesion_.range);
-    standing.gap =
-        select(LaneMask::of(p.unconverged()) & (standing.gap > apart), apart, standing.gap);
-    // A NaN gap counts as touching.
-    const LaneMask touching = ~(standing.gap <= apart) & real;
+    // A NaN gap counts as touching, and so does what is bonded.
+    const LaneMask real = LaneMask::of(eight.real);
+    LaneMask touching = eight.bonded ? real : ~(standing.gap <= Lane(-adhesion_.range)) & real;
     PointMotion m{select(touching, standing.gap, Lane{}), standing.normal};
     Reciprocal to;
-    if (rates_ != nullptr) {
-      to = Reciprocal::of(p.slopes);
+    if (rates_ != nullptr || eight.bonded) to = Reciprocal::of(p.slopes);
+    if (rates_ != nullptr)
       set_rates({motion[3], motion[4], motion[5]}, p.carried(rates_ + its_surface_), to, m);
+    VectorLanes along;
+    if (eight.bonded) {
+      along = fma(m.gap, m.normal, p.offset);
+      m = held_motion(m, along);
     }
     const PointLaw law{Lane::from([&](int l) { return entry(eight.point, l)->kappa; }), friction_,
                        Lane::from([&](int l) { return entry(eight.point, l)->damping; }), motion[7],
@@ -238,11 +237,52 @@ class PairPass {
     if (adhesion_.range > 0)
       attract(law, m, share * select(touching, Lane(adhesion_.traction), Lane{}), adhesion_.range,
               f);
+    if (bonds_)
+      touching = touching | LaneMask::of(bond(eight, {p, points, along}, law, m, pressure, f));
     keep(eight, p, standing.gap + adhesion_.range, touching.bits(), f);
     sums_.add(f);  // of released springs, too
     if (!any(touching)) return;
     book_depth(eight, m.gap * law.inv_size);
-    act_back(p, m, f, to, touching.bits());
+    if (eight.bonded)
+      faces_.subtract(p.face, touching.bits(), {p.u, p.v, f.force, m.normal, Lane{}, Lane{}},
+                      slope_loads(m, along, f.force, to));
+    else
+      act_back(p, m, f, to, touching.bits());
+  }
+
+  // At the closest points; points that did not converge carry no force.
+  Standing closest(const PointLanes& eight, const ProjectionStart& start, const Lane& inv_size,
+                   Projection& p) {
+    p.find();
+    Standing standing = p.standing();
+    settle_doubts(p, standing, start, inv_size, eight.real);
+    book(eight, p.unconverged());
+    const Lane apart(-adhesion_.range);
+    standing.gap =
+        select(LaneMask::of(p.unconverged()) & (standing.gap > apart), apart, standing.gap);
+    return standing;
+  }
+
+  // Adds the forces of bonded points to those of contact. Returns the points that are bonded from the next step on.
+  struct Held {
+    const Projection& p;
+    const VectorLanes &point, &along;
+  };
+  [[gnu::noinline]] unsigned bond(const PointLanes& eight, const Held& held, const PointLaw& law,
+                                  const PointMotion& m, const Lane& pressure, PointForces& f) {
+    PlacesInRows at;
+    std::array<std::int32_t, lane_count> face;
+    for (int l = 0; l < lane_count; ++l) {
+      const PairPoint& point = *entry(eight.point, l);
+      entry(at.row, l) = point.row;
+      entry(at.point, l) = point.place;
+      entry(face, l) = s_.columns.pair(Row<FaceContact>(point.row), 1);
+    }
+    unsigned made = 0;
+    if (bonds_->may_weld())
+      made = bonds_->press(at, eight.real & (eight.bonded ? 0xffU : held.p.on_face()), pressure);
+    if (eight.bonded) bonds_->hold({at, eight.real, face, held.point, held.along}, law, m, f);
+    return made;
   }
 
   void act_back(const Projection& p, const PointMotion& m, const PointForces& f,
@@ -254,54 +294,6 @@ class PairPass {
           {u, v, f.force, m.normal, m.gap * dot(f.friction, to.u), m.gap * dot(f.friction, to.v)});
     else
       faces_.subtract<false>(p.face, touching, {u, v, f.force, m.normal, Lane{}, Lane{}});
-  }
-
-  Projection projection(const VectorLanes& points, const ProjectionStart& start) const {
-    Projection p(*its_, positions_ + its_surface_, points, start);
-    p.find();
-    return p;
-  }
-
-  // Of the doubtful points, those that ended in the fold of a crushed face, where the normal is misleading.
-  [[gnu::noinline]] unsigned in_folds(const Projection& p, const Standing& standing,
-                                      unsigned doubtful) const {
-    constexpr double least_cosine = 0.3;
-    unsigned folds = 0;
-    for (unsigned left = doubtful; left != 0; left &= left - 1) {
-      const int l = std::countr_zero(left);
-      if (!(standing.gap[l] > 0)) continue;
-      const PatchNumbers face{positions_ + its_surface_,
-                              entry(its_->faces, entry(p.face, l)).number.data()};
-      const VectorLanes& n = standing.normal;
-      if (along_face(face, {n.x[l], n.y[l], n.z[l]}) < least_cosine) folds |= 1U << l;
-    }
-    return folds;
-  }
-
-  // Newton's method may end on the far side of a flat particle, as if the point had passed through it. Started from the
-  // nearest of a few spots on every face it ends elsewhere: doubtful points restart there if that spot is nearer.
-  [[gnu::noinline]] ProjectionStart better_start(const Projection& found,
-                                                 const ProjectionStart& start,
-                                                 unsigned doubtful) const {
-    ProjectionStart nearest = start;
-    for (unsigned left = doubtful; left != 0; left &= left - 1) {
-      const int l = std::countr_zero(left);
-      const SurfaceSpot spot = nearest_spot(*its_, positions_ + its_surface_,
-                                            {found.point.x[l], found.point.y[l], found.point.z[l]});
-      entry(nearest.face, l) = spot.face;
-      nearest.u[l] = spot.u;
-      nearest.v[l] = spot.v;
-    }
-    const Projection again = projection(found.point, nearest);
-    const LaneMask nearer = dot(again.offset, again.offset) < dot(found.offset, found.offset);
-    const LaneMask better = LaneMask::of(again.done & (found.unconverged() | nearer.bits()));
-    ProjectionStart best{start.face, select(better, nearest.u, start.u),
-                         select(better, nearest.v, start.v)};
-    for (unsigned left = better.bits(); left != 0; left &= left - 1) {
-      const int l = std::countr_zero(left);
-      entry(best.face, l) = entry(nearest.face, l);
-    }
-    return best;
   }
 
   template <std::size_t Count, class First>
@@ -366,6 +358,7 @@ class PairPass {
 
   const VectorLanes no_vector{Lane{}, Lane{}, Lane{}};
   const face_contact& s_;
+  const int pair_;
   const double* positions_ = s_.faces.position.values().data();
   const double* rates_ = s_.faces.velocity ? s_.faces.velocity->values().data() : nullptr;
   FaceSums& sums_;
@@ -373,6 +366,8 @@ class PairPass {
   bool rubs_;
   const ContactRules::Friction* weakening_ = nullptr;  // if friction is not just Coulomb's
   ContactRules::Adhesion adhesion_;
+  std::optional<PointBonds<FaceContact>> bonds_;
+  BondSumsOfBlock bond_sums_;
   PairLoads::Pair& loads_;
   OtherFaces faces_;  // of loads_
   PairPoints points_;
@@ -388,6 +383,7 @@ class PairPass {
 void face_contact::operator()(SmallTasks) const {
   const int count = pairs->count();
   sums->blocks.resize(static_cast<std::size_t>(count));
+  if (columns.bonds) columns.bonds->sums->blocks.resize(static_cast<std::size_t>(count));
   // Memory allocated for other pairs is released.
   if (std::ssize(loads->pairs) != count)
     loads->pairs = std::vector<PairLoads::Pair>(static_cast<std::size_t>(count));

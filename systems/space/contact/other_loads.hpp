@@ -1,7 +1,10 @@
 // Loads from the points of a pair on the faces of the other particle, at the closest points.
 //
 // Law      Bezier point p of the other face receives -N_p(u, v) f, and if friction acts across a gap g
-//          -(N_p,u C_u + N_p,v C_v) n with C_a = g (T . a^a): see contact_law.hpp
+//          -(N_p,u C_u + N_p,v C_v) n with C_a = g (T . a^a): see contact_law.hpp. If the forces act at a place of that
+//          surface that is not opposite, d_t beside it (bonds), N_p,u G_u + N_p,v G_v with
+//          G_a = (M . a^a) n + M_n/2 n x a^a,   M = -g T - P d_t,   M_n = -(d_t x T) . n   [P: force along n]
+//          by which angular momentum is conserved
 #pragma once
 
 #include <algorithm>
@@ -69,6 +72,30 @@ class OtherFaces {
         const OfPatch along_u = outer(d, c), along_v = outer(b, d + 4);
         load_.add({along_u[0] + along_v[0], along_u[1] + along_v[1]}, {a[3], a[4], a[5]});
       }
+    }
+  }
+  // As above, with any load G_u, G_v on the slopes, which is added.
+  struct SlopeLoads {
+    kernels::Vector<Lane> u, v;
+  };
+  [[gnu::noinline]] void subtract(const std::array<std::int32_t, 8>& face, unsigned bearing,
+                                  const OtherForces& f, const SlopeLoads& on) {
+    const auto bu = kernels::bernstein(f.u), bv = kernels::bernstein(f.v);
+    const auto du = kernels::bernstein_slope(f.u), dv = kernels::bernstein_slope(f.v);
+    alignas(64) ByPoint basis, slopes, acting, turning;
+    by_point({bu[0], bu[1], bu[2], bu[3], bv[0], bv[1], bv[2], bv[3]}, basis);
+    by_point({du[0], du[1], du[2], du[3], dv[0], dv[1], dv[2], dv[3]}, slopes);
+    const Lane none{};
+    by_point({-f.force.x, -f.force.y, -f.force.z, none, none, none, none, none}, acting);
+    by_point({on.u.x, on.u.y, on.u.z, on.v.x, on.v.y, on.v.z, none, none}, turning);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if ((bearing >> l & 1) == 0) continue;
+      move_to(face[l]);
+      const double *b = basis[l].data(), *d = slopes[l].data(), *a = acting[l].data(),
+                   *g = turning[l].data();
+      load_.add(outer(b, b + 4), {a[0], a[1], a[2]});
+      load_.add(outer(d, b + 4), {g[0], g[1], g[2]});
+      load_.add(outer(b, d + 4), {g[3], g[4], g[5]});
     }
   }
   void finish() {

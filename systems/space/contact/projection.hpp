@@ -75,6 +75,18 @@ struct Projection {
         v(start.v) {}
 
   unsigned unconverged() const { return ~done & 0xffU; }
+  // Converged inside a face: the offset is normal to the surface.
+  unsigned on_face() const { return done & ~(held_u_ | held_v_); }
+
+  // Stays at the start, wherever the points are.
+  [[gnu::noinline]] void stay() {
+    gather();
+    evaluate();
+    slopes = {at_.x, at_.u, at_.v};
+    offset = point - slopes.x;
+    across_ = cross(slopes.u, slopes.v);
+    done = 0xffU;
+  }
 
   [[gnu::always_inline]] void find() {
     gather();

@@ -4,6 +4,7 @@
 
 #include "components/body.hpp"
 #include "components/space/body.hpp"
+#include "components/space/bond.hpp"
 #include "components/space/bundles.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
@@ -40,6 +41,7 @@ struct ContactStiffness {
   Read<ContactRules> rules;
   Read<BulkModulus> bulk;
   Read<Density> density;
+  Optional<Read<BondRules>> bonds;
 };
 // What is set when a row is created.
 template <class At>
@@ -80,6 +82,42 @@ struct bin_tool_faces {
   void operator()() const;
 };
 
+// ---- bonds ----------------------------------------------------------------------------------------
+template <class At>
+struct BondColumns {
+  Read<BondRules> rules;
+  Write<BondedPoints<At>> points;
+  Write<BondDamage<At>> damage;
+  Write<BondStrength<At>> strength;
+  Optional<Read<BondOffset<At>>> offset;
+  Optional<Write<WeldPressure<At>>> weld;
+};
+
+// Bonds that exist from the start.
+template <class At>
+struct NewBonds {
+  Read<BondRules> rules;
+  Read<ContactPair<At>> pair;
+  Write<BondedPoints<At>> points;
+  Write<BondStrength<At>> strength;
+  Write<BondOffset<At>> offset;
+
+  void make(Row<At> row, int g, double share, double opening) const {
+    points(row, BondedPoints<At>::all) |= 1 << g;
+    strength(row, g) = share;
+    offset(row, g) = opening;
+  }
+};
+struct initial_bonds {
+  ShapedBodies bodies;
+  Read<SurfacePosition> position;
+  Read<ContactPoint> point;
+  NewBonds<FaceContact> rows;
+  Write<Activation<FaceContact>> activation;
+  Write<BondTotals> totals;
+  void operator()() const;
+};
+
 // ---- contact forces -------------------------------------------------------------------------------
 struct ContactFaces {
   Read<SurfacePosition> position;
@@ -98,6 +136,11 @@ struct face_contact {
     Write<ContactPoint> point;
     Optional<Write<ContactPointForce>> force;
     Optional<Write<SlipWeakening<FaceContact>>> lost;  // of friction that is not just Coulomb's
+    struct Bonds {
+      BondColumns<FaceContact> columns;
+      Write<BondSums<Contact>> sums;
+    };
+    Optional<Bonds> bonds;
   };
   Columns columns;
   Read<ContactRules> rules;

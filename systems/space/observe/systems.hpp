@@ -40,6 +40,21 @@ struct force_chains {
   void operator()() const;
 };
 
+template <class At>
+struct BondedRows {
+  Read<ContactPair<At>> pair;
+  Read<BondedPoints<At>> points;
+};
+struct fragments {
+  ShapedBodies bodies;
+  Optional<Read<BondRules>> rules;  // if contact is possible
+  Read<BondTotals> totals;
+  Optional<BondedRows<FaceContact>> pairs;
+  Optional<BondedRows<FaceToolContact>> tools;
+  Write<Fragments> found;
+  void operator()() const;
+};
+
 struct local_density {
   ShapedBodies bodies;
   Read<Position> position;

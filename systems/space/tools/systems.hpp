@@ -37,8 +37,26 @@ struct tool_contact {
     Optional<ToolTriangles> triangles;
   };
   Tools tools;
+  struct Bonds {
+    BondColumns<FaceToolContact> columns;
+    Write<ToolAnchor> anchor;
+    Write<BondSums<ToolContact>> sums;
+  };
+  Optional<Bonds> bonds;
   Write<ContactSums<ToolContact>> sums;
   void operator()(SmallTasks) const;
+};
+
+struct initial_tool_bonds {
+  ShapedBodies bodies;
+  Read<SurfacePosition> position;
+  ToolSurfaces tools;
+  Optional<ToolTriangles> triangles;
+  NewBonds<FaceToolContact> rows;
+  Write<ToolAnchor> anchor;
+  Write<Activation<FaceToolContact>> activation;
+  Write<BondTotals> totals;
+  void operator()() const;
 };
 
 struct tool_reaction {

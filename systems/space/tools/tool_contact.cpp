@@ -7,8 +7,10 @@
 // Active   if the scene has tools
 #include "engine/prefetch.hpp"
 #include "systems/space/contact/blocks.hpp"
+#include "systems/space/contact/bond_points.hpp"
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/tools/systems.hpp"
+#include "systems/space/tools/tool_anchors.hpp"
 #include "systems/space/tools/tool_standing.hpp"
 
 namespace pulvis::space {
@@ -24,10 +26,15 @@ void clear_half(const tool_contact::Columns& c, Row<FaceToolContact> row, int ha
 
 // Motion of the touching halves of a candidate (bit 0, bit 1); the others are separated.
 struct RowMotion {
+  std::array<VectorLanes, 2> at;  // m, of the points
   std::array<PointMotion, 2> half;
+  std::array<VectorLanes, 2>
+      along;  // m, of bonded points from the place that holds them, in the tangent plane
   unsigned touching = 0;
+  unsigned bonded = 0;  // bit g: point g, at the start of the step
 
   bool touches(int h) const { return (touching >> h & 1) != 0; }
+  unsigned bonded_in(int h) const { return bonded >> lane_count * h & 0xffU; }
 };
 
 struct RowRules {
@@ -45,13 +52,80 @@ RowRules rules_of(const tool_contact& s, Row<FaceToolContact> row) {
   return rules;
 }
 
+struct ToolSums {
+  FaceSums contact;
+  BondSumsOfBlock bonds;
+};
+
+// A candidate: a face against a tool.
+struct ToolRow {
+  Row<FaceToolContact> row;
+  const Shape::Face& face;
+  RowRules rules;
+  Point tool;  // m, its position
+};
+
+// ---- bonds of a row ------------------------------------------------------------------------------
+using ToolBonds = tool_contact::Bonds;
+
+PointBonds<FaceToolContact> bonds_of(const tool_contact& s, Row<FaceToolContact> row,
+                                     BondSumsOfBlock& sums) {
+  const BondRules& rules = *s.bonds->columns.rules;
+  const int slot = s.columns.pair(row, 0), tool = s.columns.pair(row, 2);
+  const Bodies::Slot& body = entry(s.bodies.bodies->slots, slot);
+  return {
+      s.bonds->columns,
+      s.clock->time,
+      {rules.initial_with_tool(tool, body), rules.pressed_with_tool(tool, body), slot, -1 - tool},
+      1,
+      sums};
+}
+
+PlacesInRows places_in(Row<FaceToolContact> row, int half) {
+  PlacesInRows places;
+  places.row.fill(static_cast<std::int32_t>(row.value));
+  for (int l = 0; l < lane_count; ++l) entry(places.point, l) = lane_count * half + l;
+  return places;
+}
+
+// Of the bonded points, the position relative to the places that hold them.
+void stand_at_anchors(const ToolBonds& bonds, const ToolRow& of, int half, RowMotion& motion) {
+  const double* anchor = &bonds.anchor(of.row);
+  const LaneMask bonded = LaneMask::of(motion.bonded_in(half));
+  PointMotion& m = entry(motion.half, half);
+  m.normal = select(bonded, load_half(anchor + ToolAnchor::normal, half), m.normal);
+  const VectorLanes d = entry(motion.at, half) - everywhere(of.tool) - load_half(anchor, half);
+  m.gap = select(bonded, -dot(d, m.normal), m.gap);
+  const VectorLanes none{Lane{}, Lane{}, Lane{}};
+  entry(motion.along, half) = select(bonded, fma(m.gap, m.normal, d), none);
+}
+
+// Adds the forces of bonded points to those of contact, and bonds those that pressure has welded.
+void bond(const tool_contact& s, const ToolRow& of, int half, const RowMotion& motion,
+          const PointLaw& law, const Lane& pressure, PointForces& f, BondSumsOfBlock& sums) {
+  const PointBonds<FaceToolContact> bonds = bonds_of(s, of.row, sums);
+  const PlacesInRows places = places_in(of.row, half);
+  std::array<std::int32_t, lane_count> face;
+  face.fill(s.columns.pair(of.row, 1));
+  const PointMotion& m = entry(motion.half, half);
+  const VectorLanes& at = entry(motion.at, half);
+  if (bonds.may_weld())
+    set_anchors(s.bonds->anchor, {of.row, half, bonds.press(places, 0xffU, pressure)}, at,
+                {m.gap, m.normal}, of.tool);
+  if (const unsigned bonded = motion.bonded_in(half); bonded != 0)
+    bonds.hold({places, bonded, face, at, entry(motion.along, half)}, law, m, f);
+}
+
+// ---- a row -----------------------------------------------------------------------------------------
 // Forces on the touching halves of a candidate: law, columns, sums.
-void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::Face& face,
-         const RowMotion& motion, const RowRules& rules, double dt, FaceSums& sums) {
+void act(const tool_contact& s, const ToolRow& of, const RowMotion& motion, ToolSums& sums) {
   using Law = ContactLaw<FaceToolContact>;
+  const tool_contact::Columns& c = s.columns;
+  const Row<FaceToolContact> row = of.row;
+  const double dt = s.clock->dt_before;
   const bool new_touch = c.touches(row) == 0;
   c.touches(row) = 1;
-  sums.block.touching += 1;
+  sums.contact.block.touching += 1;
   Lane deepest{};
   for (int half = 0; half < 2; ++half) {
     if (!motion.touches(half)) {
@@ -61,33 +135,35 @@ void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::
     const PointMotion& m = entry(motion.half, half);
     const PointLaw law{Lane(c.law(row, Law::stiffness)), Lane(c.law(row, Law::friction)),
                        Lane(c.law(row, Law::damping)), Lane(c.law(row, Law::inv_size)),
-                       Lane::load(face.weight.data() + lane_count * half)};
+                       Lane::load(of.face.weight.data() + lane_count * half)};
     Lane pressure;
     PointForces f = normal_forces(law, m, dt, pressure);
     if (c.slip) {
       double* spring = &(*c.slip)(row);
       const VectorLanes before = new_touch ? VectorLanes{} : load_half(spring, half);
-      if (rules.weakening == nullptr) {
+      if (of.rules.weakening == nullptr) {
         pulvis::kernels::Coulomb<Lane> coulomb{law.friction};
         add_friction(law, m, dt, pressure, before, coulomb, f);
       } else {
         double* lost = &(*c.lost)(row) + lane_count * half;
-        add_weakening_friction({*rules.weakening, 1, new_touch ? Lane{} : Lane::load(lost)}, law, m,
-                               dt, pressure, before, f)
+        add_weakening_friction({*of.rules.weakening, 1, new_touch ? Lane{} : Lane::load(lost)}, law,
+                               m, dt, pressure, before, f)
             .store(lost);
       }
       store_half(f.elastic_slip, spring, half);
     }
-    if (rules.adhesion.range > 0)
-      attract(law, m, Lane(rules.adhesion.traction), rules.adhesion.range, f);
+    if (of.rules.adhesion.range > 0)
+      attract(law, m, Lane(of.rules.adhesion.traction), of.rules.adhesion.range, f);
+    if (s.bonds) bond(s, of, half, motion, law, pressure, f, sums.bonds);
     store_half(f.force, &c.force(row), half);
-    sums.add(f);
+    sums.contact.add(f);
     deepest = max(m.gap, deepest);
   }
-  sums.book_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
+  sums.contact.book_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
 }
 
 struct ToolPass {
+  using Sums = ToolSums;
   const tool_contact& s;
   std::span<const double> points = s.faces.position.values();
   std::span<const double> rates =
@@ -97,14 +173,19 @@ struct ToolPass {
     return s.clock->travel >= std::min(s.columns.activation(row, 0), s.columns.activation(row, 1));
   }
   void fetch(Row<FaceToolContact> row) const { prefetch(&s.columns.force(row)); }
-  void operator()(Row<FaceToolContact> row, FaceSums& sums) const {
+  void operator()(Row<FaceToolContact> row, Sums& sums) const {
     const int slot = s.columns.pair(row, 0);
     const Shape::Face& face = entry(s.bodies.shape_of(slot).faces, s.columns.pair(row, 1));
     const PatchNumbers own{points.data() + s.bodies.surface(slot), face.number.data()};
-    const RowRules rules = rules_of(s, row);
+    const ToolRow of{row, face, rules_of(s, row),
+                     s.tools.surfaces.position_of(s.columns.pair(row, 2))};
     RowMotion motion;
-    for (int half = 0; half < 2; ++half)
-      stand(row, half, own, {face.size, rules.adhesion.range}, motion);
+    if (s.bonds) motion.bonded = bonds_of(s, row, sums.bonds).bonded(row);
+    for (int half = 0; half < 2; ++half) {
+      if (s.clock->travel < s.columns.activation(row, half)) continue;
+      entry(motion.at, half) = sampled_points(own, half);
+      stand(of, half, motion, sums);
+    }
     if (motion.touching == 0) {
       s.columns.touches(row) = 0;
       return;
@@ -114,31 +195,42 @@ struct ToolPass {
         if (motion.touches(half))
           set_rates(row, sampled_points({rates.data() + s.bodies.surface(slot), own.number}, half),
                     entry(motion.half, half));
-    act(s.columns, row, face, motion, rules, s.clock->dt_before, sums);
+    act(s, of, motion, sums);
+  }
+  void keep(int block, Sums& sums) const {
+    entry(s.sums->blocks, block) = sums.contact.added_up();
+    if (s.bonds) entry(s.bonds->sums->blocks, block) = sums.bonds.added_up();
   }
 
  private:
-  struct Reach {
-    double size;   // m, of the face
-    double range;  // m, of forces
-  };
   // A half out of reach stays inactive until it can come within it.
-  void stand(Row<FaceToolContact> row, int half, const PatchNumbers& face, const Reach& reach,
-             RowMotion& motion) const {
-    double& activation = s.columns.activation(row, half);
-    if (s.clock->travel < activation) return;
-    const Standing standing = project(row, sampled_points(face, half), reach.size + reach.range);
-    if (any(standing.gap > -reach.range)) {
-      entry(motion.half, half) = {standing.gap, standing.normal};
+  void stand(const ToolRow& of, int half, RowMotion& motion, Sums& sums) const {
+    const VectorLanes& at = entry(motion.at, half);
+    const double range = of.rules.adhesion.range;
+    const Standing standing =
+        standing_on_tool(s.tools.surfaces, s.tools.triangles, s.columns.pair(of.row, 2), of.row, at,
+                         of.face.size + range);
+    PointMotion& m = entry(motion.half, half);
+    m = {standing.gap, standing.normal};
+    double& activation = s.columns.activation(of.row, half);
+    const bool bonded = motion.bonded_in(half) != 0;
+    if (bonded) stand_at_anchors(*s.bonds, of, half, motion);
+    if (bonded || any(standing.gap > -range)) {
       motion.touching |= 1U << half;
       activation = 0;
-    } else {
-      activation = s.clock->travel - FaceSums::greatest(standing.gap + reach.range);
+      return;
     }
+    activation = s.clock->travel - FaceSums::greatest(standing.gap + range);
+    if (s.bonds && weld_apart(of, half, at, m, sums)) activation = 0;
   }
-  Standing project(Row<FaceToolContact> row, const VectorLanes& at, double farthest) const {
-    return standing_on_tool(s.tools.surfaces, s.tools.triangles, s.columns.pair(row, 2), row, at,
-                            farthest);
+  // The pressure of points that have separated has dropped. Returns whether any weld held them.
+  bool weld_apart(const ToolRow& of, int half, const VectorLanes& at, const PointMotion& m,
+                  Sums& sums) const {
+    const PointBonds<FaceToolContact> bonds = bonds_of(s, of.row, sums.bonds);
+    if (!bonds.may_weld()) return false;
+    const unsigned made = bonds.press(places_in(of.row, half), 0xffU, Lane{});
+    set_anchors(s.bonds->anchor, {of.row, half, made}, at, {m.gap, m.normal}, of.tool);
+    return made != 0;
   }
   // For tools that do not rotate.
   void set_rates(Row<FaceToolContact> row, const VectorLanes& velocity, PointMotion& m) const {
@@ -155,7 +247,10 @@ struct ToolPass {
 }  // namespace
 
 void tool_contact::operator()(SmallTasks) const {
-  for_active_rows(*columns.blocks, sums->blocks, ToolPass{*this});
+  const auto blocks = static_cast<std::size_t>(columns.blocks->count());
+  sums->blocks.resize(blocks);
+  if (bonds) bonds->sums->blocks.resize(blocks);
+  for_active_rows(*columns.blocks, ToolPass{*this});
 }
 
 }  // namespace pulvis::space

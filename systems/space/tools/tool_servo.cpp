@@ -13,8 +13,9 @@
 namespace pulvis::space {
 namespace {
 
-// Over the points of a row that currently press, as if all normals were in the servo's direction.
-kernels::TouchSums touching_of_row(const tool_servo& s, Row<FaceToolContact> row) {
+// Over the points of a row that currently press, as if all normals were in the servo's direction. `bonds`: their stiffness
+// over that of a contact spring.
+kernels::TouchSums touching_of_row(const tool_servo& s, Row<FaceToolContact> row, double bonds) {
   using Law = ContactLaw<FaceToolContact>;
   const Shape::Face& face =
       entry(s.bodies.shape_of(s.rows.pair(row, 0)).faces, s.rows.pair(row, 1));
@@ -29,7 +30,7 @@ kernels::TouchSums touching_of_row(const tool_servo& s, Row<FaceToolContact> row
     }
     const double weight = entry(face.weight, g), pressure = std::sqrt(square) / weight;
     if (!(pressure > 0)) continue;
-    sums.stiffness += weight * kappa * kernels::tangent_at(pressure, kappa, g_s);
+    sums.stiffness += weight * kappa * (kernels::tangent_at(pressure, kappa, g_s) + bonds);
     sums.damping += weight * s.law(row, Law::damping);
   }
   return sums;
@@ -43,7 +44,7 @@ void tool_servo::operator()() const {
     for (int r = 0; r < rows.pair.rows(); ++r) {
       const Row<FaceToolContact> row(r);
       if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
-      sums.add(touching_of_row(*this, row));
+      sums.add(touching_of_row(*this, row, servos.rules->stiffest_weld()));
     }
     return sums.of_ranks(link);
   });

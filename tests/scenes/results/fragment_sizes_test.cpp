@@ -27,8 +27,8 @@ TEST(FragmentSizes, AreCountedOrWeighed) {
   using Weight = SizeDistribution::Weight;
   std::vector<FragmentSize> pieces;
   for (int i = 0; i < 10; ++i) pieces.push_back({i, 1, i == 4 ? 91.0 : 1.0});
-  const SizeDistribution by_number(pieces, Weight::number), by_area(pieces, Weight::area);
-  const double small = equivalent_diameter(1), large = equivalent_diameter(91);
+  const SizeDistribution by_number(pieces, Weight::number), by_area(pieces, Weight::size);
+  const double small = equivalent_diameter(1, 2), large = equivalent_diameter(91, 2);
   EXPECT_DOUBLE_EQ(small * small * std::numbers::pi / 4, 1);
   EXPECT_EQ(by_number.diameter(0.1), small);
   EXPECT_EQ(by_number.diameter(0.9), small);

@@ -1,0 +1,66 @@
+#include "scenes/space/results/bonded_faces.hpp"
+
+#include <bit>
+
+#include "components/space/bond.hpp"
+#include "systems/space/contact/patch_kernel.hpp"
+
+namespace pulvis::space {
+namespace {
+
+struct BondedFaces {
+  std::vector<double> ids, area, damage, position;
+
+  template <class At>
+  void add(const World& world) {
+    if (!world.has<BondedPoints<At>>()) return;
+    const auto& points = world.column<BondedPoints<At>>();
+    for (std::size_t r = 0; r < points.table.rows; ++r)
+      if (const auto bonded = static_cast<unsigned>(points.values()[2 * r]); bonded != 0)
+        add_row<At>(world, r, bonded);
+  }
+
+ private:
+  template <class At>
+  void add_row(const World& world, std::size_t row, unsigned bonded) {
+    constexpr bool pair_of_particles = std::is_same_v<At, FaceContact>;
+    const Bodies& bodies = world.resource<Bodies>();
+    const std::int32_t* pair = world.column<ContactPair<At>>().values() + 3 * row;
+    const Bodies::Slot& slot = entry(bodies.slots, pair[0]);
+    const Shape& shape = entry(world.resource<Shapes>().list, slot.shape);
+    const Shape::Face& face = entry(shape.faces, pair[1]);
+    const PatchNumbers patch{
+        world.column<SurfacePosition>().values() + 3 * std::ptrdiff_t{slot.first_control},
+        face.number.data()};
+    const double* of_point = world.column<BondDamage<At>>().values() + face_points * row;
+    double sum = 0, areas = 0;
+    std::array<double, 3> at{};
+    for (unsigned left = bonded; left != 0; left &= left - 1) {
+      const int g = std::countr_zero(left);
+      const double weight = entry(face.weight, g);
+      const auto x = kernels::patch_slopes<double>(patch, entry(kernels::gauss_at, g % 4),
+                                                   entry(kernels::gauss_at, g / 4))
+                         .x;
+      sum += weight * of_point[g];
+      areas += weight;
+      at = {at[0] + weight * x.x, at[1] + weight * x.y, at[2] + weight * x.z};
+    }
+    const int other = pair_of_particles ? entry(bodies.slots, pair[2]).number : -1 - pair[2];
+    ids.insert(ids.end(), {1.0 * slot.number, 1.0 * other});
+    area.push_back((pair_of_particles ? 0.5 : 1) * areas);
+    damage.push_back(sum / areas);
+    for (const double coordinate : at) position.push_back(coordinate / areas);
+  }
+};
+
+}  // namespace
+
+void append_bonded_faces(const World& world, std::vector<std::vector<double>>& fields) {
+  BondedFaces all;
+  all.add<FaceContact>(world);
+  all.add<FaceToolContact>(world);
+  for (std::vector<double>* list : {&all.ids, &all.area, &all.damage, &all.position})
+    fields.push_back(std::move(*list));
+}
+
+}  // namespace pulvis::space
