@@ -25,7 +25,8 @@ template <class At>
 struct BondStrength : Component<At, double, face_points> {
   static constexpr ComponentInfo info{"bond_strength", "-", "share of the law's strengths"};
 };
-// Only if bonds exist from the start. Welds are made where the surfaces touch.
+// Only if bonds exist from the start. Welds are made where the surfaces touch. An initial overlap, < 0, stays when the bond
+// breaks, until the surfaces have parted: contact counts from it, since it would otherwise push them apart.
 template <class At>
 struct BondOffset : Component<At, double, face_points> {
   static constexpr ComponentInfo info{"bond_offset", "m", "opening when the bond was made"};

@@ -5,7 +5,7 @@
 //          that holds it, n the normal there, d_n = d . n less the opening when the bond was made, d_t = d - (d . n) n;
 //          in parallel with a share c of the contact law at x_a:
 //          c = d for bonds made at the start, whose spring also carries compression, (1 - d) k_n d_n (Alfano & Sacco
-//          2006); c = 1 for welds, which only carry what contact does not
+//          2006), and contact counts from an initial overlap on; c = 1 for welds, which only carry what contact does not
 // Books    stored (1 - d) w0 + c times the contact energy; dissipated: the damage energy, and what a compressed bond's
 //          spring stores less what the contact that replaces it stores
 // Sign     force on the sampled face
@@ -67,21 +67,34 @@ class PointBonds {
   unsigned bonded(Row<At> row) const {
     return static_cast<unsigned>(s_.points(row, BondedPoints<At>::all));
   }
+  // m, < 0: by how much the given points overlapped when they were bonded; contact counts from there. `gap`: m, of these
+  // points, of which the bonded ones are given. Of the others, those that have parted lose it.
+  Lane overlap(const PlacesInRows& at, unsigned lanes, unsigned bonded, const Lane& gap) const {
+    Lane overlap{};
+    if (!s_.offset) return overlap;
+    for (unsigned left = lanes; left != 0; left &= left - 1) {
+      const int l = std::countr_zero(left);
+      double& offset = (*s_.offset)(Row<At>(entry(at.row, l)), entry(at.point, l));
+      if (gap[l] <= 0 && (bonded >> l & 1) == 0) offset = 0;
+      overlap[l] = std::min(offset, 0.0);
+    }
+    return overlap;
+  }
   bool may_weld() const { return of_.pressed != 0 && s_.weld; }
 
-  // Adds to the contact forces `f`, of which a share remains, what the bonded lanes hold. `faces`: number of the sampled
-  // face per lane, `law` that of contact.
+  // Adds to the contact forces `f`, of which a share remains, what the bonded lanes hold. `law`: that of contact; `m`: its
+  // motion, from an initial overlap on.
   struct Holding {
     const PlacesInRows& at;
     unsigned bonded;
-    const std::array<std::int32_t, lane_count>& face;
-    const VectorLanes& position;  // m, of the sampled points
-    const VectorLanes& along;     // m, d_t
+    const std::array<std::int32_t, lane_count>& face;  // number of the sampled face
+    const VectorLanes& position;                       // m, of the sampled points
+    const VectorLanes& along;                          // m, d_t
   };
   void hold(const Holding& h, const PointLaw& law, const PointMotion& m, PointForces& f) const {
     const LaneMask lanes = LaneMask::of(h.bonded);
     const Bonds b = bonds_of(h, law);
-    const Lane opening = -m.gap - b.offset, slide2 = dot(h.along, h.along);
+    const Lane opening = -m.depth() - max(b.offset, 0.0), slide2 = dot(h.along, h.along);
     const Lane open = max(opening, 0.0);
     const Lane tension2 = b.k * b.k * fma(open, open, slide2);
     const unsigned may =
@@ -237,6 +250,7 @@ class PointBonds {
       for (const auto bits : {BondedPoints<At>::all, BondedPoints<At>::welds})
         s_.points(row, bits) &= ~(1 << g);
       s_.damage(row, g) = 0;
+      if (s_.offset) (*s_.offset)(row, g) = std::min((*s_.offset)(row, g), 0.0);
       if (s_.weld) (*s_.weld)(row, g) = 0;
     }
   }

@@ -40,6 +40,9 @@ struct PointMotion {
   Lane gap_rate{};     // m/s
   VectorLanes slip{};  // m/s, in the tangent plane
   VectorLanes spin{};  // rad/s, of the other surface
+  Lane overlap{};      // m, <= 0: of surfaces bonded at the start; contact counts from it
+
+  Lane depth() const { return gap + overlap; }
 };
 struct PointLaw {
   Lane kappa, friction, damping, inv_size;  // of the pass
@@ -65,7 +68,7 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
 [[gnu::always_inline]] inline PointForces normal_forces(const PointLaw& law, const PointMotion& m,
                                                         double dt, Lane& pressure) {
   const auto normal =
-      pulvis::kernels::normal_traction(m.gap, m.gap_rate, law.kappa, law.damping, law.inv_size);
+      pulvis::kernels::normal_traction(m.depth(), m.gap_rate, law.kappa, law.damping, law.inv_size);
   pressure = normal.pressure;
   const VectorLanes none{Lane{}, Lane{}, Lane{}};
   return {
@@ -76,7 +79,7 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
 // `traction` Pa, in this pass. Friction follows the contact pressure alone.
 inline void attract(const PointLaw& law, const PointMotion& m, const Lane& traction, double range,
                     PointForces& f) {
-  const auto pull = pulvis::kernels::adhesion(m.gap, traction, Lane(range));
+  const auto pull = pulvis::kernels::adhesion(m.depth(), traction, Lane(range));
   f.force = fma(-(pull.traction * law.weight), m.normal, f.force);
   f.energy = fma(pull.energy, law.weight, f.energy);
 }
@@ -116,7 +119,7 @@ struct WeakeningPass {
       Lane(friction.coefficient),           Lane(friction.drop), Lane(friction.inv_decay),
       Lane(pass.share * friction.strength), pass.lost,           by_speed};
   add_friction(law, m, dt, pressure, before, sliding, f);
-  return select(m.gap > 0.0, sliding.lost, Lane{});
+  return select(m.depth() > 0.0, sliding.lost, Lane{});
 }
 
 // ---- sums -----------------------------------------------------------------------------------------------

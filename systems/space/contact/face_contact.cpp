@@ -198,17 +198,14 @@ class PairPass {
                                 kept[ContactPoint::face_u] - whole(kept[ContactPoint::face_u]),
                                 kept[ContactPoint::v]};
     Projection p(*its_, positions_ + its_surface_, points, start);
-    Standing standing;
-    if (eight.bonded) {
-      p.stay();
-      standing = p.standing();
-    } else {
-      standing = closest(eight, start, motion[7], p);
-    }
+    const Standing standing = eight.bonded ? p.stay() : closest(eight, start, motion[7], p);
+    const Lane overlap = bonds_ ? overlap_of(eight, standing.gap) : Lane{};
+    const Lane within = standing.gap + overlap + adhesion_.range;
     // A NaN gap counts as touching, and so does what is bonded.
     const LaneMask real = LaneMask::of(eight.real);
-    LaneMask touching = eight.bonded ? real : ~(standing.gap <= Lane(-adhesion_.range)) & real;
+    LaneMask touching = eight.bonded ? real : ~(within <= 0.0) & real;
     PointMotion m{select(touching, standing.gap, Lane{}), standing.normal};
+    m.overlap = overlap;
     Reciprocal to;
     if (rates_ != nullptr || eight.bonded) to = Reciprocal::of(p.slopes);
     if (rates_ != nullptr)
@@ -239,10 +236,10 @@ class PairPass {
               f);
     if (bonds_)
       touching = touching | LaneMask::of(bond(eight, {p, points, along}, law, m, pressure, f));
-    keep(eight, p, standing.gap + adhesion_.range, touching.bits(), f);
+    keep(eight, p, within, touching.bits(), f);
     sums_.add(f);  // of released springs, too
     if (!any(touching)) return;
-    book_depth(eight, m.gap * law.inv_size);
+    book_depth(eight, m.depth() * law.inv_size);
     if (eight.bonded)
       faces_.subtract(p.face, touching.bits(), {p.u, p.v, f.force, m.normal, Lane{}, Lane{}},
                       slope_loads(m, along, f.force, to));
@@ -268,16 +265,23 @@ class PairPass {
     const Projection& p;
     const VectorLanes &point, &along;
   };
+  static PlacesInRows places_of(const PointLanes& eight) {
+    PlacesInRows at;
+    for (int l = 0; l < lane_count; ++l) {
+      entry(at.row, l) = entry(eight.point, l)->row;
+      entry(at.point, l) = entry(eight.point, l)->place;
+    }
+    return at;
+  }
+  Lane overlap_of(const PointLanes& eight, const Lane& gap) const {
+    return bonds_->overlap(places_of(eight), eight.real, eight.bonded ? eight.real : 0, gap);
+  }
   [[gnu::noinline]] unsigned bond(const PointLanes& eight, const Held& held, const PointLaw& law,
                                   const PointMotion& m, const Lane& pressure, PointForces& f) {
-    PlacesInRows at;
+    const PlacesInRows at = places_of(eight);
     std::array<std::int32_t, lane_count> face;
-    for (int l = 0; l < lane_count; ++l) {
-      const PairPoint& point = *entry(eight.point, l);
-      entry(at.row, l) = point.row;
-      entry(at.point, l) = point.place;
-      entry(face, l) = s_.columns.pair(Row<FaceContact>(point.row), 1);
-    }
+    for (int l = 0; l < lane_count; ++l)
+      entry(face, l) = s_.columns.pair(Row<FaceContact>(entry(at.row, l)), 1);
     unsigned made = 0;
     if (bonds_->may_weld())
       made = bonds_->press(at, eight.real & (eight.bonded ? 0xffU : held.p.on_face()), pressure);

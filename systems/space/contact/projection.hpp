@@ -79,13 +79,14 @@ struct Projection {
   unsigned on_face() const { return done & ~(held_u_ | held_v_); }
 
   // Stays at the start, wherever the points are.
-  [[gnu::noinline]] void stay() {
+  [[gnu::noinline]] Standing stay() {
     gather();
     evaluate();
     slopes = {at_.x, at_.u, at_.v};
     offset = point - slopes.x;
     across_ = cross(slopes.u, slopes.v);
     done = 0xffU;
+    return standing();
   }
 
   [[gnu::always_inline]] void find() {

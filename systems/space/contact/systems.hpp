@@ -85,11 +85,11 @@ struct bin_tool_faces {
 // ---- bonds ----------------------------------------------------------------------------------------
 template <class At>
 struct BondColumns {
-  Read<BondRules> rules;
   Write<BondedPoints<At>> points;
+  Read<BondRules> rules;
   Write<BondDamage<At>> damage;
   Write<BondStrength<At>> strength;
-  Optional<Read<BondOffset<At>>> offset;
+  Optional<Write<BondOffset<At>>> offset;
   Optional<Write<WeldPressure<At>>> weld;
 };
 

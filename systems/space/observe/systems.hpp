@@ -42,8 +42,8 @@ struct force_chains {
 
 template <class At>
 struct BondedRows {
-  Read<ContactPair<At>> pair;
   Read<BondedPoints<At>> points;
+  Read<ContactPair<At>> pair;
 };
 struct fragments {
   ShapedBodies bodies;

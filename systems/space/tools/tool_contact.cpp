@@ -157,7 +157,7 @@ void act(const tool_contact& s, const ToolRow& of, const RowMotion& motion, Tool
     if (s.bonds) bond(s, of, half, motion, law, pressure, f, sums.bonds);
     store_half(f.force, &c.force(row), half);
     sums.contact.add(f);
-    deepest = max(m.gap, deepest);
+    deepest = max(m.depth(), deepest);
   }
   sums.contact.book_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
 }
@@ -215,12 +215,15 @@ struct ToolPass {
     double& activation = s.columns.activation(of.row, half);
     const bool bonded = motion.bonded_in(half) != 0;
     if (bonded) stand_at_anchors(*s.bonds, of, half, motion);
-    if (bonded || any(standing.gap > -range)) {
+    if (s.bonds)
+      m.overlap = bonds_of(s, of.row, sums.bonds)
+                      .overlap(places_in(of.row, half), 0xffU, motion.bonded_in(half), m.gap);
+    if (bonded || any(m.depth() > -range)) {
       motion.touching |= 1U << half;
       activation = 0;
       return;
     }
-    activation = s.clock->travel - FaceSums::greatest(standing.gap + range);
+    activation = s.clock->travel - FaceSums::greatest(m.depth() + range);
     if (s.bonds && weld_apart(of, half, at, m, sums)) activation = 0;
   }
   // The pressure of points that have separated has dropped. Returns whether any weld held them.

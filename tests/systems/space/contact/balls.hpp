@@ -79,11 +79,13 @@ inline ToolSpec floor_plane() {
 }
 
 struct BallOnFloor : TouchingBodies {
-  BallOnFloor(double depth, const FrictionSpec& friction, const Rotation& rotation)
+  BallOnFloor(double depth, const FrictionSpec& friction, const Rotation& rotation,
+              const std::vector<BondSpec>& bonds = {})
       : TouchingBodies({ball()}, {body_at(Vec3(0, 0, diameter / 2 - depth), rotation)},
                        [&](Scene& s) {
                          s.space->tools = {floor_plane()};
                          add_friction(s, "floor", friction);
+                         s.bonds = bonds;
                        }) {
     world.resource<Clock>().dt_before = 1e-8;
   }

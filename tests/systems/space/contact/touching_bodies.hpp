@@ -113,10 +113,21 @@ class TouchingBodies {
     if (pairs) run<face_contact>("face_contact");
     if (tools) run<tool_contact>("tool_contact");
     run<pulvis::contact_totals>("contact_totals");
+    if (world.has<BondTotals>()) run<pulvis::bond_totals>("bond_totals");
     run<contact_force>("contact_force");
     if (tools) run<tool_reaction>("tool_reaction");
   }
-  double energy() const { return world.resource<Totals>().contact_energy; }
+  // As at the start of a run, after an update.
+  void bond() {
+    if (world.has<BondOffset<FaceContact>>()) run<initial_bonds>("initial_bonds");
+    if (world.has<BondOffset<FaceToolContact>>()) run<initial_tool_bonds>("initial_tool_bonds");
+  }
+  const BondTotals& bonds() const { return world.resource<BondTotals>(); }
+  // J, stored in contacts and bonds.
+  double energy() const {
+    const double contact = world.resource<Totals>().contact_energy;
+    return world.has<BondTotals>() ? contact + bonds().energy : contact;
+  }
   template <class S>
   void run(const char* name) {
     const System system = make_system<S>(world, name);
