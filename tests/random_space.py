@@ -4,7 +4,7 @@
 
 Particles of one or two shapes and materials, elastic or plastic, from micrometres to decimetres, lie at random or in a lattice
 in a box or a round die. A punch presses them to a density that was drawn, holds a force, or is hit by them; they are unloaded
-and pushed out. Meshes, sizes, friction, adhesion, damping, contact stiffness, formulation and speed are drawn too. All that is asked of a
+and pushed out. Meshes, sizes, friction, adhesion, welds, damping, contact stiffness, formulation and speed are drawn too. All that is asked of a
 run is in `faults` of random_scenes.py. A scene that is refused, or that stops in a health check that names what went wrong, is
 reported and counted apart.
 """
@@ -46,19 +46,37 @@ class Scene:
         own = random.Random(f"adhesion/{seed}/{number}")
         self.adhesion = None if own.random() < 0.6 else (log_uniform(own, 1e-3, 0.2), log_uniform(own, 1e-3, 0.1))
 
+        own = random.Random(f"welds/{seed}/{number}")
+        self.welds = None if own.random() < 0.6 else (own.uniform(0.05, 0.8), log_uniform(own, 0.05, 1), own.uniform(1.5, 100))
+
     def plastic(self):
         return all(MATERIALS[material][3] for material in self.materials)
 
     def weakest(self):
         return min(MATERIALS[m][3] or 0.002 * MATERIALS[m][1] for m in self.materials)
 
+    def pairs(self):
+        return [(a, b) for i, a in enumerate(self.materials) for b in [*self.materials[i:], "bottom"]]
+
+    def weld(self, a, b):
+        """Of full strength at the pressure of first yield; the fracture energy is a multiple of what the bond stores then."""
+        threshold, strength, toughness = self.welds
+        strength *= 0.3 * self.weakest()
+        spring = 20 * 0.5 * min(MATERIALS[m][1] for m in self.materials) / self.size  # Pa/m, less than that of any bond
+        energy = toughness * strength ** 2 / spring
+        return f'[[bond]]\nbetween = ["{a}", "{b}"]\norigin = "pressed"\nthreshold = "{threshold * self.weakest():.9g} Pa"\n' \
+               f'growth = 0.3\nstrength = "{strength:.9g} Pa"\nfracture_energy = "{energy:.9g} J/m^2"\n'
+
     def bonds(self):
+        welds = "" if self.welds is None else "".join(self.weld(a, b) for a, b in self.pairs())
+        return welds + self.attraction()
+
+    def attraction(self):
         if self.adhesion is None:
             return ""
         traction, reach = self.adhesion[0] * self.weakest(), self.adhesion[1] * self.size
-        pairs = [(a, b) for i, a in enumerate(self.materials) for b in [*self.materials[i:], "bottom"]]
         return "".join(f'[[bond]]\nbetween = ["{a}", "{b}"]\norigin = "adhesion"\nwork = "{traction * reach / 2:.9g} J/m^2"\n'
-                       f'range = "{reach:.9g} m"\n' for a, b in pairs)
+                       f'range = "{reach:.9g} m"\n' for a, b in self.pairs())
 
     # ---- particles ------------------------------------------------------------------------------------
     def mesh(self, sphere):
@@ -185,7 +203,8 @@ class Scene:
         return f"{shapes}, {self.size:.2g} m, {'lattice' if self.lattice else 'random'} in a " \
                f"{'die' if self.round_die else 'box'}; {self.action} to {self.pressed:.2f} at {self.speed:.2g}; friction " \
                f"{self.friction:.2g}, contact {self.contact or 'default'}, damping {self.damping:.2g}, {self.formulation}" \
-               + ("" if self.adhesion is None else f", adhesion {self.adhesion[0]:.2g} within {self.adhesion[1]:.2g}")
+               + ("" if self.adhesion is None else f", adhesion {self.adhesion[0]:.2g} within {self.adhesion[1]:.2g}") \
+               + ("" if self.welds is None else f", welds from {self.welds[0]:.2g}, {self.welds[1]:.2g}, {self.welds[2]:.2g}")
 
 
 def density(summary, last):

@@ -55,8 +55,8 @@ displacement = ["0 mm", "0 mm", "-0.1 mm"]
 ```
 
 Vectors have three components, x, y and z; a punch usually moves along z. Forces act on whole particles: there is no
-thickness. Features available only in two dimensions, such as breakable bonds, grains, periodic cells and
-constraints, are refused with an explanation.
+thickness. Features available only in two dimensions, such as grains, periodic cells and constraints, are refused
+with an explanation.
 )md";
 
 }  // namespace
