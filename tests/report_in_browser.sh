@@ -62,6 +62,7 @@ in_space=("${everything[@]}" fit material turned looked tip-in-space cut cut-tol
 check ShowsParticlesInABox "${in_space[@]}"
 drivers=() wanted=driven
 check StandsInAComparison "${everything[@]}" fit material
+check ShowsBondsCracksAndFragmentsInSpace "${everything[@]}" fit material bonds contacts
 body=$(body_of "in space" "$reports/StaysBelowAQuarterOfItsLimitWithAQuarterOfTheFrames/report.html" 1200,2000 ready)
 [[ $body =~ data-ready-in=\"([0-9]+)\" && ${BASH_REMATCH[1]} -le 10000 ]] || fail "in space: not ready in 10 s: $body"
 picture_of "$reports/StaysBelowAQuarterOfItsLimitWithAQuarterOfTheFrames/report.html" 1200,2000 "$reports/in-space.png"
@@ -162,11 +163,18 @@ done
 echo "ok: loop and force curve"
 
 # Side by side: scripts of one page share their names, and a run of one kind has not what a panel of another expects.
-for pair in "plane jkr" "plane thick-lever" "jkr compaction" "compaction ShowsParticlesInABox"; do
+for pair in "plane jkr" "plane thick-lever" "jkr compaction" "compaction ShowsParticlesInABox" \
+            "ShowsBondsCracksAndFragmentsInSpace ShowsBondsCracksAndFragmentsOfEveryFrame"; do
   "$pulvis" report "$reports/${pair% *}" "$reports/${pair#* }" -o "$work/pair.html" >/dev/null || fail "report of $pair"
   body=$(body_of "$pair" "$work/pair.html" 1200,2000 ready)
   [[ $body == *'data-ready="1"'* && $body == *'data-views="2"'* && $body != *data-error* ]] || fail "$pair: $body"
 done
+# The last of them: cracks have an area in space and a length in the plane, and fragments come in one panel each.
+for title in "Bonds: crack area" "Bonds: crack length" "Sizes of the fragments"; do
+  grep -q "<h2>$title: " "$work/page.html" || fail "comparison of bonds: no $title"
+done
+grep -q 'of the sphere of equal volume' "$work/page.html" && grep -q 'of the circle of equal area' "$work/page.html" ||
+  fail "comparison of bonds: sizes of fragments"
 echo "ok: comparison of unlike runs"
 
 # One run with -o: its report, elsewhere.

@@ -83,4 +83,15 @@ std::vector<std::uint16_t> quantised(std::span<const double> values, const Range
   return codes;
 }
 
+nlohmann::ordered_json rounded(const std::vector<double>& values) {
+  auto list = nlohmann::ordered_json::array();
+  for (const double value : values) {
+    const double size = value == 0 || !std::isfinite(value)
+                            ? 1.0
+                            : std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+    list.push_back(std::round(value * size) / size);
+  }
+  return list;
+}
+
 }  // namespace pulvis

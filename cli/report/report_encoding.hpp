@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,5 +28,8 @@ struct Range {
 // 0..levels over the range; 65535 stands for NaN or infinity.
 std::vector<std::uint16_t> quantised(std::span<const double> values, const Range& range,
                                      std::size_t levels = 65534);
+
+// Six digits, as many as anybody reads; NaN and infinity become null.
+nlohmann::ordered_json rounded(const std::vector<double>& values);
 
 }  // namespace pulvis

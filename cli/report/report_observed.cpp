@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "cli/report/report_encoding.hpp"
-#include "scenes/results/fragment_sizes.hpp"
+#include "cli/report/report_fragments.hpp"
 
 namespace pulvis {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t max_sizes = 100;     // fragments per frame
 constexpr std::size_t max_cells = 10'000;  // map cells per frame
 
 std::size_t groups(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
@@ -61,8 +60,8 @@ class Observed {
   }
 
   Json network(std::size_t lines) const {
-    return {{"number", rounded("rose/number")},
-            {"force", rounded("rose/force")},
+    return {{"number", rounded_of("rose/number")},
+            {"force", rounded_of("rose/force")},
             {"lines", lines},
             {"unit", file_.text_attribute(frame_ + "/contacts/normal_force", "unit")}};
   }
@@ -86,26 +85,6 @@ class Observed {
       }
     }
     return all;
-  }
-
-  // Size distribution of the fragments: diameters, and cumulative fractions of number and area up to each.
-  Json fragments() const {
-    std::vector<FragmentSize> sizes;
-    for (const double area : numbers("fragments/area")) sizes.push_back({0, 1, area});
-    using Weight = SizeDistribution::Weight;
-    const SizeDistribution by_number(sizes, Weight::number), by_area(sizes, Weight::size);
-    const std::size_t count = std::min(sizes.size(), max_sizes);
-    std::vector<double> diameter, number, area;
-    for (std::size_t i = 1; i <= count; ++i) {  // the last is the largest
-      const std::size_t at = i * sizes.size() / count - 1;
-      diameter.push_back(by_number.diameters()[at]);
-      number.push_back(by_number.shares()[at]);
-      area.push_back(by_area.shares()[at]);
-    }
-    return {{"count", sizes.size()},
-            {"diameter", rounded(diameter)},
-            {"number", rounded(number)},
-            {"area", rounded(area)}};
   }
 
   // Lines of four numbers, from start to end; cracks have five, with the shear fraction. If a run was killed,
@@ -148,19 +127,7 @@ class Observed {
     return file_.read_doubles(frame_ + "/" + name);
   }
 
-  Json rounded(const std::string& name) const { return rounded(numbers(name)); }
-
-  // Six digits, as many as anybody reads; NaN and infinity become null.
-  static Json rounded(const std::vector<double>& values) {
-    Json list = Json::array();
-    for (const double value : values) {
-      const double size = value == 0 || !std::isfinite(value)
-                              ? 1.0
-                              : std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
-      list.push_back(std::round(value * size) / size);
-    }
-    return list;
-  }
+  Json rounded_of(const std::string& name) const { return rounded(numbers(name)); }
 
   const hdf5::File& file_;
   std::string frame_;
@@ -176,7 +143,7 @@ void add_observed(const hdf5::File& file, const std::string& frame, const std::s
   if (observed.has("bonds")) {
     const std::vector<float> bonds = observed.bond_lines("bonds"),
                              cracks = observed.bond_lines("cracks");
-    entry["fragments"] = observed.fragments();
+    entry["fragments"] = fragments_of(file, frame);
     entry["bonds"] = bonds.size() / 4;
     entry["cracks"] = cracks.size() / 5;
     if (!bonds.empty()) sections.push_back({prefix + "bonds", encoded(bonds)});

@@ -6,6 +6,7 @@
 
 #include "cli/report/report_encoding.hpp"
 #include "cli/report/report_fields.hpp"
+#include "cli/report/report_fragments.hpp"
 #include "cli/report/report_frames.hpp"
 #include "cli/report/report_profile.hpp"
 #include "cli/report/report_space_mesh.hpp"
@@ -53,10 +54,10 @@ class SpaceFrames {
     all_ = names.size();
     drawn_ = DrawnSpace::whole(mesh_);
     if (names.empty()) return;
-    const std::string last = path_of(names.back());
-    fields_ = cell_fields(file_, last, {.tensors = true});
+    last_ = path_of(names.back());
+    fields_ = cell_fields(file_, last_, {.tensors = true});
     if (affordable() < std::min(most_frames, all_))
-      fields_ = cell_fields(file_, last, {.tensors = false});
+      fields_ = cell_fields(file_, last_, {.tensors = false});
     pyramids_ = affordable() < std::min(fewest_frames, all_);
     if (pyramids_) drawn_ = DrawnSpace::pyramids(mesh_);
     const auto most = std::clamp<std::size_t>(affordable(), 1, most_frames);
@@ -66,8 +67,12 @@ class SpaceFrames {
   // Particle values compress to almost nothing.
   std::size_t affordable() const {
     const auto of_cells = std::ranges::count(fields_, false, &CellField::of_particle);
-    const std::size_t bytes =
+    std::size_t bytes =
         6 * drawn_.node_count() + 2 * drawn_.cell_count() * static_cast<std::size_t>(of_cells);
+    for (const auto& [dots, each] : {std::pair("/bonds/area", 10), {"/cracks/position", 12}})
+      if (file_.contains(last_ + dots))
+        bytes += static_cast<std::size_t>(each) *
+                 std::min<std::size_t>(max_dots, file_.shape(last_ + dots).at(0));
     return budget_ / std::max<std::size_t>(1, bytes);
   }
 
@@ -120,6 +125,7 @@ class SpaceFrames {
                                {"step", file_.number_attribute(frame, "step")},
                                {"profile", profile(frame)}});
     add_space_observed(file_, frame, prefix, head_["frames"].back(), sections_);
+    add_space_bonds(file_, frame, prefix, head_["frames"].back(), sections_);
   }
 
   Json profile(const std::string& frame) const {
@@ -155,6 +161,7 @@ class SpaceFrames {
   SpaceMesh mesh_;
   DrawnSpace drawn_;
   bool pyramids_ = false;
+  std::string last_;  // path of the last frame
   std::vector<std::string> frames_;
   std::vector<CellField> fields_;
   Codes first_;  // positions of the first frame

@@ -131,7 +131,7 @@ const char* damage_meaning(const Scene& scene) {
                      : "broken share of the length bonded at the start; NaN if nothing was bonded";
 }
 
-// Where the bonds and cracks are: lines in two dimensions, in three one entry per bonded face.
+// Where the bonds and cracks are: lines in two dimensions; in three one entry per bonded face, and points of the cracks.
 std::vector<FieldInfo> place_fields(const Scene& scene) {
   constexpr auto list = FieldPlace::list;
   const FieldInfo damage{"bonds/damage", "-", "mean of its bonded points, 0 ... 1", list, 1};
@@ -142,7 +142,9 @@ std::vector<FieldInfo> place_fields(const Scene& scene) {
         {"bonds/area", "m^2", "as in bonds/area: half of it where the other side is listed as well",
          list, 1},
         damage,
-        {"bonds/position", "m", "mean of its bonded points", list, 3}};
+        {"bonds/position", "m", "mean of its bonded points", list, 3},
+        {"cracks/position", "m", "of every row of /cracks so far: where its point is now", list,
+         3}};
   return {{"bonds/ids", "-",
            std::string("number of the particle whose edge it is; ") + other_meaning, list, 2, true},
           {"bonds/length", "m",

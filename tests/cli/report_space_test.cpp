@@ -205,6 +205,39 @@ TEST_F(SpaceReportTest, CarriesTheContactForcesOfEveryFrame) {
   EXPECT_FALSE(head_of(report_of(run))["frames"][0].contains("network"));
 }
 
+TEST_F(SpaceReportTest, ShowsBondsCracksAndFragmentsInSpace) {
+  EXPECT_FALSE(head_of(report_of({}))["frames"].back().contains("fragments"));
+  testing::SyntheticSpaceRun run;
+  run.bonds = true;
+  const std::string page = report_of(run);
+  const auto head = head_of(page);
+  EXPECT_EQ(head["frames"][0]["bonds"], 12);
+  EXPECT_EQ(head["frames"][0]["cracks"], 0);
+  EXPECT_EQ(head["frames"][0]["fragments"]["count"], 1);
+  const auto& middle = head["frames"][2];  // four of eight spheres have come off
+  EXPECT_EQ(middle["cracks"], 8);
+  EXPECT_EQ(middle["fragments"]["count"], 5);
+  EXPECT_DOUBLE_EQ(middle["fragments"]["number"][3].get<double>(), 0.8);
+  EXPECT_DOUBLE_EQ(middle["fragments"]["volume"][3].get<double>(), 0.5);
+  EXPECT_NEAR(middle["fragments"]["diameter"].back(), std::cbrt(4) * run.diameter, 1e-8);
+  for (const char* part : {"id=\"frame-0-bonds\"", "id=\"frame-4-cracks\"", "crack_area"})
+    EXPECT_THAT(page, HasSubstr(part));
+  std::vector<std::string> names;
+  for (const auto& field : head["fields"]) names.push_back(field["name"]);
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"damage", "fragment"}));
+}
+
+// All bonds and cracks are counted, and at most 20,000 drawn: the page stays small.
+TEST_F(SpaceReportTest, DrawsSomeOfVeryManyCracks) {
+  testing::SyntheticSpaceRun run{.columns = 20, .layers = 20, .divisions = 1, .rings = 1};
+  run.bonds = true;
+  run.contacts = run.densities = false;
+  run.frames = 2;
+  const std::string page = report_of(run);
+  EXPECT_EQ(head_of(page)["frames"][0]["bonds"], 3 * 20 * 20 * 19);
+  EXPECT_LT(page.size(), 15'000'000U);
+}
+
 TEST_F(SpaceReportTest, RefersTheDensityToTheDieOrThePowder) {
   testing::SyntheticSpaceRun run;
   run.die = true;

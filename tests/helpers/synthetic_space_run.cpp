@@ -13,6 +13,7 @@
 #include "engine/files/own_files.hpp"
 #include "engine/files/recorder.hpp"
 #include "engine/files/run_folder.hpp"
+#include "tests/helpers/synthetic_space_bonds.hpp"
 
 namespace pulvis::testing {
 namespace {
@@ -23,7 +24,6 @@ using Cube = std::array<int, 3>;
 constexpr double space_duration = 1e-3, space_yield = 290e6;
 constexpr int die_sides = 24;
 
-int spheres(const SyntheticSpaceRun& run) { return run.columns * run.columns * run.layers; }
 double space_squeeze(double share) { return 1 - 0.25 * share; }
 
 // One sphere of diameter 2: a cube and rings around it.
@@ -103,8 +103,7 @@ Ball ball_of(const SyntheticSpaceRun& run) {
 }
 
 Vec3 centre_of(const SyntheticSpaceRun& run, int sphere) {
-  const int c = run.columns;
-  return run.diameter * Vec3(sphere % c + 0.5, sphere / c % c + 0.5, sphere / (c * c) + 0.5);
+  return Vec3::Map(lattice_place(run, sphere).data());
 }
 
 // Every sphere's mesh is turned; as it is squeezed it gets flat sides.
@@ -241,6 +240,7 @@ std::vector<FieldInfo> space_fields(const SyntheticSpaceRun& run) {
       all.push_back({group + "normal_force", "N", "made up", FieldPlace::list, 1});
     }
   }
+  append_bond_fields_in_space(run, all);
   if (run.tools) all.push_back({"tools/outline", "m", "made up", FieldPlace::list, 3});
   return all;
 }
@@ -313,6 +313,7 @@ std::vector<std::vector<double>> space_frame_of(const SyntheticSpaceRun& run, co
                                           strain, coordination};
   if (run.densities) append_grid_in_space(run, share, values);
   if (run.contacts) append_contacts_in_space(run, share, values);
+  append_bonds_in_space(run, share, space_squeeze(share), values);
   if (run.tools) values.push_back(space_tool_corners(run, share));
   return values;
 }
@@ -321,6 +322,7 @@ std::vector<SeriesInfo> space_series(const SyntheticSpaceRun& run) {
   std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy"},
                                  {"energy/elastic", "J", "elastic energy"},
                                  {"energy/plastic", "J", "plastic work"}};
+  append_bond_series_in_space(run, all);
   if (!run.tools) return all;
   for (const std::string tool : {"top", "bottom"})
     for (const std::string axis : {"x", "y", "z"}) {
@@ -335,6 +337,7 @@ std::vector<double> space_row(const SyntheticSpaceRun& run, double share) {
   const double area = std::pow(run.columns * run.diameter, 2);
   const double force = space_yield * area * share * share * 3, work = 0.3 * force * run.diameter;
   std::vector<double> values{0.004 * work, 0.2 * work, 0.75 * work};
+  append_bond_row_in_space(run, share, values);
   if (!run.tools) return values;
   const double top = run.layers * run.diameter * space_squeeze(share);
   values.insert(values.end(), {0, 0.001 * force, 0, 0.002 * force, top, force});
@@ -344,12 +347,13 @@ std::vector<double> space_row(const SyntheticSpaceRun& run, double share) {
 }
 
 void space_write_summary(const SyntheticSpaceRun& run, const std::filesystem::path& folder) {
-  const nlohmann::ordered_json summary = {{"title", "Synthetic spheres"},
-                                          {"outcome", "done"},
-                                          {"steps", 94000},
-                                          {"elements", spheres(run) * elements_of_sphere(run)},
-                                          {"wall_seconds", 18.34},
-                                          {"relative_density", 0.93}};
+  nlohmann::ordered_json summary = {{"title", "Synthetic spheres"},
+                                    {"outcome", "done"},
+                                    {"steps", 94000},
+                                    {"elements", spheres(run) * elements_of_sphere(run)},
+                                    {"wall_seconds", 18.34},
+                                    {"relative_density", 0.93}};
+  if (run.bonds) summary["bonds"] = bond_summary_in_space(run);
   write_own(folder / "summary.json", role::run, summary.dump(2) + "\n");
 }
 
@@ -364,11 +368,13 @@ void record_in_space(const SyntheticSpaceRun& run, const std::filesystem::path& 
   open_run_folder(folder, true);
   const Ball ball = ball_of(run);
   Recorder recorder(folder, {"0.1.0", "0123abc", "Synthetic spheres", "f00d", 7, 2},
-                    space_mesh_of(run, ball), space_series(run), space_fields(run));
+                    space_mesh_of(run, ball), space_series(run), space_fields(run), simulated_time,
+                    bond_tables_in_space(run));
   const int samples = (run.frames - 1) * run.samples_a_frame;
   for (int i = 0; i <= samples; ++i) {
     const double share = static_cast<double>(i) / std::max(1, samples);
     recorder.sample(space_duration * share, space_row(run, share));
+    record_cracks_in_space(run, share, space_duration * share, recorder);
     if (i % run.samples_a_frame == 0)
       recorder.frame(space_duration * share, 94 * i, space_frame_of(run, ball, share));
   }

@@ -15,6 +15,7 @@ struct SyntheticSpaceRun {
   bool die = false;        // round, instead of four walls
   bool densities = true;   // in 3 x 2 x 4 cells
   bool contacts = true;    // forces of the lattice's neighbours, and of the punches
+  bool bonds = false;      // between the lattice's neighbours; the spheres come off one by one
   double diameter = 1e-3;  // m
 };
 

@@ -375,14 +375,17 @@ class FieldView {
     drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density || tag ? "-" : this.field.unit});
   }
 
+  bondsInWords() {
+    return ' Grey lines: bonds; cracks from orange (mode I) to blue (mode II).';
+  }
+
   tell() {
     const {run, frame, field} = this, {time, step} = run.frames[frame];
     const name = this.shown === "density" ? "Local relative density" : field ? titled(nameOf(field.name).words)
       : this.tag ? this.tag.names.length ? titled(this.tag.name) : "Particle number" : "Outlines";
     const meaning = field && this.shown !== "density" ? ` (${field.meaning})` : "";
     const contacts = this.lines?.length ? ` Lines: normal contact forces, widest ${withUnit(this.mostForce, "N")}.` : "";
-    const bonds =
-        this.bondLines ? ' Grey lines: bonds; cracks from orange (mode I) to blue (mode II).' : '';
+    const bonds = this.bondLines ? this.bondsInWords() : '';
     this.note.textContent = `${name}${meaning} at ${withUnit(time, 's')}, step ${
         step.toLocaleString('en')}.${contacts}${bonds}`;
     this.canvas.setAttribute("aria-label", `Picture of the particles. ${this.note.textContent} ` +

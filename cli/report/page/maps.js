@@ -37,15 +37,13 @@ function fragmentColour(number) {
 }
 
 // From opening to shear: mode I orange, mode II blue.
-function modeColour(share) {
+function modeRgb(share) {
   const points = [[213, 94, 0], [184, 155, 196], [0, 114, 178]],
         at = 2 * Math.min(Math.max(share, 0), 1);
   const i = at < 1 ? 0 : 1;
-  return `rgb(${
-      points[i]
-          .map((from, k) => Math.round(from + (at - i) * (points[i + 1][k] - from)))
-          .join(',')})`;
+  return points[i].map((from, k) => Math.round(from + (at - i) * (points[i + 1][k] - from)));
 }
+const modeColour = share => `rgb(${modeRgb(share).join(',')})`;
 
 // Dark or light text on a cell of this colour.
 function inkOn(share) {

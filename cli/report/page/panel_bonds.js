@@ -1,64 +1,77 @@
 // Breaking bonds: energies, cracks and fragments over time, and the fragment sizes in the current frame.
 'use strict';
 
-const hasBondSeries = run => run.has('bonds/crack_length') && run.times.length > 1;
+// Cracks have a length in two dimensions and an area in three; fragments an area, or a volume.
+const crackKind = run => run.inSpace || run.has('bonds/crack_area') ? 'area' : 'length';
+const fragmentKind = run => crackKind(run) === 'area' ? 'volume' : 'area';
+const hasBondSeries = run => run.has(`bonds/crack_${crackKind(run)}`) && run.times.length > 1;
 
 addFigures(run => {
   const {bonds} = run.summary;
   if (!bonds) return [];
+  const kind = 'crack_area' in bonds ? 'area' : 'length', cracks = bonds[`crack_${kind}`];
   return [
     [
       'fragments', countOf(bonds.fragments),
       bonds.broken ? `${countOf(bonds.broken)} of ${countOf(bonds.made)} bonded points broken` :
                      'no bond broken'
     ],
-    bonds.crack_length > 0 &&
+    cracks > 0 &&
         [
-          'crack length', withUnit(bonds.crack_length, 'm', 3),
+          `crack ${kind}`, withUnit(cracks, kind === 'area' ? 'm^2' : 'm', 3),
           `${percent(bonds.mode_2_share)} of its energy in mode II`
         ]
   ];
 });
 
-addCurves(run => !hasBondSeries(run) ? [] : [
-  {
-    title: 'Crack length',
-    xs: [timeAxis(run)],
-    y: 'crack length',
-    lines: [run.series('bonds/crack_length', 'crack length')]
-  },
-  {
-    title: 'Fragments',
-    xs: [timeAxis(run)],
-    y: 'fragments',
-    lines: [run.series('bonds/fragments', 'fragments')]
-  }
-]);
+addCurves(run => {
+  if (!hasBondSeries(run)) return [];
+  const kind = crackKind(run);
+  return [
+    {
+      title: `Crack ${kind}`,
+      xs: [timeAxis(run)],
+      y: `crack ${kind}`,
+      lines: [run.series(`bonds/crack_${kind}`, `crack ${kind}`)]
+    },
+    {
+      title: 'Fragments',
+      xs: [timeAxis(run)],
+      y: 'fragments',
+      lines: [run.series('bonds/fragments', 'fragments')]
+    }
+  ];
+});
 
-function bondPanel(title, order, y, names) {
+// names(run): the label of each series.
+function bondPanel(title, order, y, names, when = () => true) {
   addPanel({
     title,
     order,
-    when: run =>
-        hasBondSeries(run) && Object.keys(names).some(name => largest(run.values(name)) > 0),
+    when: run => hasBondSeries(run) && when(run) &&
+        Object.keys(names(run)).some(name => largest(run.values(name)) > 0),
     draw(report, host) {
-      const lines = Object.entries(names).map(([name, label]) => report.run.series(name, label));
+      const lines =
+          Object.entries(names(report.run)).map(([name, label]) => report.run.series(name, label));
       report.chart(host, {x: timeAxis(report.run), y, lines});
     },
   });
 }
-bondPanel('Bonds: crack length', 20, 'crack length', {'bonds/crack_length': 'broken so far'});
+for (const kind of ['length', 'area'])
+  bondPanel(
+      `Bonds: crack ${kind}`, 20, `crack ${kind}`,
+      () => ({[`bonds/crack_${kind}`]: 'broken so far'}), run => crackKind(run) === kind);
 bondPanel(
     'Bonds: energy', 21, 'energy',
-    {'energy/fracture': 'dissipated in breaking', 'energy/bonds': 'stored in bonds'});
-bondPanel('Bonds: fragments', 22, 'fragments', {'bonds/fragments': 'fragments'});
-bondPanel('Bonds: damage and largest fragment', 23, 'share', {
+    () => ({'energy/fracture': 'dissipated in breaking', 'energy/bonds': 'stored in bonds'}));
+bondPanel('Bonds: fragments', 22, 'fragments', () => ({'bonds/fragments': 'fragments'}));
+bondPanel('Bonds: damage and largest fragment', 23, 'share', run => ({
   'bonds/damage': 'broken share of the bonds',
-  'bonds/largest_fragment': 'area of the largest fragment'
-});
+  'bonds/largest_fragment': `${fragmentKind(run)} of the largest fragment`
+}));
 
-// Cumulative fractions up to a diameter, as steps; by number and by area.
-function drawSizes(ctx, width, height, {diameter, number, area}, most) {
+// Cumulative fractions up to a diameter, as steps; by number and by area or volume (`kind`).
+function drawSizes(ctx, width, height, kind, {diameter, number, [kind]: size}, most) {
   const unit = unitFor('m', most), left = 52, base = height - 40, top = 22, right = width - 14;
   const px = value => left + value / most * (right - left),
         py = share => base - share * (base - top);
@@ -83,9 +96,9 @@ function drawSizes(ctx, width, height, {diameter, number, area}, most) {
   }
   ctx.textAlign = 'left';
   ctx.lineWidth = 2;
-  [['of the area', area], ['of the number', number]].forEach(([label, shares], i) => {
+  [[`of the ${kind}`, size], ['of the number', number]].forEach(([label, shares], i) => {
     ctx.strokeStyle = ctx.fillStyle = theme().lines[i];
-    ctx.fillText(label, left + 110 * i, 12);
+    ctx.fillText(label, left + 120 * i, 12);
     ctx.beginPath();
     ctx.moveTo(px(0), py(0));
     diameter.forEach((value, k) => {
@@ -107,20 +120,21 @@ addPanel({
         1.02 *
         largest(
             frames.filter(frame => frame.fragments).map(frame => frame.fragments.diameter.at(-1)));
+    const kind = fragmentKind(report.run), body = kind === 'volume' ? 'sphere' : 'circle';
     report.figure(host, {
       title: 'Sizes of the fragments',
       shape: 0.75,
-      draw: (ctx, width, height, {fragments}) =>
-          drawSizes(ctx, width, height, fragments, most(report.beside.flatMap(run => run.frames))),
-      note: frame => `Share of the fragments up to a given diameter (of the circle of equal area): ` +
-          `${
-                         frame.fragments.count === 1 ?
-                             'one fragment' :
-                             `${countOf(frame.fragments.count)} fragments`} ${atTime(frame)}.`,
-      columns: ({fragments: {diameter, number, area}}) =>
+      draw: (ctx, width, height, {fragments}) => drawSizes(
+          ctx, width, height, kind, fragments, most(report.beside.flatMap(run => run.frames))),
+      note: frame => `Share of the fragments up to a given diameter (of the ${body} of equal ${
+          kind}): ${
+          frame.fragments.count === 1 ? 'one fragment' :
+                                        `${countOf(frame.fragments.count)} fragments`} ${
+          atTime(frame)}.`,
+      columns: ({fragments: {diameter, number, [kind]: size}}) =>
           [{label: 'equivalent diameter', unit: 'm', values: diameter},
            {label: 'share of the number', unit: '-', values: number},
-           {label: 'share of the area', unit: '-', values: area}]
+           {label: `share of the ${kind}`, unit: '-', values: size}]
     });
   },
 });

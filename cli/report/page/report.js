@@ -52,13 +52,14 @@ async function placePicture(report, host) {
   if (!solid) tick("same-range", "same colour scale in all frames", true, "sameRange");
   if (run.frames.some(frame => frame.network && frame.network.lines)) tick("contacts", "contact forces", false, "contacts");
   const hasBonds = run.frames.some(frame => frame.fragments);
-  if (hasBonds) tick('bonds', 'bonds and cracks', true, 'bonds');
+  const bonds = hasBonds && !run.inSpace;  // in three dimensions the particles in front are paled for them
+  if (hasBonds) tick('bonds', 'bonds and cracks', bonds, 'bonds');
   if (run.inSpace) controls.append(...spaceControls(view));
   const head = element("div", {className: "card-head"}, element("h2", {textContent: solid ? "Lever" : "Particles"}),
     saveButtons("picture", {PNG: () => saveCanvas(fileName(`${run.head.title} ${field.value} ${view.frame}`) + ".png", view.canvas)}));
   host.append(head, controls, place);
   timeline.listen(share => view.showShare(share));
-  await view.show({shown: field.value, bonds: hasBonds});
+  await view.show({shown: field.value, bonds});
 }
 
 function noteOfFrames({frames, head}) {

@@ -110,6 +110,7 @@ class Run {
     return network && network.lines ? this.kept_(`frame-${frame}-network`, floats) : new Float32Array();
   }
 
+  // Lines in two dimensions; in three, dots (cli/report/report_fragments.cpp).
   async bondLines(frame) {
     const {bonds, cracks} = this.frames[frame],
                   lines = (count, name) =>

@@ -22,6 +22,10 @@ function unitFor(unit, largest) {
     const chosen = chosenPrefixes.get(unit);
     return {factor: 1 / PREFIXES.find(([, prefix]) => prefix === chosen)[0], label: chosen + unit};
   }
+  if (unit === "m^2" && largest > 0) {  // m², mm², µm² ...: from 0.01 of each, or squares of a chosen unit
+    const {factor, label} = unitFor("m", 10 * Math.sqrt(largest));
+    return {factor: factor ** 2, label: label + "²"};
+  }
   if (!SCALED.has(unit) || !(largest > 0)) return {factor: 1, label: unit};
   const fits = ([size, prefix]) => largest >= size * 0.9995 && !(unit[0] === "m" && size > 1);
   const [size, prefix] = PREFIXES.find(fits) || PREFIXES[PREFIXES.length - 1];

@@ -113,7 +113,7 @@ function knownRows(run) {
 }
 
 // Units of other numbers; those of a lever's values are in the head of the page.
-const SUMMARY_UNITS = {begin: "s", end: "s", seconds_a_step: "s", crack_length: "m", fracture_energy: "J", crack_energy: "J",
+const SUMMARY_UNITS = {begin: "s", end: "s", seconds_a_step: "s", crack_length: "m", crack_area: "m^2", fracture_energy: "J", crack_energy: "J",
                        d10: "m", d50: "m", d90: "m", sensitivity: "N/V"};
 
 // All other entries, one row per number or text, nested names joined.

@@ -8,6 +8,18 @@
 namespace pulvis::space {
 namespace {
 
+PatchNumbers patch_of(const World& world, const Bodies::Slot& slot, const Shape::Face& face) {
+  return {world.column<SurfacePosition>().values() + 3 * std::ptrdiff_t{slot.first_control},
+          face.number.data()};
+}
+
+// The number of a point counts along u first.
+auto place_of_point(const PatchNumbers& patch, int point) {
+  return kernels::patch_slopes<double>(patch, entry(kernels::gauss_at, point % 4),
+                                       entry(kernels::gauss_at, point / 4))
+      .x;
+}
+
 struct BondedFaces {
   std::vector<double> ids, area, damage, position;
 
@@ -29,18 +41,14 @@ struct BondedFaces {
     const Bodies::Slot& slot = entry(bodies.slots, pair[0]);
     const Shape& shape = entry(world.resource<Shapes>().list, slot.shape);
     const Shape::Face& face = entry(shape.faces, pair[1]);
-    const PatchNumbers patch{
-        world.column<SurfacePosition>().values() + 3 * std::ptrdiff_t{slot.first_control},
-        face.number.data()};
+    const PatchNumbers patch = patch_of(world, slot, face);
     const double* of_point = world.column<BondDamage<At>>().values() + face_points * row;
     double sum = 0, areas = 0;
     std::array<double, 3> at{};
     for (unsigned left = bonded; left != 0; left &= left - 1) {
       const int g = std::countr_zero(left);
       const double weight = entry(face.weight, g);
-      const auto x = kernels::patch_slopes<double>(patch, entry(kernels::gauss_at, g % 4),
-                                                   entry(kernels::gauss_at, g / 4))
-                         .x;
+      const auto x = place_of_point(patch, g);
       sum += weight * of_point[g];
       areas += weight;
       at = {at[0] + weight * x.x, at[1] + weight * x.y, at[2] + weight * x.z};
@@ -53,6 +61,20 @@ struct BondedFaces {
   }
 };
 
+// Where the points of all cracks are now.
+std::vector<double> crack_positions(const World& world) {
+  std::vector<double> positions;
+  const Bodies& bodies = world.resource<Bodies>();
+  for (const Crack& crack : world.resource<BondTotals>().cracks) {
+    const Bodies::Slot& slot = entry(bodies.slots, crack.slot);
+    const Shape& shape = entry(world.resource<Shapes>().list, slot.shape);
+    const PatchNumbers patch = patch_of(world, slot, entry(shape.faces, crack.edge));
+    const auto at = place_of_point(patch, crack.point);
+    positions.insert(positions.end(), {at.x, at.y, at.z});
+  }
+  return positions;
+}
+
 }  // namespace
 
 void append_bonded_faces(const World& world, std::vector<std::vector<double>>& fields) {
@@ -61,6 +83,7 @@ void append_bonded_faces(const World& world, std::vector<std::vector<double>>& f
   all.add<FaceToolContact>(world);
   for (std::vector<double>* list : {&all.ids, &all.area, &all.damage, &all.position})
     fields.push_back(std::move(*list));
+  fields.push_back(crack_positions(world));
 }
 
 }  // namespace pulvis::space

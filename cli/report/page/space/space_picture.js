@@ -41,7 +41,22 @@ const SPACE_SHADERS = (() => {
     void main() { own = colour; gl_Position = seenAt(position); }`, `${head}
     in vec4 own; out vec4 shown;
     void main() { shown = vec4(own.rgb * own.a, own.a); }`];
-  return {surface, plain};
+  const dots = [`${head} ${view}
+    uniform float unit;
+    in vec4 position, colour; out vec4 own; out vec3 place;
+    void main() {
+      own = colour;
+      place = position.xyz;
+      gl_Position = seenAt(place);
+      gl_PointSize = max(2.0 * position.w * unit, 3.0);
+    }`, `${head}
+    in vec4 own; in vec3 place; uniform vec4 plane; out vec4 shown;
+    void main() {
+      float far = 2.0 * length(gl_PointCoord - 0.5);
+      if (far > 1.0 || dot(place, plane.xyz) > plane.w) discard;
+      shown = vec4(own.rgb * (far > 0.8 ? 0.7 : 1.0), 1.0);
+    }`];
+  return {surface, plain, dots};
 })();
 
 class SpacePicture {
@@ -90,6 +105,7 @@ class SpacePicture {
     if (!(plane && view.slice)) this.drawSurface(uniforms, view, plane);
     if (view.section) this.drawSection(uniforms, view.section, colours);
     if (view.showTools && view.corners) this.drawTools(uniforms, view);
+    if (view.bondLines) this.drawDots(uniforms, view, plane);
     if (view.lines?.length) this.drawNetwork(uniforms, view, plane);
   }
 
@@ -98,14 +114,16 @@ class SpacePicture {
             deep: 0.1, nearer: 0};  // tools may extend far outside
   }
 
+  static planeOf(plane) { return plane ? [...plane.normal, plane.offset] : [0, 0, 0, 1]; }
+
   drawSurface(uniforms, view, plane) {
     const {gl, programs: {surface}} = this;
     gl.useProgram(surface.program);
     gl.bindVertexArray(this.empty);
-    const pale = view.lines?.length ? 0.7 : 0;  // behind the contact forces
+    const pale = view.lines?.length || view.bondLines ? 0.7 : 0;  // behind the contact forces or cracks
     twgl.setUniforms(surface, {...uniforms, ...Object.fromEntries(this.textures), edges: view.edges ? 1 : 0,
                                paper: [...(isDark() ? [0.12, 0.15, 0.19] : [1, 1, 1]), pale],
-                               plane: plane ? [...plane.normal, plane.offset] : [0, 0, 0, 1]});
+                               plane: SpacePicture.planeOf(plane)});
     gl.drawArrays(gl.TRIANGLES, 0, 6 * this.surface.cell.length);
   }
 
@@ -138,6 +156,21 @@ class SpacePicture {
     gl.enable(gl.BLEND);
     this.drawPlain(uniforms, gl.LINES, lines.at, lines.colour, {nearer: 4e-5});
     gl.disable(gl.BLEND);
+  }
+
+  // In front of all particles.
+  drawDots(uniforms, view, plane) {
+    const {gl, programs: {dots}} = this, {position, colour} = view.bondDots();
+    if (!position.length) return;
+    const buffers = twgl.createBufferInfoFromArrays(gl, {position: {numComponents: 4, data: position},
+      colour: {numComponents: 4, data: colour, normalize: true}});
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.bindVertexArray(null);
+    gl.useProgram(dots.program);
+    twgl.setBuffersAndAttributes(gl, dots, buffers);
+    twgl.setUniforms(dots, {...uniforms, unit: view.place.unit * view.place.ratio, plane: SpacePicture.planeOf(plane)});
+    twgl.drawBufferInfo(gl, buffers, gl.POINTS);
+    Object.values(buffers.attribs).forEach(({buffer}) => gl.deleteBuffer(buffer));
   }
 
   // In front of all particles, nearer bands over farther ones, as bands that face the viewer, with a white outline.

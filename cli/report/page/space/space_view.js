@@ -82,6 +82,22 @@ class SpaceView extends FieldView {
     return bands;
   }
 
+  // Bonds and cracks as discs with a quarter of the area of each, so that neighbours stay apart: {position: three fractions
+  // and the radius, colour: four bytes}.
+  bondDots() {
+    const {bonds, cracks} = this.bondLines, {width, run: {head: {low}}} = this, grey = isDark() ? [154, 166, 180] : [91, 102, 114];
+    const position = new Float32Array(bonds.length + cracks.length / 5 * 4), colour = new Uint8Array(position.length).fill(255);
+    let to = 0;
+    const add = (dots, i, rgb) => {
+      position.set([...[0, 1, 2].map(k => (dots[i + k] - low[k]) / width), Math.sqrt(dots[i + 3] / Math.PI) / 2 / width], to);
+      colour.set(rgb, to);
+      to += 4;
+    };
+    for (let i = 0; i < bonds.length; i += 4) add(bonds, i, grey);
+    for (let i = 0; i < cracks.length; i += 5) add(cracks, i, modeRgb(cracks[i + 4]));
+    return {position, colour};
+  }
+
   draw() {
     if (!this.position) return;
     const start = performance.now();
@@ -108,6 +124,7 @@ class SpaceView extends FieldView {
     this.fit.hidden = !this.isMoved();
     this.canvas.dataset.drawnIn = (performance.now() - start).toFixed(1);
     this.canvas.dataset.drawn = `${this.frame} ${this.shown}`;
+    this.canvas.dataset.cracks = this.bondLines ? this.bondLines.cracks.length / 5 : "";
     this.canvas.dataset.contacts = this.lines ? this.lines.length / 7 : "";
     this.canvas.dataset.cells = this.section ? this.section.cell.length : "";
   }
@@ -124,6 +141,13 @@ class SpaceView extends FieldView {
       ctx.stroke();
       ctx.fillText(name, x0 + 1.4 * long * x, y0 - 1.4 * long * y + 4);
     });
+  }
+
+  bondsInWords() {
+    const {bonds, cracks} = this.run.frames[this.frame], drawn = this.bondLines;
+    const part = (all, count) => all > count ? ` (${countOf(count)} of ${countOf(all)} drawn)` : "";
+    return ` Dots: bonds grey${part(bonds, drawn.bonds.length / 4)}; cracks from orange (mode I) to blue (mode II)` +
+      `${part(cracks, drawn.cracks.length / 5)}.`;
   }
 
   cutInWords() {
