@@ -20,7 +20,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from pulvis.errors import RunError
-from pulvis.figures import afm, bonds, curves, densities, fields, network, space, space_density
+from pulvis.figures import afm, bonds, curves, densities, fields, network, space, space_bonds, space_density
 from pulvis.figures.animation import animate
 from pulvis.figures.look import Options
 from pulvis.figures.names import capital, name_of
@@ -126,8 +126,13 @@ class Plot:
         return self._drawn(draw, "density", options_of(look, frame=frame), ax)
 
     def cracks(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Fragments, bonds, and cracks by mode."""
-        return self._drawn(bonds.cracks, "cracks", options_of(look, frame=frame), ax)
+        """Fragments, bonds, and cracks by mode. In three dimensions, bonds and cracks are dots in particles seen through."""
+        draw = space_bonds.space_cracks if self._run.in_space else bonds.cracks
+        return self._drawn(draw, "cracks", options_of(look, frame=frame), ax)
+
+    def breaking(self, **look: Any) -> tuple[Figure, Axes]:
+        """Crack length or area, bond energies and number of fragments over time, one above the other."""
+        return self._drawn(bonds.breaking, "cracks", options_of(look))
 
     def fragment_sizes(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Fragment size distribution."""

@@ -160,6 +160,33 @@ class Frame:
             columns.update({key: (part, unit) for key, part in parts.items()})
         return table(columns, name="contact")
 
+    def _listed(self, group: str) -> dict[str, tuple[Any, str]]:
+        """Columns of a group of lists, as recorded by scenes with bonds that break."""
+        if group not in self.group:
+            raise RunError(f"frame {self.number} has no {group}: the scene needs [[bond]] of origin initial or pressed",
+                           self._run.folder, key="bond")
+        columns = {}
+        for name, data in self.group[group].items():
+            values, unit = data[()], data.attrs["unit"]
+            if name == "ids":
+                columns.update({"particle": (values[:, 0], unit), "other": (values[:, 1], unit)})
+            elif values.ndim == 1:
+                columns[name] = (values, unit)
+            else:
+                columns.update({axis if name == "position" else f"{name}_{axis}": (values[:, k], unit)
+                                for k, axis in zip(range(values.shape[1]), "xyz")})
+        return columns
+
+    def bonds(self) -> DataFrame:
+        """DataFrame of the bonds: `particle`, `other` (for a tool: -1 - its position in the scene), `damage`; in two
+        dimensions lines along edges, `length` and `start_x` to `end_y`; in three faces, `area` and `x`, `y`, `z`."""
+        return table(self._listed("bonds"), name="bond")
+
+    def fragments(self) -> DataFrame:
+        """DataFrame of the fragments: `number` (their lowest particle number), `particles`, and undeformed `area`, in
+        three dimensions `volume`."""
+        return table(self._listed("fragments"), name="fragment")
+
 
 class Run:
     """A run folder. Data is as written at the time of opening; `refresh()` reads it again."""
@@ -362,6 +389,22 @@ class Run:
     def network(self, frame: int = -1, tools: bool = False) -> DataFrame:
         """The contacts of a frame: see Frame.network."""
         return self.frame(frame).network(tools)
+
+    def bonds(self, frame: int = -1) -> DataFrame:
+        """The bonds of a frame: see Frame.bonds."""
+        return self.frame(frame).bonds()
+
+    def fragments(self, frame: int = -1) -> DataFrame:
+        """The fragments of a frame: see Frame.fragments."""
+        return self.frame(frame).fragments()
+
+    def cracks(self) -> DataFrame:
+        """DataFrame of all bonded points that broke, in order: `time`, `x`, `particle`, `shear`, `length` or `area` ..."""
+        if "cracks" not in self.file:
+            raise RunError(f"{self.folder} has no cracks: the scene needs [[bond]] of origin initial or pressed",
+                           self.folder, key="bond")
+        columns = {name: (data[()], data.attrs["unit"]) for name, data in self.file["cracks"].items()}
+        return table(columns, name="crack")
 
     @property
     def calibration(self) -> dict[str, Any] | None:

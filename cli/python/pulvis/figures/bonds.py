@@ -13,6 +13,7 @@ from pulvis.figures.tools import draw_tools, outlines
 BOND_FIELDS = ("damage", "fragment")  # fields with bonds and cracks drawn on top
 MODES = LinearSegmentedColormap.from_list("modes", ["#d55e00", "#b89bc4", "#0072b2"])
 BOND_COLOUR = "#5b6672"
+SHEAR = "Share of shear (0 mode I, 1 mode II)"
 
 
 def lines_of(frame, group):
@@ -35,11 +36,16 @@ def draw_bonds(run, figure, axes, frame, cell, alone=False):
     if not len(broken):
         return
     if alone:
-        bar_beside(figure, axes, drawn, "Share of shear (0 mode I, 1 mode II)")
+        bar_beside(figure, axes, drawn, SHEAR)
     elif figure is not None:
         bar = figure.colorbar(drawn, ax=axes, location="bottom", shrink=0.8, aspect=40,
-                              label="Cracks: share of shear (0 mode I, 1 mode II)")
+                              label=f"Cracks: {SHEAR[0].lower()}{SHEAR[1:]}")
         bar.outline.set_visible(False)
+
+
+def cracks_title(frame):
+    count = len(frame["fragments/number"])
+    return f"Cracks at {moment(frame)}: {count} fragment{'' if count == 1 else 's'}"
 
 
 def cracks(run, options=None, into=None):
@@ -62,8 +68,7 @@ def cracks(run, options=None, into=None):
     draw_bonds(run, figure, axes, frame, cell, alone=True)
     draw_tools(run, axes, frame, limits / 1e3)
     set_axes(axes, limits)
-    count = len(frame["fragments/number"])
-    options.head(axes, f"Cracks at {moment(frame)}: {count} fragment{'' if count == 1 else 's'}", run)
+    options.head(axes, cracks_title(frame), run)
     close_up(figure, options, into)
     ends = np.concatenate([frame["cracks/start"][()], frame["cracks/end"][()]], axis=1).T
     of_crack = [(name, run.file[f"cracks/{name}"]) for name in ("time", "length", "shear", "energy")]
@@ -73,13 +78,14 @@ def cracks(run, options=None, into=None):
 
 
 def breaking(run, options=None):
-    """Crack length, bond energies and number of fragments over time."""
+    """Crack length (in three dimensions: area), bond energies and number of fragments over time."""
     options = options or Options()
-    if not run.has("bonds/crack_length"):
+    broken, si = ("bonds/crack_area", "m^2") if run.in_space else ("bonds/crack_length", "m")
+    if not run.has(broken):
         return None
     time = run.series("time")
     factor, unit = unit_for("s", time)
-    groups = [("bonds/crack_length", "m", {"bonds/crack_length": "broken so far"}),
+    groups = [(broken, si, {broken: "broken so far"}),
               (("energy", "E"), "J", {"energy/fracture": "dissipated in breaking", "energy/bonds": "stored in bonds"}),
               ("bonds/fragments", "-", {"bonds/fragments": "fragments"})]
     figure, places = plt.subplots(len(groups), figsize=options.size(6.4, 6.6), sharex=True, constrained_layout=True)
@@ -100,28 +106,31 @@ def breaking(run, options=None):
     return figure
 
 
-def cumulative(area):
-    """Equivalent diameters in ascending order, with cumulative fractions by number and by area."""
-    area = np.sort(area)
-    count = np.arange(1, len(area) + 1) / len(area)
-    return np.sqrt(4 * area / np.pi), count, np.cumsum(area) / area.sum()
+def cumulative(size, in_space=False):
+    """Equivalent diameters in ascending order, with cumulative fractions by number and by size: areas, or volumes."""
+    size = np.sort(size)
+    count = np.arange(1, len(size) + 1) / len(size)
+    diameter = np.cbrt(6 * size / np.pi) if in_space else np.sqrt(4 * size / np.pi)
+    return diameter, count, np.cumsum(size) / size.sum()
 
 
 def fragment_sizes(run, options=None, axes=None):
+    """Cumulative distribution of the equivalent diameters: of circles of the same area, or spheres of the same volume."""
     options = options or Options()
+    kind = "volume" if run.in_space else "area"
     frame = recorded(run, options, "fragments")
-    if frame is None or len(frame["fragments/area"]) < 2:
+    if frame is None or len(frame[f"fragments/{kind}"]) < 2:
         return None
-    diameter, number, area = cumulative(frame["fragments/area"][()])
+    diameter, number, size = cumulative(frame[f"fragments/{kind}"][()], run.in_space)
     factor, unit = unit_for("m", diameter)
     figure, axes = sheet(options, (6.4, 4.2), axes)
     x = factor * np.concatenate([[0], diameter])
-    for label, share in (("of the area", area), ("of the number", number)):
+    for label, share in ((f"of the {kind}", size), ("of the number", number)):
         axes.step(x, 100 * np.concatenate([[0], share]), where="post", label=label)
     axes.set(xlabel=worded(("equivalent diameter", "d"), unit), ylabel="Cumulative share / %",
              xlim=(0, 1.03 * x[-1]), ylim=(0, 102))
     options.head(axes, f"Sizes of {len(diameter)} fragments at {moment(frame)}", run)
     axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
     figure.table = [("equivalent diameter", "m", diameter), ("share of the number", "-", number),
-                    ("share of the area", "-", area)]
+                    (f"share of the {kind}", "-", size)]
     return figure

@@ -28,6 +28,7 @@ from pulvis.figures.network import contact_network, rose
 from pulvis.figures.probe import figures_of_probe
 from pulvis.figures.quantities import inches, length
 from pulvis.figures.space import asked_place, section_picture, space_network, space_picture, space_profile
+from pulvis.figures.space_bonds import space_cracks
 from pulvis.figures.space_density import density_slice
 from pulvis.figures.study import figures_of_study
 from pulvis.results import Run
@@ -38,7 +39,8 @@ PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "energies": ener
                  "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
                  "breaking": breaking, "fragment_sizes": fragment_sizes}
 SPACE_FIGURES = {"section": section_picture, "local_density": density_slice, "density_profile": space_profile,
-                 "contact_network": space_network, "force": forces, "stress_ratio": stress_ratio, "energies": energies}
+                 "contact_network": space_network, "force": forces, "stress_ratio": stress_ratio, "energies": energies,
+                 "cracks": space_cracks, "breaking": breaking, "fragment_sizes": fragment_sizes}
 OF_A_FIELD = (field_picture, space_picture, section_picture)
 LIKE_EVERY_FIGURE = {"limits": None}  # colour limits apply to a single field
 

@@ -20,6 +20,9 @@ def unit_for(unit, values):
     most = finite.max() if finite.size else 0
     if unit in ("-", ""):
         return 1.0, ""
+    if unit == "m^2" and most > 0:  # m², mm², µm² ...: from 0.01 of each
+        factor, shown = unit_for("m", 10 * np.sqrt(most))
+        return factor**2, shown + "^2"
     if unit not in SCALED or not most > 0:
         return 1.0, unit
     for size, prefix in PREFIXES:
@@ -69,7 +72,8 @@ def factor_of(unit, si):
         return 0.01
     unit = unit.replace("μ", "µ")
     unit = "µ" + unit[1:] if unit.startswith("u") else unit
-    sizes = [size for size, prefix in [*PREFIXES, (1e-12, "p")] if unit == prefix + si]
+    power = 2 if si == "m^2" else 1
+    sizes = [size**power for size, prefix in [*PREFIXES, (1e-12, "p")] if unit == prefix + si]
     return sizes[0] if sizes else None
 
 
