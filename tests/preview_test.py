@@ -36,6 +36,39 @@ CHOSEN = ["afm/calibration-beam", "afm/colloid-316l", "afm/force-curve", "afm/in
           "compaction/ejection-25", "compaction/random-100", "compaction-3d/tablet-adhesion",
           "extreme/friction-20-cycles", "extreme/one-particle-free", "extreme/size-metres",
           "extreme/size-micrometres", "periodic/cap-die", "periodic/shear", "shear/grooves-16", "shear/stick-slip"]
+# Two cylinders, glued end to end, above a floor.
+GLUED = """
+family = "compaction"
+dimension = 3
+material = [{ name = "stone", density = "2000 kg/m^3", youngs_modulus = "20 GPa", poissons_ratio = 0.0 }]
+body = [{ particle = "rod", position = ["0 mm", "0 mm", "0.506 mm"] }, { particle = "rod", position = ["0 mm", "0 mm", "1.518 mm"] }]
+tool = [{ name = "floor", shape = "plane", point = ["0 mm", "0 mm", "0 mm"], normal = [0, 0, 1] }]
+stage = [{ name = "rest", kind = "settle", duration = "10 us" }]
+
+[[bond]]
+between = ["stone", "stone"]
+origin = "initial"
+reach = 0.3
+strength = "100 MPa"
+fracture_energy = "2 kJ/m^2"
+
+[[bond]]
+between = ["stone", "floor"]
+origin = "pressed"
+threshold = "5 MPa"
+growth = 0.1
+strength = "50 MPa"
+fracture_energy = "2 kJ/m^2"
+
+[[particle]]
+name = "rod"
+material = "stone"
+shape = "cylinder"
+diameter = "1 mm"
+height = "1 mm"
+rounding = "0.05 mm"
+mesh = { divisions = 3, rings = 2, axial_divisions = 6, grid = "extruded" }
+"""
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -178,6 +211,19 @@ class PreviewTest(unittest.TestCase):
                 self.assertEqual(list(overlaps(figure)), [])
                 plt.close(figure)
         self.assertEqual(MUST_COVER - covered, set())
+
+    def test_bonds_in_space_are_listed_with_the_faces_they_start_on(self):
+        scene = Path(self.folder.name) / "glued.toml"
+        scene.write_text(GLUED)
+        setup, _ = self.setup_of(scene)
+        self.assertEqual([(law["origin"], law["strength"]) for law in setup["bonds"]["laws"]], [("initial", 1e8), ("pressed", 5e7)])
+        self.assertGreater(setup["bonds"]["faces"], 20)
+        figure = draw(setup)
+        written = " ".join(text.get_text() for text in texts_of(figure)).replace("\n", " ")
+        for line in ("stone – stone: from the start, strength 100 MPa", f"{setup['bonds']['faces']} faces bonded at the start",
+                     "stone – floor: formed by pressure, strength 50 MPa"):
+            self.assertIn(line, written)
+        plt.close(figure)
 
     def test_numbers_are_read_as_an_engineer_writes_them(self):
         for value, unit, text in ((50e-3, "m", "50 mm"), (5.0000001e-4, "m", "500 µm"), (2, "m", "2 m"), (3e3, "m", "3,000 m"),

@@ -11,6 +11,7 @@
 #include "cli/preview/stage_setup.hpp"
 #include "components/contact.hpp"
 #include "components/space/body.hpp"
+#include "components/space/bond.hpp"
 #include "engine/access.hpp"
 #include "scenes/space/results/tool_sheets.hpp"
 #include "scenes/space/results/visit_particles.hpp"
@@ -126,6 +127,22 @@ json tools_in_space(const Scene& scene, const json& particles, const World& worl
   return out;
 }
 
+// How many faces are bonded at the start; both sides of a pair count.
+template <class At>
+std::ptrdiff_t bonded_faces(const World& world) {
+  if (!world.has<space::BondedPoints<At>>()) return 0;
+  const auto& points = world.column<space::BondedPoints<At>>();
+  std::ptrdiff_t faces = 0;
+  for (std::size_t r = 0; r < points.table.rows; ++r) faces += points.values()[2 * r] != 0;
+  return faces;
+}
+
+json bonds_in_space(const Scene& scene, const World& world) {
+  return {{"laws", bond_laws(scene)},
+          {"edges", json::array()},
+          {"faces", bonded_faces<FaceContact>(world) + bonded_faces<FaceToolContact>(world)}};
+}
+
 json stages_in_space(const Scene& scene) {
   const space::SpaceScene& space = *scene.space;
   json stages = stage_setup(scene);  // without moves and servos, which are in `space`
@@ -160,7 +177,7 @@ json space_setup(const Scene& scene, const std::vector<space::BodySpec>& bodies,
              {"particles", particles_in_space(scene, bodies, world)},
              {"count", bodies.size()},
              {"stages", stages_in_space(scene)},
-             {"bonds", {{"laws", bond_laws(scene)}, {"edges", json::array()}}}};
+             {"bonds", bonds_in_space(scene, world)}};
   setup["classes"] = classes_in_space(scene, bodies, setup["particles"]);
   setup["tools"] = tools_in_space(scene, setup["particles"], world);
   return setup;

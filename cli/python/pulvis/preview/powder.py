@@ -261,6 +261,8 @@ class PowderDrawing:
             column.line(text + (", inside particles" if law["inside"] else ""))
         if bonds["edges"]:
             column.line(f"{len(bonds['edges']):,} edges bonded at the start", {"facecolor": BOND, "edgecolor": BOND})
+        if bonds.get("faces"):
+            column.line(f"{words.counted(bonds['faces'], 'face')} bonded at the start")
 
     def stages(self):
         stages = self.setup["stages"]
