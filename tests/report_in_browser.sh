@@ -63,6 +63,7 @@ check ShowsParticlesInABox "${in_space[@]}"
 drivers=() wanted=driven
 check StandsInAComparison "${everything[@]}" fit material
 check ShowsBondsCracksAndFragmentsInSpace "${everything[@]}" fit material bonds contacts
+grep -q '0\.14 mm²' "$work/page.html" || fail "cracks in space: no area of 7 bonds of 0.02 mm²"
 body=$(body_of "in space" "$reports/StaysBelowAQuarterOfItsLimitWithAQuarterOfTheFrames/report.html" 1200,2000 ready)
 [[ $body =~ data-ready-in=\"([0-9]+)\" && ${BASH_REMATCH[1]} -le 10000 ]] || fail "in space: not ready in 10 s: $body"
 picture_of "$reports/StaysBelowAQuarterOfItsLimitWithAQuarterOfTheFrames/report.html" 1200,2000 "$reports/in-space.png"

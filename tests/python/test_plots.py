@@ -15,7 +15,7 @@ from PIL import Image
 import pulvis
 from pulvis.figures.lever_film import VISIBLE, magnification
 from pulvis.figures.names import label, name_of, over, plain
-from pulvis.figures.quantities import inches, limits_of
+from pulvis.figures.quantities import inches, limits_of, unit_for
 
 
 @pytest.fixture(autouse=True)
@@ -349,6 +349,10 @@ def test_lengths_and_ranges_are_read_with_their_units():
     assert limits_of(":2 kN", "N") == (None, 2000) and limits_of((0.5, None), "-") == (0.5, None)
     assert limits_of("5 um:0.1mm", "m") == pytest.approx((5e-6, 1e-4)) and limits_of("0:50 %", "-") == (0, 0.5)
     assert limits_of((-1, 1), "Pa") == (-1, 1)
+    assert limits_of("0:2 mm^2", "m^2") == pytest.approx((0, 2e-6))
+    for most, shown in ((2e-8, "mm^2"), (0.5e-8, "µm^2"), (3e-3, "mm^2"), (0.02, "m^2"), (1e-12, "µm^2")):
+        factor, unit = unit_for("m^2", [0, most])
+        assert unit == shown and 0.01 <= factor * most < 1e4
 
 
 def test_a_lever_s_film_has_its_frames_and_marks_the_forces(loop, tmp_path):
