@@ -2,7 +2,7 @@
 'use strict';
 
 // Cracks have a length in two dimensions and an area in three; fragments an area, or a volume.
-const crackKind = run => run.inSpace || run.has('bonds/crack_area') ? 'area' : 'length';
+const crackKind = run => run.has('bonds/crack_area') ? 'area' : 'length';
 const fragmentKind = run => crackKind(run) === 'area' ? 'volume' : 'area';
 const hasBondSeries = run => run.has(`bonds/crack_${crackKind(run)}`) && run.times.length > 1;
 
