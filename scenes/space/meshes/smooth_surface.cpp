@@ -20,8 +20,10 @@ constexpr double usual_c = 1.0 / 12;
 constexpr double least_c = 0, most_c = 0.25;
 // Weights that keep c and the lines at irregular nodes at their usual values, relative to the fit of the surface.
 constexpr double stay = 1e-3, stay_turned = 1e-4;
-constexpr double flat =
-    1e-8;  // U^2 over its maximum, below which the springs stay constant: where U is 0, only they determine the solution
+// Where |U . n| is less than this fraction of its maximum, the surface is flat: c does not matter to its shape there, and must
+// not differ from node to node. Uniform pressure would otherwise load the nodes unevenly, and push a checkerboard of them
+// through a tool.
+constexpr double flat = 0.25;
 // The largest changes of a, which is normally 1, and of b (smooth_surface.hpp): larger ones, which sharp shapes with few
 // faces require, reverse tangents and fold the surface.
 constexpr std::array most_change{0.75, 0.2};
@@ -87,7 +89,10 @@ class Fit {
       : net_(net), surface_(surface), frames_(spline_frames(net)), c_(count(), usual_c) {
     for (int i = 0; i < net.nodes(); ++i) nodes_.push_back(vector_of(entry(shape.nodes, i)));
     for (int i = 0; i < net.nodes(); ++i) u_.push_back(value_of(umbrella(net, i), nodes_));
-    for (const Vec3& u : u_) least_u2_ = std::max(least_u2_, flat * u.squaredNorm());
+    for (int i = 0; i < net.nodes(); ++i)
+      normal_u_.push_back(
+          std::abs(entry(u_, i).dot(surface.normal(entry(nodes_, i).normalized()))));
+    most_u_ = *std::ranges::max_element(normal_u_);
     for (int i = 0; i < fits; ++i) improve_smoothing();
     turn_as_far_as_good();
   }
@@ -124,14 +129,18 @@ class Fit {
     solve(by_c, off);
   }
 
-  double held_by(const Vec3& u) const { return std::max(u.squaredNorm(), least_u2_); }
+  // m^2: weak, but firm where the surface is flat.
+  double spring_of(int node, double weak) const {
+    const double missing = std::max(flat * most_u_ - entry(normal_u_, node), 0.0) / flat;
+    return weak * entry(u_, node).squaredNorm() + missing * missing;
+  }
 
-  // Least squares of the distances, with each c held at its usual value by a weak spring.
+  // Least squares of the distances, with each c held at its usual value by a spring.
   void solve(const Sparse& by_c, const Eigen::VectorXd& off) {
     Sparse normal = by_c.transpose() * by_c;
     Eigen::VectorXd right = by_c.transpose() * off;
     for (int i = 0; i < net_.nodes(); ++i) {
-      const double spring = stay * held_by(entry(u_, i));
+      const double spring = spring_of(i, stay);
       normal.coeffRef(i, i) += spring;
       right[i] += spring * (usual_c - entry(c_, i));
     }
@@ -241,7 +250,8 @@ class Fit {
     }
     if (!irregular) return;
     demand(surface_.normal(at.normalized()), 1, 0);
-    square.diagonal().array() += stay_turned * held_by(u);
+    square.diagonal().array() +=
+        std::max(stay_turned * u.squaredNorm(), std::numeric_limits<double>::min());
     const Eigen::Vector2d change = bounded_change(square, right);
     Combination turned;
     add(turned, frame.along[line], 1 + change[0]);
@@ -256,7 +266,8 @@ class Fit {
   double share_ = 1;  // of most_change
   Likeness reached_;
   std::vector<Vec3> nodes_, u_;
-  double least_u2_ = std::numeric_limits<double>::min();  // m^2
+  std::vector<double> normal_u_;  // m, [nodes]
+  double most_u_ = 0;             // m
 };
 
 void store(const Combination& combination, Shape::Terms& terms) {

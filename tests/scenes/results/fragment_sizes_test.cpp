@@ -15,7 +15,7 @@ TEST(FragmentSizes, AddUpTheParticlesOfEachFragment) {
   const std::vector<double> area{1, 2, 4, 8, 16};
   const auto sizes = fragment_sizes(of, area);
   ASSERT_EQ(sizes.size(), 3U);
-  EXPECT_THAT((std::vector{sizes[0].area, sizes[1].area, sizes[2].area}), ElementsAre(5, 18, 8));
+  EXPECT_THAT((std::vector{sizes[0].size, sizes[1].size, sizes[2].size}), ElementsAre(5, 18, 8));
   EXPECT_THAT((std::vector{sizes[0].number, sizes[1].number, sizes[2].number}),
               ElementsAre(0, 1, 3));
   EXPECT_THAT((std::vector{sizes[0].particles, sizes[1].particles, sizes[2].particles}),
@@ -30,6 +30,7 @@ TEST(FragmentSizes, AreCountedOrWeighed) {
   const SizeDistribution by_number(pieces, Weight::number), by_area(pieces, Weight::size);
   const double small = equivalent_diameter(1, 2), large = equivalent_diameter(91, 2);
   EXPECT_DOUBLE_EQ(small * small * std::numbers::pi / 4, 1);
+  EXPECT_DOUBLE_EQ(equivalent_diameter(std::numbers::pi / 6, 3), 1);  // a sphere
   EXPECT_EQ(by_number.diameter(0.1), small);
   EXPECT_EQ(by_number.diameter(0.9), small);
   EXPECT_EQ(by_number.diameter(0.91), large);
