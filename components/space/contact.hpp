@@ -36,6 +36,11 @@ struct SurfaceVelocity : Component<ParticleSurface, double, 3> {
 struct SurfaceBefore : Component<ParticleSurface, double, 3> {
   static constexpr ComponentInfo info{"before", "m", "where it was when the candidates were made"};
 };
+// Whether any surface node of a particle is farther from the smooth surface than its slack.
+struct Roughness : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"roughness", "m^2",
+                                      "largest square of that distance minus that of the slack"};
+};
 struct FaceForce : Component<SurfaceFace, double, face_numbers> {
   static constexpr ComponentInfo info{"force", "N",
                                       "of all contacts, on a face's Bezier points: all x, y, z"};

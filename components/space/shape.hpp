@@ -96,6 +96,13 @@ struct Shape {
         weight{};  // m^2: undeformed area of each Gauss point
   };
 
+  // A surface node and the point of the smooth surface that belongs to it (systems/space/contact/node_springs.hpp).
+  struct SurfaceNode {
+    std::int32_t point = 0;  // Bezier point
+    double slack = 0;        // m: how far apart they may be
+    double stiffness = 0;    // m: area of the node times area over volume of the elements behind it
+  };
+
   std::string name;
   std::vector<Point> nodes;  // m; surface nodes first
   int surface_nodes = 0;
@@ -104,6 +111,7 @@ struct Shape {
   std::vector<std::array<GaussPoint, 8>> gauss;  // [elements]
   std::vector<double> nodal_volume;              // m^3, lumped: times density gives the nodal mass
   std::vector<Face> faces;
+  std::vector<SurfaceNode> surface_node;  // [surface nodes]
   Terms net;  // [surface nodes], in terms of surface nodes
   // [Bezier points], in terms of the net; in face order, padded to a multiple of eight by complete_points().
   Terms points;

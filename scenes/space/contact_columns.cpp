@@ -171,6 +171,7 @@ void add_surfaces(World& world, const Touching& touching) {
   world.add<SurfaceBefore>();
   world.add<FaceForce>();
   world.add<MaximumSpeed>();
+  world.add<Roughness>();
   if (touching.friction || touching.damping) world.add<SurfaceVelocity>();
 }
 

@@ -10,6 +10,7 @@
 
 #include "scenes/space/meshes/bezier_patch.hpp"
 #include "scenes/space/meshes/surface_points.hpp"
+#include "systems/space/contact/node_springs.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -309,6 +310,21 @@ void store_faces(Shape& shape, const SurfaceNet& net) {
   }
 }
 
+// The surface nodes, with the points at the corners of their faces.
+void measure_nodes(Shape& shape, const std::vector<Vec3>& points) {
+  constexpr std::array corner_point{0, 3, 15, 12};
+  shape.surface_node.assign(static_cast<std::size_t>(shape.surface_nodes), {});
+  for (const Shape::Face& face : shape.faces)
+    for (int k = 0; k < 4; ++k) {
+      const Row<BoundaryNode> corner = entry(face.corner, k);
+      Shape::SurfaceNode& node = entry(shape.surface_node, corner);
+      node.point = entry(face.point, entry(corner_point, k));
+      const Vec3 off = vector_of(entry(shape.nodes, corner.value)) - entry(points, node.point);
+      node.slack = std::max({node.slack, node_growth * off.norm(), node_slack * face.size});
+      node.stiffness += 0.25 * face.size * face.size * face.stiffness;
+    }
+}
+
 // Areas, and the particle's properties that follow from them.
 void measure(Shape& shape) {
   const std::vector<Vec3> points = surface_points_of(shape, shape.nodes);
@@ -326,6 +342,7 @@ void measure(Shape& shape) {
     shape.mean_face_stiffness += area * face.stiffness;
   }
   shape.mean_face_stiffness /= shape.area;
+  measure_nodes(shape, points);
   shape.radius = 0;
   for (const Vec3& p : points) shape.radius = std::max(shape.radius, p.norm());
   for (const Point& p : shape.nodes) shape.radius = std::max(shape.radius, vector_of(p).norm());

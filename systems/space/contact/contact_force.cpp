@@ -8,6 +8,7 @@
 
 #include "engine/chunk_lane.hpp"
 #include "systems/space/contact/assembly.hpp"
+#include "systems/space/contact/node_springs.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
@@ -42,11 +43,32 @@ void add_tools(const TouchingRows& tools, const ContactIndex& index, int slot,
     if (tools.touches(row) != 0) add_sampled(&tools.force(row), own.on(tools.pair(row, 1)));
 }
 
+// The springs of node_springs.hpp: acts on their points, and returns what acts on the nodes, x y z of each.
+template <class Load>
+[[gnu::noinline]] std::vector<Lane> pull_at_points(const contact_force& s, Chunk chunk,
+                                                   const Load& load,
+                                                   std::vector<std::uint8_t>& loaded) {
+  const Shape& shape = s.bodies.shape_of(chunk);
+  const Lane bulk = s.nodes.bulk.chunk(chunk)(Row<Particle>());
+  std::vector<Lane> forces;
+  for (int i = 0; i < static_cast<int>(shape.surface_node.size()); ++i) {
+    const Shape::SurfaceNode& node = entry(shape.surface_node, i);
+    const auto f = node_spring(node, away_from_surface(s.bodies, s.nodes, chunk, i), bulk).force;
+    const Row<SurfacePoint> point(node.point);
+    load(point, 0) -= f.x;
+    load(point, 1) -= f.y;
+    load(point, 2) -= f.z;
+    entry(loaded, node.point) = 1;
+    forces.insert(forces.end(), {f.x, f.y, f.z});
+  }
+  return forces;
+}
+
 }  // namespace
 
 [[gnu::flatten]] void contact_force::operator()(Chunk chunk) const {
   const Shape& shape = bodies.shape_of(chunk);
-  double* all = &face_force.chunk(chunk)(Row<SurfaceFace>(0));
+  double* all = &loads.face.chunk(chunk)(Row<SurfaceFace>(0));
   const auto apart = static_cast<std::ptrdiff_t>(shape.faces.size()) * face_numbers;
   BorneFaces borne(shape.faces.size());
   for (int lane = 0; lane < lane_count; ++lane) {
@@ -55,10 +77,15 @@ void add_tools(const TouchingRows& tools, const ContactIndex& index, int slot,
     if (pairs) add_pairs(*pairs, *index, slot, own);
     if (tools) add_tools(*tools, *index, slot, own);
   }
-  const auto loads = load.chunk(chunk);
+  const auto load = loads.point.chunk(chunk);
   std::vector<std::uint8_t> loaded(static_cast<std::size_t>(shape.surface_points()));
-  to_points(shape, all, apart, borne, loads, loaded);
-  to_nodes(shape, loads, loaded, net_load.chunk(chunk), node_force.chunk(chunk));
+  to_points(shape, all, apart, borne, load, loaded);
+  std::vector<Lane> springs;
+  if (nodes.any_rough(chunk)) springs = pull_at_points(*this, chunk, load, loaded);
+  to_nodes(shape, load, loaded, loads.net.chunk(chunk), node_force.chunk(chunk));
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    node_force.chunk(chunk)(Row<BoundaryNode>(static_cast<std::int32_t>(i / 3)),
+                            static_cast<int>(i % 3)) += springs[i];
 }
 
 }  // namespace pulvis::space

@@ -1,4 +1,5 @@
 // contact_surface: Bezier points of the smooth surfaces, linear in the nodes, and their velocities.
+// node_spring_energy: energy of the springs that keep the nodes near them (node_springs.hpp).
 //
 // Source   the terms are computed in scenes/space/meshes
 // Runs     after integrate; the contacts of the next step use its surfaces
@@ -6,6 +7,7 @@
 #include <array>
 
 #include "engine/lane_memory.hpp"
+#include "systems/space/contact/node_springs.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
@@ -63,6 +65,21 @@ Lane fastest(const Shape& shape, const Points& velocity) {
   return sqrt(maximum);
 }
 
+// See Roughness.
+template <class Nodes, class Points>
+Lane roughest(const Shape& shape, const Nodes& nodes, const Points& points) {
+  Lane maximum = -1e300;
+  for (int i = 0; i < static_cast<int>(shape.surface_node.size()); ++i) {
+    const Shape::SurfaceNode& node = entry(shape.surface_node, i);
+    const Row<Node> at(i);
+    const Row<SurfacePoint> point(node.point);
+    const Lane x = nodes(at, 0) - points(point, 0), y = nodes(at, 1) - points(point, 1),
+               z = nodes(at, 2) - points(point, 2);
+    maximum = max(maximum, fma(x, x, fma(y, y, z * z)) - node.slack * node.slack);
+  }
+  return maximum;
+}
+
 }  // namespace
 
 [[gnu::flatten]] void contact_surface::operator()(Chunk chunk) const {
@@ -74,6 +91,19 @@ Lane fastest(const Shape& shape, const Points& velocity) {
   if (velocity) set_surfaces(shape, scratch, velocity->chunk(chunk));
   set_points(shape, motion.position.chunk(chunk), of_net, scratch);
   set_surfaces(shape, scratch, position.chunk(chunk));
+  roughness.chunk(chunk)(Row<Particle>()) = roughest(shape, motion.position.chunk(chunk), scratch);
+}
+
+void node_spring_energy::operator()(Chunk chunk) const {
+  if (!nodes.any_rough(chunk)) return;
+  const Shape& shape = bodies.shape_of(chunk);
+  const Lane bulk = nodes.bulk.chunk(chunk)(Row<Particle>());
+  Lane sum{};
+  for (int i = 0; i < static_cast<int>(shape.surface_node.size()); ++i) {
+    const Shape::SurfaceNode& node = entry(shape.surface_node, i);
+    sum += node_spring(node, away_from_surface(bodies, nodes, chunk, i), bulk).energy;
+  }
+  energy.chunk(chunk)(Row<Particle>()) += sum;
 }
 
 }  // namespace pulvis::space

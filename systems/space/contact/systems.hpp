@@ -21,6 +21,27 @@ struct contact_surface {
   Write<SurfacePosition> position;
   Optional<Write<SurfaceVelocity>> velocity;
   Write<MaximumSpeed> speed;
+  Write<Roughness> roughness;
+  void operator()(Chunk chunk) const;
+};
+
+// Where the surface nodes are, and their points of the smooth surface (node_springs.hpp).
+struct NodesOfSurface {
+  Read<Position> nodes;
+  Read<SurfacePosition> surface;
+  Read<BulkModulus> bulk;
+  Read<Roughness> roughness;
+
+  bool any_rough(Chunk chunk) const {
+    return (roughness.chunk(chunk)(Row<Particle>()) > 0.0).bits() != 0;
+  }
+};
+
+// Adds to the elastic energy of the particles, in sampled steps.
+struct node_spring_energy {
+  ShapedBodies bodies;
+  NodesOfSurface nodes;
+  Write<ElasticEnergy> energy;
   void operator()(Chunk chunk) const;
 };
 
@@ -169,9 +190,13 @@ struct contact_force {
   };
   Optional<Pairs> pairs;
   Optional<TouchingRows> tools;
-  Write<FaceForce> face_force;
-  Write<PointLoad> load;
-  Write<NetLoad> net_load;
+  NodesOfSurface nodes;
+  struct Loads {
+    Write<FaceForce> face;
+    Write<PointLoad> point;
+    Write<NetLoad> net;
+  };
+  Loads loads;
   Write<ContactForce> node_force;
   void operator()(Chunk chunk) const;
 };

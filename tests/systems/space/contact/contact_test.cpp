@@ -55,6 +55,39 @@ TEST(SpaceContact, KeepsMomentumAndMoment) {
   }
 }
 
+// A node that is pulled out of the surface, or pushed into it, by half a face: the smooth surface follows it only in part.
+TEST(SpaceContact, NodesFarFromTheSurfaceAreHeld) {
+  for (const double way : {0.5e-3, -0.5e-3}) {
+    TouchingBodies w({ball()}, {body_at(Vec3::Zero())},
+                     [](Scene& s) { s.space->tools = {floor_plane()}; });
+    w.move(0, [](const Vec3& x) { return Vec3(x + Vec3(0, 0, 10 * diameter)); });
+    w.update();
+    EXPECT_EQ(w.energy_of_node_springs(), 0);
+    constexpr int moved = 30;
+    const Vec3 out = (w.position_of(0, moved) - Vec3(0, 0, 10 * diameter)).normalized();
+    for (int k = 0; k < 3; ++k) w.node(0, moved, k) += way * out[k];
+    w.update(false);
+    EXPECT_GT(w.energy_of_node_springs(), 0);
+    EXPECT_LT(way * w.force_on(0, moved).dot(out), 0);
+    const double force = w.force_on(0, moved).norm();
+    EXPECT_LT(w.force_on(0).norm(), 1e-12 * force);
+    EXPECT_LT(w.moment_on(0).norm(), 1e-11 * force * 10 * diameter);
+    for (int n = 0; n < w.surface_nodes(0); ++n)
+      for (int k = 0; k < 3; ++k) {
+        constexpr double h = 1e-7;
+        const double x = w.node(0, n, k), acting = w.force_on(0, n)[k];
+        const auto energy_at = [&](double place) {
+          w.node(0, n, k) = place;
+          w.update(false);
+          return w.energy_of_node_springs();
+        };
+        const double slope = (energy_at(x + h) - energy_at(x - h)) / (2 * h);
+        energy_at(x);
+        EXPECT_NEAR(-slope, acting, 1e-5 * force);
+      }
+  }
+}
+
 TEST(SpaceContact, PairsOfBothSidesPressAlike) {
   TwoBalls w(250e-6, 3);
   w.update();

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "components/body.hpp"
@@ -128,6 +129,14 @@ class TouchingBodies {
     const double contact = world.resource<Totals>().contact_energy;
     return world.has<BondTotals>() ? contact + bonds().energy : contact;
   }
+  // J, of the springs that keep nodes near the smooth surface.
+  double energy_of_node_springs() {
+    const auto& all = world.column<ElasticEnergy>();
+    double* values = world.column<ElasticEnergy>().values();
+    std::fill_n(values, all.table.rows * lane_count, 0.0);
+    run<node_spring_energy>("node_spring_energy");
+    return std::accumulate(values, values + all.table.rows * lane_count, 0.0);
+  }
   template <class S>
   void run(const char* name) {
     const System system = make_system<S>(world, name);
@@ -185,6 +194,7 @@ class TouchingBodies {
     world.add_table<Particle>(std::vector<std::int32_t>(lanes / lane_count, 1));
     world.add<BulkModulus>();
     world.add<Density>();
+    world.add<ElasticEnergy>();
     std::fill_n(world.column<BulkModulus>().values(), lanes, 200e9 / 3 / 0.4);
     std::fill_n(world.column<Density>().values(), lanes, 7850.0);
   }
