@@ -17,6 +17,17 @@ struct ContactImage : Component<Contact, std::int32_t, 2> {
   static constexpr ComponentInfo info{
       "image", "-", "periods by which the other particle is moved along both vectors of the cell"};
 };
+struct MassCentre : Component<Particle, double, 2> {
+  static constexpr ComponentInfo info{"mass_centre", "m", "where its centre of mass is"};
+};
+struct NetForce : Component<Particle, double, 2> {
+  static constexpr ComponentInfo info{"net_force", "N", "sum of the contact forces on it"};
+};
+struct StrainResistance : Component<Particle, double, 2> {
+  static constexpr ComponentInfo info{
+      "strain_resistance", "SI",
+      "of its sampled contacts against a strain of the cell: springs, N m; dashpots, N m s"};
+};
 struct KickWork : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"kick_work", "J",
                                       "kinetic energy from the last change of the cell's speed"};
@@ -126,8 +137,7 @@ struct PeriodicCell {
   // State of the run
   MixedControl control;
   Tensor2 vectors;  // m, cell vectors as columns
-  Tensor2
-      rate;  // m/s, of the cell vectors, over the last step; the next one once forces are known
+  Tensor2 rate;  // m/s, of the cell vectors, over the last step; the next one once forces are known
   Tensor2 gradient;      // 1/s, velocity gradient over the same step
   Tensor2 next;          // m, cell vectors at the end of the step
   Tensor2 change;        // 1/s, of the homogeneous velocity field, from the last step to the next

@@ -88,10 +88,11 @@ StepList step_list_of(World& w) {
   force.add<receive_contacts>           ("receive_contacts",  ranks && pairs);
   force.add<contact_totals>             ("contact_totals",    touching);
   force.add<bond_totals>                ("bond_totals",       bonds);
-  force.add<cell_control>               ("cell_control",      cell);
   force.add<contact_health>             ("contact_health",    touching);
   force.add<ridge_health>               ("ridge_health",      w.has<SurfaceRange>());
   force.add<contact_force>              ("contact_force",     touching);
+  force.add<cell_load>                  ("cell_load",         cell);
+  force.add<cell_control>               ("cell_control",      cell);
   force.add<elastic_stress<F>>          ("elastic_stress",    !plastic);
   force.add<trial_stress<F>>            ("trial_stress",      plastic);
   force.add<j2_return_map<F>>           ("j2_return_map",     plastic);

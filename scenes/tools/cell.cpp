@@ -81,6 +81,9 @@ std::array<Vec2, 2> cell_vectors(const CellSpec& cell) {
 void add_cell(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (!scene.cell) return;
   world.add<ContactImage>();
+  world.add<MassCentre>();
+  world.add<NetForce>();
+  world.add<StrainResistance>();
   world.add<KickWork>();
   PeriodicCell& cell = world.emplace<PeriodicCell>();
   const auto [first, second] = cell_vectors(*scene.cell);

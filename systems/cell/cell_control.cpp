@@ -1,13 +1,16 @@
-// cell_control: the stress across the boundaries of the periodic cell, the work done by the cell, and its deformation rate
-// in the next step.
+// cell_control: the stress of the periodic cell, the work done by the cell, and its deformation rate in the next step.
 //
 // Law      an image of particle b is at b + h n (h: the cell's vectors, n: integers). A contact force f on the
-//          sampled side against that image does work at a rate f . (h' n) through the cell alone: stress =
-//          sum f (x) h n / (area thickness), tension > 0 (Christoffersen, Mehrabadi & Nemat-Nasser 1981, with the
-//          boundaries as section)
+//          sampled side a against that image does work at a rate f . (h' n) through the cell alone:
+//            stress = sum f (x) l / (area thickness),   l = h n + x_b - x_a from centre to centre, tension > 0
+//                   = (sum f (x) h n - sum F (x) x) / (area thickness),   F: the net force on a particle
+//          (Christoffersen, Mehrabadi & Nemat-Nasser 1981). Without the second sum it is the stress across the
+//          boundaries, which contains the inertia of the particles. cell_kick gives them the homogeneous motion without
+//          a reaction on the servo, so that only l is the arm on which f resists a strain (Parrinello & Rahman 1981):
+//          a servo driven by the stress across the boundaries feeds vibrations
 // Control  systems/cell/mixed_control.hpp
 // Vectors  by the midpoint rule, (h_(n+1) - h_n)/dt = L (h_n + h_(n+1))/2: their area follows the trace of L
-// Runs     after the contacts of the step; cell_kick and cell_motion apply it
+// Runs     after cell_load; cell_kick and cell_motion apply it
 // Watches  that target stresses are reached when their stage ends
 //
 // wall_control: the same for the four planes of a die, with the stresses that they carry. Opposite planes move
@@ -18,6 +21,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
 #include "systems/cell/mixed_control.hpp"
 #include "systems/cell/systems.hpp"
@@ -30,43 +34,62 @@ namespace {
 using kernels::TouchSums;
 using Parts = std::array<double, MixedControl::parts>;
 
-// Over all rows of all ranks.
-struct BorderSums {
-  std::array<ExactSum, 5> exact;  // N, components of the force; J, of the kicks
-  TouchSum touching;              // for unit length of one vector each: N/m, N s/m, times m^2
+// Over all rows and particles of all ranks.
+struct CellSums {
+  std::array<ExactSum, 11> exact;
 
-  Tensor2 force() const {
-    return {{exact[0].value(), exact[1].value(), exact[2].value(), exact[3].value()}};
+  void add(int from, const Tensor2& t) {
+    for (int k = 0; k < 4; ++k) entry(exact, from + k).add(entry(t.t, k));
   }
-  double kick_work() const { return exact[4].value(); }
+  Tensor2 tensor(int from) const {
+    Tensor2 t;
+    for (int k = 0; k < 4; ++k) entry(t.t, k) = entry(exact, from + k).value();
+    return t;
+  }
+  Tensor2 border_force() const { return tensor(0); }     // N
+  Tensor2 moment() const { return tensor(4); }           // N m, of the net forces on the particles
+  double kick_work() const { return exact[8].value(); }  // J
+  TouchSums resistance() const { return {exact[9].value(), exact[10].value()}; }  // N m, N m s
 };
 
-BorderSums across_borders(const cell_control& s) {
-  BorderSums sums;
+void add_borders(const cell_control& s, CellSums& sums) {
   for (int r = 0; r < s.borders.rows.pair.rows(); ++r) {
     const Row<Contact> row(r);
     const Image n{s.borders.image(row, 0), s.borders.image(row, 1)};
     if (s.borders.rows.touches(row) == 0 || n == Image{}) continue;
     if (!s.bodies->owns(s.borders.rows.pair(row, 0))) continue;  // added by its owner
-    const Point way = s.control.cell->vectors * n;
-    const double square = way[0] * way[0] + way[1] * way[1];
+    Tensor2 force;
     for (int i = 0; i < 2; ++i) {
-      double force = 0;
-      for (int g = 0; g < edge_points; ++g) force += s.borders.rows.force(row, 2 * g + i);
-      for (int k = 0; k < 2; ++k) entry(sums.exact, 2 * i + k).add(force * entry(n, k));
+      double all = 0;
+      for (int g = 0; g < edge_points; ++g) all += s.borders.rows.force(row, 2 * g + i);
+      for (int k = 0; k < 2; ++k) entry(force.t, 2 * i + k) = all * entry(n, k);
     }
-    sums.touching.add(touching_of(row, s.borders.rows, s.borders.law, s.rules->stiffest_weld()),
-                      square);
+    sums.add(0, force);
   }
-  for (const int slot : s.bodies->own_slots) sums.exact[4].add(entry(s.kick_work.values(), slot));
-  sum_of_ranks(s.link, sums.exact);
-  return sums;
 }
 
-Parts stress_of(const PeriodicCell& cell) {
+void add_particles(const cell_control& s, CellSums& sums) {
+  const Row<Particle> particle;
+  for (const int slot : s.bodies->own_slots) {
+    const auto [chunk, lane] = ChunkLane(slot);
+    const auto of = [&](const auto& column, int k) {
+      return column.chunk(chunk)(particle, k)[lane];
+    };
+    const auto& [centre, force, resistance, kick_work] = s.particles;
+    const double x = of(centre, 0), y = of(centre, 1), fx = of(force, 0), fy = of(force, 1);
+    sums.add(4, {{fx * x, fx * y, fy * x, fy * y}});
+    sums.exact[8].add(of(kick_work, 0));
+    sums.exact[9].add(of(resistance, 0));
+    sums.exact[10].add(of(resistance, 1));
+  }
+}
+
+// `moment`: N m, of the net forces on the particles about the origin.
+Parts stress_of(const PeriodicCell& cell, const Tensor2& moment) {
   Tensor2 transposed = cell.vectors;
   std::swap(transposed.t[1], transposed.t[2]);
-  const Tensor2 sum = (1 / (cell.area() * cell.thickness)) * (cell.border_force * transposed);
+  const Tensor2 sum =
+      (1 / (cell.area() * cell.thickness)) * (cell.border_force * transposed + -1.0 * moment);
   return {sum.t[0], sum.t[3], 0.5 * (sum.t[1] + sum.t[2])};
 }
 
@@ -74,16 +97,19 @@ Parts stress_of(const PeriodicCell& cell) {
 
 void cell_control::operator()() const {
   PeriodicCell& now = *control.cell;
-  BorderSums sums = across_borders(*this);
-  const Tensor2 force = sums.force();
+  CellSums sums;
+  add_borders(*this, sums);
+  add_particles(*this, sums);
+  sum_of_ranks(link, sums.exact);
+  const Tensor2 force = sums.border_force();
   const double work =
       0.5 * product(now.border_force + force, now.rate) * clock->dt_before + sums.kick_work();
   control.totals->external_work += work;
   control.totals->largest_work = std::max(control.totals->largest_work, std::abs(work));
   now.border_force = force;
-  now.control.stress = stress_of(now);
+  now.control.stress = stress_of(now, sums.moment());
 
-  const TouchSums touching = sums.touching.of_ranks(link);
+  const TouchSums touching = sums.resistance();
   const Rates rates = rates_of(now.control, *program, *clock, now.area() * now.thickness,
                                {touching, touching, touching});
   const auto& rate = rates.deformation;

@@ -21,20 +21,14 @@ namespace pulvis {
   if (l != std::array<double, 4>{}) {
     const Shape& shape = bodies->shape_of_chunk(chunk);
     const int nodes = static_cast<int>(shape.nodes.size());
-    const auto x = position.chunk(chunk);
+    const auto x = place.position.chunk(chunk);
+    const auto centre = place.centre.chunk(chunk);
     const auto v = velocity.chunk(chunk);
     const auto f = forces.internal.chunk(chunk);
     const auto g = forces.contact->chunk(chunk);
     const Lane mass_per_area = density.chunk(chunk)(Row<Particle>()) * bodies->thickness;
     const double quarter = 0.25 * (clock->dt_before + clock->dt);
-    double area = 0;
-    Lane mx{}, my{};
-    for (int i = 0; i < nodes; ++i) {
-      area += entry(shape.nodal_area, i);
-      mx += entry(shape.nodal_area, i) * x(Row<Node>(i), 0);
-      my += entry(shape.nodal_area, i) * x(Row<Node>(i), 1);
-    }
-    const Lane cx = (1 / area) * mx, cy = (1 / area) * my;
+    const Lane cx = centre(Row<Particle>(), 0), cy = centre(Row<Particle>(), 1);
     const Lane rx = cx - cell->centre[0], ry = cy - cell->centre[1];
     const Lane of_x = l[0] * rx + l[1] * ry, of_y = l[2] * rx + l[3] * ry;
     const double spin = 0.5 * (l[2] - l[1]);

@@ -44,7 +44,8 @@ void check_held(const Stage& stage, const std::string& name, const MixedControl&
     throw RunFailure(fmt::format(
         "mixed_control: the stress {} is {:.6g} Pa at the end of stage '{}', step {}, t = "
         "{:.6g} s; target {:.6g} Pa, allowed: within {:.3g} Pa of it (stage.cell.tolerance); use a "
-        "longer stage or a denser powder",
+        "longer stage, a smaller stage.cell.response (less inertia: the stress is followed faster) "
+        "or a denser powder",
         entry(names, k), reached, name, clock.step, clock.time, asked, stage.tolerance * largest));
   }
 }

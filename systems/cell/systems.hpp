@@ -8,16 +8,38 @@
 
 namespace pulvis {
 
+struct cell_load {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  struct Contacts {
+    Read<ContactIndex> index;
+    Read<ContactRules> rules;
+    TouchingRows<Contact> rows;
+    Read<ContactLaw<Contact>> law;
+  } contacts;
+  Read<Position> position;
+  Read<ContactForce> force;
+  struct Load {
+    Write<MassCentre> centre;
+    Write<NetForce> force;
+    Write<StrainResistance> resistance;
+  } load;
+  void operator()(Chunk chunk) const;
+};
+
 struct cell_control {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Read<ContactRules> rules;
   struct Borders {
     TouchingRows<Contact> rows;
-    Read<ContactLaw<Contact>> law;
     Read<ContactImage> image;
   } borders;
-  Read<KickWork> kick_work;
+  struct Particles {
+    Read<MassCentre> centre;
+    Read<NetForce> force;
+    Read<StrainResistance> resistance;
+    Read<KickWork> kick_work;
+  } particles;
   Read<ToolProgram> program;
   struct Control {
     Write<PeriodicCell> cell;
@@ -33,7 +55,10 @@ struct cell_kick {
   Read<PeriodicCell> cell;
   NodalForces<Read> forces;
   Read<Density> density;
-  Read<Position> position;
+  struct Place {
+    Read<Position> position;
+    Read<MassCentre> centre;
+  } place;
   Write<Velocity> velocity;
   Write<KickWork> work;
   void operator()(Chunk chunk) const;
