@@ -54,8 +54,10 @@ void check_output(const Scene& scene, const schema::Origins& origins, Problems& 
     refuse("density_cells",
            "the tools do not enclose a grid, allowed: with one tool on each of the four sides, "
            "planes with normals along an axis, or polylines");
-  const bool touchable = std::ranges::any_of(
-      scene.tools, [](const ToolSpec& t) { return t.shape != ToolSpec::Shape::constraint; });
+  // In a periodic cell even a single particle can: its own images.
+  const bool touchable = scene.cell || std::ranges::any_of(scene.tools, [](const ToolSpec& t) {
+                           return t.shape != ToolSpec::Shape::constraint;
+                         });
   if (scene.output.contacts && !touchable && scene.packings.empty() && scene.bodies.size() < 2)
     refuse("contacts",
            "has no effect: nothing can touch the only particle, allowed: with two particles, or "

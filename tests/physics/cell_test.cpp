@@ -99,6 +99,12 @@ displacement = ["0 mm", "-1 mm"]
   EXPECT_LT(cell.results.energy_balance_error(), 0.003);
 }
 
+TEST(SquareCell, RecordsTheContactsOfADiscWithItsImages) {
+  Experiment e(own_scene(square(0) + "[output]\ncontacts = true\n"));
+  e.run(2);
+  EXPECT_GT(e.value("network/coordination"), 0);
+}
+
 TEST(SquareCell, BearsTheSameInATurnedFrame) {
   Experiment straight(own_scene(square(0))), turned(own_scene(square(std::numbers::pi / 6)));
   straight.run(5);
