@@ -88,7 +88,7 @@ class SeriesList {
     add("cell/rotation", "rad", "spin of the cell, integrated");
     for (const char* part : {"xx", "yy", "xy"})
       add(std::string("cell/stress_") + part, "Pa",
-          "Cauchy, of the forces across the cell's borders, or on the walls; tension > 0");
+          "Cauchy, of the contact forces in the cell, or of the forces on the walls; tension > 0");
     add("cell/stored_energy", "J/m^3",
         "in elements including their hourglass modes, contact springs and bonds, per current "
         "volume of the cell");
@@ -112,7 +112,7 @@ class SeriesList {
     }
     add("energy/external", "J", scene_.cell ? "work of the cell" : "work of the tools");
     add("energy/balance", "J",
-        "sum of all energies minus the work of the tools and the initial energy");
+        "sum of all energies minus the external work and the initial energy");
   }
 
   void add_contacts() {

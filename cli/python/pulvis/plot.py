@@ -75,7 +75,7 @@ class Plot:
         return self._drawn(curves.stress_ratio, "stress over yield stress", options_of(look), ax)
 
     def energies(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Energy balance over time: work of the tools and all energy terms."""
+        """Energy balance over time: work of the tools or of the periodic cell, and all energy terms."""
         return self._drawn(curves.energies, "energies", options_of(look), ax)
 
     def series(self, *names: str, against: str = "time", ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:

@@ -3,7 +3,7 @@
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""],
                   [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"], [1e-15, "f"]];
-const SCALED = new Set(["m", "N", "Pa", "J", "s", "m/s", "V", "W", "N/m", "N/V", "V/N", "m/V", "J/m^2"]);
+const SCALED = new Set(["m", "N", "Pa", "J", "s", "m/s", "V", "W", "N/m", "N/V", "V/N", "m/V", "J/m^2", "J/m^3"]);
 
 // User choice: prefix for each SI unit. Everything that shows numbers listens for changes.
 const chosenPrefixes = new Map();

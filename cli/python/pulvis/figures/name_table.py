@@ -154,7 +154,7 @@ NAMES = {
   "bulk_damping": "material damping",
   "bonds": "bonds",
   "fracture": "fracture",
-  "external": "work of the tools",
+  "external": "external work",
   "balance": "balance error"
  },
  "patterns": [

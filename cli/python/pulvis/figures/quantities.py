@@ -7,7 +7,7 @@ import numpy as np
 from pulvis.errors import PulvisError
 
 PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")]
-SCALED = {"m", "N", "Pa", "J", "s", "m/s", "N/m", "V"}
+SCALED = {"m", "N", "Pa", "J", "s", "m/s", "N/m", "V", "J/m^3"}
 INCHES = {"mm": 1 / 25.4, "cm": 1 / 2.54, "m": 1 / 0.0254, "in": 1.0, "inch": 1.0, "pt": 1 / 72}
 SHORTEST, LONGEST = 10 / 25.4, 2 / 0.0254  # inches, limits of the figure size
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
