@@ -133,6 +133,10 @@ async function drive() {
   told("named", hasNames());
   told("nearZeroOff", hidesWhatIsNearZero());
   told("network", performance.getEntriesByType("resource").filter(entry => !entry.name.startsWith("data:")).length);
+  const shown = document.querySelector("#curve option");
+  told("cellFirst", Boolean(shown) && shown.textContent === "Stresses of the cell" && unitFor("J/m^3", 2.88e7).label === "MJ/m^3");
+  const bars = {family: "compaction", head: {mesh: {particles: 4}}, times: [0, 1], values: () => [1, 0.98], summary: {}};
+  told("pulled", did(bars) === "4 particles were moved and deformed");
   if (!canvas()) return;
   const slider = document.getElementById("frame"), last = Number(slider.max), field = document.getElementById("field").value;
   const at = (frame, what = field) => `${frame} ${what}`;

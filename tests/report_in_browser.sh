@@ -42,6 +42,8 @@ PULVIS_KEEP_REPORTS=$reports "$test_cli" \
   --set "stage.press.duration=20 us" --set 'stage.press.move[0].displacement=["0 mm", "-0.4 mm"]' \
   --set output.contacts=true --overwrite -o "$reports/compaction" >"$work/compaction.txt" 2>&1 ||
   fail "the compaction: $(tail -3 "$work/compaction.txt")"
+"$pulvis" run "$source_dir/scenes/periodic/square.toml" --threads 1 --set output.frames=4 --set 'stage.press.duration="0.1 ms"' \
+  --overwrite -o "$reports/cell" >"$work/cell.txt" 2>&1 || fail "the cell: $(tail -3 "$work/cell.txt")"
 "$pulvis" run "$source_dir/scenes/afm/calibration-beam.toml" --threads 1 --overwrite -o "$reports/lever" >"$work/run.txt" 2>&1 ||
   fail "the lever: $(tail -3 "$work/run.txt")"
 
@@ -53,6 +55,7 @@ check ShowsLocalDensitiesAndContactsOfEveryFrame "${particles[@]}" contacts
 check ShowsBondsCracksAndFragmentsOfEveryFrame "${particles[@]}" bonds
 check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
 check compaction "${particles[@]}" material contacts whole near-zero-off named
+check cell "${particles[@]}" cell-first pulled
 check lever "${everything[@]}" named
 check ShowsTheCurvesOfARunWithoutFrames has-curves
 

@@ -19,7 +19,7 @@ addFigures(run => {
     cracks > 0 &&
         [
           `crack ${kind}`, withUnit(cracks, kind === 'area' ? 'm^2' : 'm', 3),
-          `${percent(bonds.mode_2_share)} of its energy in mode II`
+          `${bonds.mode_2_share < 1e-3 ? 'less than 0.1 %' : percent(bonds.mode_2_share)} of its energy in mode II`
         ]
   ];
 });

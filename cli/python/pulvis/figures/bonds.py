@@ -100,7 +100,7 @@ def breaking(run, options=None):
         axes.set_ylabel(text.replace(" $", "\n$", 1) if options.narrow else text)
         if len(names) > 1:
             axes.legend()
-    places[-1].yaxis.set_major_locator(MaxNLocator(integer=True))
+    places[-1].yaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     places[-1].set_xlabel(worded("time", unit))
     options.head(places[0], "Bonds that break", run)
     return figure
