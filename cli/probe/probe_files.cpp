@@ -209,7 +209,11 @@ Json group_json(const Group& group) {
     Json& mine =
         json["yield"][criterion.name] = {{"points", Json::array()}, {"models", Json::array()}};
     const std::vector<YieldPoint> points = group.pooled(criterion);
-    for (const YieldPoint& point : points) mine["points"].push_back(point_json(point));
+    const std::vector<bool> fitted = usable(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      mine["points"].push_back(point_json(points[i]));
+      mine["points"].back()["fitted"] = static_cast<bool>(fitted[i]);
+    }
     for (const FittedModel& model : group.fits(criterion)) {
       mine["models"].push_back(model_json(model));
       mine["models"].back()["scatter"] = scatter_json(group, criterion, model);

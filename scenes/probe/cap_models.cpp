@@ -309,16 +309,6 @@ FittedModel fitted(const Model& model, const std::vector<Plane>& points) {
   return fit;
 }
 
-std::vector<YieldPoint> usable(const std::vector<YieldPoint>& points) {
-  double largest = 0;
-  for (const YieldPoint& point : points) largest = std::max(largest, point.plane_pressure());
-  std::vector<YieldPoint> used;
-  std::ranges::copy_if(points, std::back_inserter(used), [&](const YieldPoint& point) {
-    return point.plane_pressure() >= open * largest && point.deviatoric() >= -other_side * largest;
-  });
-  return used;
-}
-
 }  // namespace
 
 double FittedModel::parameter(const std::string& of) const {
@@ -343,12 +333,28 @@ std::string undetermined(const FittedModel& model) {
   return text;
 }
 
-std::size_t usable_points(const std::vector<YieldPoint>& points) { return usable(points).size(); }
+std::vector<bool> usable(const std::vector<YieldPoint>& points) {
+  double largest = 0;
+  for (const YieldPoint& point : points) largest = std::max(largest, point.plane_pressure());
+  std::vector<bool> found;
+  for (const YieldPoint& point : points)
+    found.push_back(point.plane_pressure() >= open * largest &&
+                    point.deviatoric() >= -other_side * largest);
+  return found;
+}
+
+std::size_t usable_points(const std::vector<YieldPoint>& points) {
+  const std::vector<bool> found = usable(points);
+  return static_cast<std::size_t>(std::ranges::count(found, true));
+}
 
 std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double relative_density,
                                   bool bonded) {
   std::vector<Plane> all, in_plane;
-  for (const YieldPoint& point : usable(points)) {
+  const std::vector<bool> used = usable(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!used[i]) continue;
+    const YieldPoint& point = points[i];
     all.push_back({point.pressure(), std::abs(point.deviatoric())});
     in_plane.push_back({point.plane_pressure(), std::abs(point.plane_shear())});
   }

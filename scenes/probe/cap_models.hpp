@@ -53,6 +53,9 @@ std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double 
 // Of the parameters that the points do not determine, with their ranges: "beta (50 to 90 deg), R (0.2 to 2.1)". Empty: none.
 std::string undetermined(const FittedModel& model);
 
+// Which of the points are used by these fits.
+std::vector<bool> usable(const std::vector<YieldPoint>& points);
+
 // How many of the points are used by these fits, and how many they need.
 std::size_t usable_points(const std::vector<YieldPoint>& points);
 inline constexpr std::size_t fewest_points = 5;

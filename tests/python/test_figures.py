@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 import numpy as np
 from matplotlib import pyplot as plt
 
-from pulvis.figures import afm, bonds, cell, colours, look, network
+from pulvis.figures import afm, bonds, cell, colours, look, network, probe
 
 plt.rcParams.update(look.STYLE)
 
@@ -44,6 +44,43 @@ class FiguresTest(unittest.TestCase):
             axes = figure.axes[0]
             for place, label in zip(axes.yaxis.get_ticklocs(), axes.yaxis.get_ticklabels()):
                 self.assertAlmostEqual(place, float(label.get_text().removesuffix(" %")), places=9)
+            self.assertGreater(axes.yaxis.get_ticklocs()[0], 0)  # 0 would be under the bars
+            rim, legend = axes.get_window_extent(), axes.get_legend().get_window_extent()
+            self.assertLess(legend.y1, rim.y0)
+
+    def test_arrows_of_a_yield_surface_stay_in_its_frame(self):
+        angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+        points = [{"stress": [-50e6 * (1 + np.cos(a)), -50e6 * (1 + np.sin(a))], "plastic": [-np.cos(a), -np.sin(a)]} for a in angle]
+        state = {"asked": 0.9, "yield": {"offset_strain": {"points": points}}, "states": [{"stress": [-50e6, -50e6]}]}
+        _, axes = plt.subplots()
+        probe.draw_stresses(axes, [state], "offset_strain", {0.9: "k"}, 1e-6)
+        low, high = axes.get_xlim()
+        length = (high - low) / probe.ARROWS
+        for point in points:
+            tip = -1e-6 * np.array(point["stress"]) - length * np.array(point["plastic"])
+            for at, (first, last) in zip(tip, (axes.get_xlim(), axes.get_ylim())):
+                self.assertTrue(first < at < last)
+
+    def test_points_left_out_of_a_fit_are_open_circles_and_the_legend_is_below(self):
+        points = [{"p": 1e6 * p, "q": 1e6 * q, "plane_p": 1e6 * p, "plane_shear": 1e6 * q, "fitted": q > 0}
+                  for p, q in ((10, -5), (10, 5), (20, 4))]
+        law = {"name": "modified_cam_clay", "surface": [[0, 0], [2e7, 0]], "misfit": 0.01}
+        state = {"path": "iso", "relative_density": 0.9, "yield": {"dissipation": {"points": points, "models": [law]}}}
+        figure = probe.models({"title": "", "states": [state]}, look.Options())
+        figure.canvas.draw()
+        axes = figure.axes[0]
+        full, hollow = axes.lines[:2]
+        self.assertEqual((len(full.get_xdata()), len(hollow.get_xdata())), (2, 1))
+        self.assertEqual(hollow.get_markerfacecolor(), "none")
+        self.assertLess(axes.get_legend().get_window_extent().y1, axes.get_window_extent().y0)
+
+    def test_fragments_are_counted_in_whole_numbers(self):
+        series = {"time": np.linspace(0, 1, 5), "bonds/fragments": np.ones(5)}
+        run = types.SimpleNamespace(title="", has=lambda _: True, series=lambda name: series.get(name, np.zeros(5)))
+        figure = bonds.breaking(run)
+        figure.canvas.draw()
+        ticks = figure.axes[-1].get_yticks()
+        self.assertTrue(np.all(ticks == np.round(ticks)), ticks)
 
     def test_every_fragment_keeps_its_colour_and_neighbours_differ(self):
         found = colours.fragment_colours(np.arange(60))

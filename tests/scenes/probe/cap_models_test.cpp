@@ -147,6 +147,8 @@ TEST(FleckPlane, IsTheIntegralOverTheContacts) {
 }
 
 TEST(Caps, NeedPoints) {
+  EXPECT_EQ(usable({point_of(1e6, 0), point_of(20e6, 5e6), point_of(20e6, -5e6)}),
+            (std::vector<bool>{false, true, false}));
   EXPECT_EQ(usable_points({point_of(1e6, 0), point_of(20e6, 5e6), point_of(20e6, -5e6)}), 1U);
   EXPECT_TRUE(fit_caps({point_of(1e6, 0), point_of(2e6, 1e6)}, 0.9, true).empty());
 }

@@ -13,6 +13,9 @@ MODELS = {"drucker_prager_cap": ("Drucker–Prager cap", "-"), "modified_cam_cla
 PLANE_MODELS = {"fleck_plane": ("Fleck, no cohesion", "-"), "fleck_plane_cohesive": ("Fleck, full cohesion", ":")}
 
 
+ARROWS = 18  # of unit length fit side by side into the width of the axes
+
+
 def colours(states):
     densities = sorted({state["asked"] for state in states})
     shades = plt.get_cmap("viridis")(np.linspace(0.1, 0.85, len(densities)))
@@ -49,17 +52,28 @@ def draw_invariants(axes, states, criterion, colour, factor):
     axes.axhline(0, color="0.8", linewidth=0.6)
 
 
+def make_room(axes, places, share):
+    """Equal limits in both directions, with `share` of the width free around all `places`: for the arrows."""
+    low, high = np.min(places, axis=0), np.max(places, axis=0)
+    half = 0.5 * max(*(high - low), 1e-9) / (1 - 2 * share)
+    for of, middle in zip((axes.set_xlim, axes.set_ylim), 0.5 * (low + high)):
+        of(middle - half, middle + half)
+
+
 def draw_stresses(axes, states, criterion, colour, factor):
     """Pressure yy against xx, with the plastic strain direction at each point."""
+    places = [np.zeros(2)]
     for state in states:
         points, shade = state["yield"][criterion]["points"], colour[state["asked"]]
         x = -factor * np.array([point["stress"][0] for point in points])
         y = -factor * np.array([point["stress"][1] for point in points])
         axes.plot(x, y, "o", markersize=3, color=shade)
         plastic = -np.array([point["plastic"] for point in points]).reshape(-1, 2)
-        axes.quiver(x, y, plastic[:, 0], plastic[:, 1], color=shade, angles="xy", width=0.003, scale=18)
-        axes.plot(*(-factor * np.mean([one["stress"][:2] for one in state["states"]], axis=0)), "+", color=shade,
-                  markersize=9)
+        axes.quiver(x, y, plastic[:, 0], plastic[:, 1], color=shade, angles="xy", width=0.003, scale=ARROWS)
+        middle = -factor * np.mean([one["stress"][:2] for one in state["states"]], axis=0)
+        axes.plot(*middle, "+", color=shade, markersize=9)
+        places += [middle, *np.column_stack([x, y])]
+    make_room(axes, np.array(places), 1.2 / ARROWS)
     axes.axline((0, 0), slope=1, color="0.8", linewidth=0.6)
     axes.set_aspect("equal")
 
@@ -90,25 +104,33 @@ def surfaces(summary, criterion, options):
     return figure
 
 
+def draw_fitted(axes, points, x, y, factor):
+    """Yield points, those left out of the fit as open circles; probes of earlier versions do not tell them apart."""
+    for fitted, look in ((True, {}), (False, {"markerfacecolor": "none", "label": "not in the fit"})):
+        mine = [point for point in points if point.get("fitted", True) == fitted]
+        if mine:
+            axes.plot([factor * point[x] for point in mine], [factor * abs(point[y]) for point in mine], "ko",
+                      markersize=3.5, **look)
+
+
 def models(summary, options):
     """The densest state of each path compared with powder models, each with its fitted strength."""
     paths = [path for path in paths_of(summary) if of_path(summary, path)[-1]["yield"]["dissipation"]["models"]]
     if not paths:
         return None
-    figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.0 * len(paths)), constrained_layout=True, squeeze=False)
+    figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.6 * len(paths)), constrained_layout=True, squeeze=False)
     for row, path in zip(axes, paths):
         state = of_path(summary, path)[-1]
         mine = state["yield"]["dissipation"]
         factor, unit = unit_for("Pa", np.array([point["p"] for point in mine["points"]]))
         for side, names, x, y in ((row[0], MODELS, "p", "q"), (row[1], PLANE_MODELS, "plane_p", "plane_shear")):
-            side.plot([factor * point[x] for point in mine["points"]],
-                      [factor * abs(point[y]) for point in mine["points"]], "ko", markersize=3.5)
+            draw_fitted(side, mine["points"], x, y, factor)
             for model in mine["models"]:
                 if model["name"] in names:
                     label, line = names[model["name"]]
                     side.plot(*(factor * np.array(model["surface"]).T), line,
                               label=f"{label}, off by {100 * model['misfit']:.1f}%")
-            side.legend(fontsize=7)
+            side.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2)
         row[0].set_title(f"{path}, density {state['relative_density']:.3f}", loc="left")
         row[0].set_xlabel(worded(("pressure", "p"), unit))
         row[0].set_ylabel(over("$|q|$", unit))
