@@ -99,6 +99,8 @@ class Fit {
   }
 
   const std::vector<double>& smoothing() const { return c_; }
+  // Of a node: the surface is flat there.
+  bool is_flat(int node) const { return entry(normal_u_, node) < flat * most_u_; }
   // In terms of the nodes of the net.
   std::vector<Combination> points() const { return bezier_points(net_, turned_frames()); }
   const Likeness& reached() const { return reached_; }
@@ -311,7 +313,7 @@ void store_faces(Shape& shape, const SurfaceNet& net) {
 }
 
 // The surface nodes, with the points at the corners of their faces.
-void measure_nodes(Shape& shape, const std::vector<Vec3>& points) {
+void measure_nodes(Shape& shape, const std::vector<Vec3>& points, const Fit& fit) {
   constexpr std::array corner_point{0, 3, 15, 12};
   shape.surface_node.assign(static_cast<std::size_t>(shape.surface_nodes), {});
   for (const Shape::Face& face : shape.faces)
@@ -320,13 +322,14 @@ void measure_nodes(Shape& shape, const std::vector<Vec3>& points) {
       Shape::SurfaceNode& node = entry(shape.surface_node, corner);
       node.point = entry(face.point, entry(corner_point, k));
       const Vec3 off = vector_of(entry(shape.nodes, corner.value)) - entry(points, node.point);
-      node.slack = std::max({node.slack, node_growth * off.norm(), node_slack * face.size});
+      const double slack = fit.is_flat(corner.value) ? flat_slack : curved_slack;
+      node.slack = std::max({node.slack, node_growth * off.norm(), slack * face.size});
       node.stiffness += 0.25 * face.size * face.size * face.stiffness;
     }
 }
 
 // Areas, and the particle's properties that follow from them.
-void measure(Shape& shape) {
+void measure(Shape& shape, const Fit& fit) {
   const std::vector<Vec3> points = surface_points_of(shape, shape.nodes);
   shape.area = shape.mean_face_stiffness = 0;
   for (Shape::Face& face : shape.faces) {
@@ -342,7 +345,7 @@ void measure(Shape& shape) {
     shape.mean_face_stiffness += area * face.stiffness;
   }
   shape.mean_face_stiffness /= shape.area;
-  measure_nodes(shape, points);
+  measure_nodes(shape, points, fit);
   shape.radius = 0;
   for (const Vec3& p : points) shape.radius = std::max(shape.radius, p.norm());
   for (const Point& p : shape.nodes) shape.radius = std::max(shape.radius, vector_of(p).norm());
@@ -358,7 +361,7 @@ void complete_surface(Shape& shape, const StarSurface& surface) {
   shape.surface_error = fit.reached().distance;
   shape.surface_bulge = fit.reached().bulge;
   if (!(fit.reached().cosine > 0)) throw std::invalid_argument("its smoothed surface is folded");
-  measure(shape);
+  measure(shape, fit);
 }
 
 }  // namespace pulvis::space

@@ -4,7 +4,8 @@
 //          with few elements such patterns grow under large compression, until nodes have passed through tools
 // Law      node x, its point s of the smooth surface, e = |x - s| - slack: force k e on both, towards each other, where e > 0.
 //          k = K/8 A/V a, with the area a of the node. The slack is 1.1 times the undeformed distance, and at least a
-//          tenth of the faces, which nodes of pressed spheres hardly reach
+//          tenth of the faces where the shape is flat. Where it is curved nodes also leave the surface as it flattens,
+//          by a quarter of the faces and more in dense powders: the slack is four tenths there
 // Books    energy k e^2/2, counted as elastic. The force is central: momentum and moment of momentum are conserved
 #pragma once
 
@@ -14,8 +15,9 @@
 
 namespace pulvis::space {
 
-inline constexpr double node_growth = 1.1;         // of the undeformed distance
-inline constexpr double node_slack = 0.1;          // of the size of the faces
+inline constexpr double node_growth = 1.1;   // of the undeformed distance
+inline constexpr double flat_slack = 0.1;    // of the size of the faces, where the shape is flat
+inline constexpr double curved_slack = 0.4;  // elsewhere
 inline constexpr double node_stiffness = 1.0 / 8;  // of the bulk modulus
 
 // Of eight particles.

@@ -53,11 +53,20 @@ constexpr const char* one_move =
 constexpr const char* pill_sizes = "shape = \"cylinder\"\ndiameter = \"8 mm\"\nheight = \"6 mm\"\n";
 const std::vector<WrongSpaceScene> wrong_in_space{
     {"Thickness", {"thickness=1 mm"}, as_it_is, "thickness", {"two dimensions", "dimension = 3"}},
-    {"Bonds",
+    {"BondsInside",
      {},
-     {time_table, "[[bond]]\nbetween = [\"316L\", \"316L\"]\norigin = \"initial\"\n\n[time]\n"},
-     "bond[0].origin",
-     {"two dimensions", "adhesion"}},
+     {time_table,
+      "[[bond]]\nbetween = [\"316L\", \"316L\"]\norigin = \"initial\"\nstrength = \"1 MPa\"\n"
+      "fracture_energy = \"1 kJ/m^2\"\ninside = true\n\n[time]\n"},
+     "bond[0].inside",
+     {"two dimensions"}},
+    {"BondsTooBrittle",
+     {},
+     {time_table,
+      "[[bond]]\nbetween = [\"316L\", \"316L\"]\norigin = \"pressed\"\nthreshold = \"1 "
+      "MPa\"\ngrowth = 1\nstrength = \"1 GPa\"\nfracture_energy = \"1 J/m^2\"\n\n[time]\n"},
+     "bond[0].fracture_energy",
+     {"smaller faces"}},
     {"BondsOfTwoTools",
      {},
      {time_table,
@@ -114,7 +123,7 @@ const std::vector<WrongSpaceScene> wrong_in_space{
      {"one plane"}},
     // Three faces of the cube end in each of its corners: two divisions leave nothing of them.
     {"FoldedSurface",
-     {"particle.pill.mesh.divisions=2", "particle.pill.rounding=0.05 mm"},
+     {"particle.pill.mesh.divisions=2", "particle.pill.rounding=0.01 mm"},
      {pill_sizes,
       "shape = \"polyhedron\"\ncorners = [[\"0 mm\", \"0 mm\", \"0 mm\"], [\"4 mm\", \"0 mm\", \"0 "
       "mm\"], [\"0 mm\", \"4 mm\", \"0 mm\"], [\"0 mm\", \"0 mm\", \"4 mm\"]]\n"},
