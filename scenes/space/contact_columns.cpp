@@ -100,9 +100,9 @@ void add_bond_columns(World& world, bool initial, bool pressed) {
 std::vector<SurfaceSprings> surface_springs(const Shapes& shapes) {
   std::vector<SurfaceSprings> all;
   for (const Shape& shape : shapes.list) {
-    SurfaceSprings& of =
-        all.emplace_back(std::numeric_limits<double>::infinity(), shape.mean_face_stiffness);
+    SurfaceSprings of{std::numeric_limits<double>::infinity(), shape.mean_face_stiffness};
     for (const Shape::Face& face : shape.faces) of.softest = std::min(of.softest, face.stiffness);
+    all.push_back(of);
   }
   return all;
 }

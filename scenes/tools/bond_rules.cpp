@@ -54,9 +54,9 @@ std::uint8_t number_of(const Scene& scene, BondSpec::Origin origin, const std::s
 std::vector<SurfaceSprings> surface_springs(const Bodies& bodies) {
   std::vector<SurfaceSprings> all;
   for (const Shape& shape : bodies.shapes) {
-    SurfaceSprings& of =
-        all.emplace_back(std::numeric_limits<double>::infinity(), shape.mean_edge_stiffness);
+    SurfaceSprings of{std::numeric_limits<double>::infinity(), shape.mean_edge_stiffness};
     for (const Shape::Edge& edge : shape.edges) of.softest = std::min(of.softest, edge.stiffness);
+    all.push_back(of);
   }
   return all;
 }
@@ -128,7 +128,7 @@ class SoftestSprings {
  public:
   SoftestSprings(const Bodies& bodies, const std::vector<SurfaceSprings>& of_shape,
                  const Scene& scene, const BondRules& rules)
-      : of_shape_(of_shape), scene_(scene), rules_(rules), least_(rules.laws.size(), infinite) {
+      : of_shape_(of_shape), scene_(scene), least_(rules.laws.size(), infinite) {
     for (const Bodies::Slot& slot : bodies.slots) used_.insert({slot.shape, slot.material});
     for (const auto& [a, m] : used_)
       for (const auto& [b, n] : used_)
@@ -165,7 +165,6 @@ class SoftestSprings {
 
   const std::vector<SurfaceSprings>& of_shape_;
   const Scene& scene_;
-  const BondRules& rules_;
   std::set<std::pair<int, int>> used_;
   std::vector<double> least_;
 };

@@ -71,9 +71,9 @@ void add_borders(const cell_control& s, CellSums& sums) {
 void add_particles(const cell_control& s, CellSums& sums) {
   const Row<Particle> particle;
   for (const int slot : s.bodies->own_slots) {
-    const auto [chunk, lane] = ChunkLane(slot);
+    const ChunkLane at(slot);
     const auto of = [&](const auto& column, int k) {
-      return column.chunk(chunk)(particle, k)[lane];
+      return column.chunk(at.chunk)(particle, k)[at.lane];
     };
     const auto& [centre, force, resistance, kick_work] = s.particles;
     const double x = of(centre, 0), y = of(centre, 1), fx = of(force, 0), fy = of(force, 1);
