@@ -327,6 +327,11 @@ def test_names_come_from_one_table():
     assert label("stress:4", "Pa", 4) == r"Stress $\sigma_{xy}$ / Pa"
     assert label("stress:6", "Pa", 6) == r"Stress $\sigma_{zx}$ / Pa"
     assert label("peak/top_force", "N").startswith("Top force at peak density")
+    for part in ("xx", "yy", "zz", "xy", "yz", "zx"):
+        assert label(f"stress/{part}", "MPa") == rf"Mean stress $\sigma_{{{part}}}$ / MPa"
+    for side in ("left", "right", "front", "back"):
+        assert name_of(f"stress/radial_{side}").words == f"lateral stress on the {side} wall"
+    assert name_of("contacts").words == "edges or faces in contact"
     assert name_of("something/of_mine").words == "something, of mine"
     assert over("Energy", "J/m^3") == "Energy / (J/m³)"
     assert plain(r"axial $\sigma_\mathrm{ax}$") == "axial σax"

@@ -10,6 +10,7 @@ from pulvis.preview.sheet import INK, MARGIN, SIDE, WIDTH, number_mark, stage_co
 TURN, TILT = -np.pi / 4, np.arctan(np.sqrt(0.5))
 LIGHT = np.array([-0.35, 0.5, -0.8]) / np.linalg.norm([-0.35, 0.5, -0.8])
 GAP = 0.35  # inches between the views
+BELOW = 0.6  # inches below a view from a side: its axis, and the heading of the next view
 
 
 def view_from(turn, tilt):
@@ -48,7 +49,7 @@ class SpaceDrawing(PowderDrawing):
         room = WIDTH - 2 * MARGIN - SIDE - 0.35
         self.large = 0.6 * room - GAP / 2
         self.small = 0.4 * room - GAP / 2 - 0.45
-        self.height = max(self.large * self.shape(VIEWS[0][1]), 2 * (self.small * max(self.shape(rows) for _, rows in VIEWS[1:]) + 0.55))
+        self.height = max(self.large * self.shape(VIEWS[0][1]), 2 * (self.small * max(self.shape(rows) for _, rows in VIEWS[1:]) + BELOW + 0.1))
         self.height = min(self.height, 7.6)
 
     def limits(self, rows):
@@ -62,9 +63,9 @@ class SpaceDrawing(PowderDrawing):
 
     def draw(self, sheet, left, top):
         self.view(sheet.axes(left, top, self.large, self.height), VIEWS[0], False)
-        each = (self.height - 2 * 0.45) / 2
+        each = self.height / 2 - BELOW
         for k, view in enumerate(VIEWS[1:]):
-            self.view(sheet.axes(left + self.large + GAP + 0.45, top + k * (each + 0.45), self.small, each), view, True)
+            self.view(sheet.axes(left + self.large + GAP + 0.45, top + k * (each + BELOW), self.small, each), view, True)
 
     def view(self, axes, view, with_axes):
         name, rows = view
