@@ -27,9 +27,8 @@ Box box_of(std::span<const double> xyz) {
 struct Piece {
   std::string kind;
   std::array<Vec3, 4> corners;
-  Vec3 normal() const {
-    return (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized();
-  }
+  Vec3 across() const { return (corners[2] - corners[0]).cross(corners[3] - corners[1]); }
+  Vec3 normal() const { return across().normalized(); }
 };
 
 std::vector<Piece> pieces_of(const hdf5::File& file, const std::string& frame) {
@@ -60,16 +59,30 @@ void add(std::vector<double>& volume, const Tetrahedron& one) {
   }
 }
 
-// The nearest level plane on either side of the powder.
+// Whether the die, if there is one, is about z: its area is then turned equally far towards all directions normal to z.
+bool die_stands(const std::vector<Piece>& pieces) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Piece& piece : pieces)
+    if (piece.kind == "die") spread += piece.across() * piece.normal().transpose();
+  const double all = spread.trace(), equal = spread.topLeftCorner<2, 2>().trace() / 2;
+  spread.diagonal() -= Vec3(equal, equal, spread(2, 2));
+  return spread.cwiseAbs().maxCoeff() <= upright * all;
+}
+
+// The nearest level plane on either side of the powder. In a die also the deepest point of a punch: up to there the cavity
+// is the whole bore.
 void find_ends(const std::vector<Piece>& pieces, CrossSection& section) {
+  const bool die = std::ranges::any_of(pieces, [](const Piece& one) { return one.kind == "die"; });
   for (const Piece& piece : pieces) {
     const Vec3 normal = piece.normal();
-    if (piece.kind != "plane" || !(normal.head<2>().cwiseAbs().maxCoeff() < upright)) continue;
-    const double z = piece.corners[0].z();
-    if (normal.z() > 0)
-      section.bottom = std::max(section.bottom.value_or(z), z);
-    else
-      section.top = std::min(section.top.value_or(z), z);
+    const bool level = normal.head<2>().cwiseAbs().maxCoeff() < upright;
+    const bool faces = std::abs(normal.z()) > upright;
+    if (!(piece.kind == "plane" && level) && !(die && piece.kind == "punch" && faces)) continue;
+    for (const Vec3& corner : piece.corners)
+      if (normal.z() > 0)
+        section.bottom = std::max(section.bottom.value_or(corner.z()), corner.z());
+      else
+        section.top = std::min(section.top.value_or(corner.z()), corner.z());
   }
 }
 
@@ -124,6 +137,7 @@ DensityProfile density_along_z(std::span<const double> xyz, std::span<const std:
 CrossSection cross_section(const hdf5::File& file, const std::string& frame,
                            std::span<const double> xyz) {
   const std::vector<Piece> pieces = pieces_of(file, frame);
+  if (!die_stands(pieces)) return {.bound = "die across z"};
   CrossSection section = room_across_z(pieces, xyz);
   find_ends(pieces, section);
   return section;

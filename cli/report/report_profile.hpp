@@ -19,9 +19,11 @@ struct DensityProfile {
 };
 
 struct CrossSection {
-  double area = 0;    // m^2
-  std::string bound;  // whose inside it is: "die", "die with a mouth", "walls", "powder"
-  std::optional<double> bottom = {}, top = {};  // m, z of level planes below and above the powder
+  double area = 0;  // m^2
+  // Whose inside it is: "die", "die with a mouth", "walls", "powder"; "die across z" has no area.
+  std::string bound;
+  // m, z of level planes below and above the powder, in a die also of punches.
+  std::optional<double> bottom = {}, top = {};
   // m, the part of z in which the space has this cross-section: a die ends at its mouth.
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -33,7 +35,7 @@ DensityProfile density_along_z(std::span<const double> xyz, std::span<const std:
                                const CrossSection& section, std::size_t slices);
 
 // For a frame: of the round die along z if there is one; else of the box formed by upright walls across x and y, which
-// is as wide as the powder where there is no wall.
+// is as wide as the powder where there is no wall. A die that does not stand along z has none.
 CrossSection cross_section(const hdf5::File& file, const std::string& frame,
                            std::span<const double> xyz);
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 
@@ -130,6 +131,38 @@ TEST(DensityAlongZ, EndsWhereTheSpaceEnds) {
   EXPECT_TRUE(density_along_z(mesh.reference, mesh.hexahedra, below, 7).density.empty());
 }
 
+// A die of eight sides and radius 2, and the conical face of a punch: its tip is at 1.5, its rim at 2 along the axis.
+hdf5::File die_and_punch(const fs::path& path, int axis) {
+  constexpr int sides = 8;
+  std::vector<double> xyz;
+  std::vector<std::int32_t> quads, tool;
+  for (const auto& [radius, height] : {std::pair{2.0, -1.0}, {2.0, 3.0}, {0.0, 1.5}, {2.0, 2.0}})
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / sides;
+      const std::array<double, 3> at{radius * std::cos(angle), radius * std::sin(angle), height};
+      for (int k = 0; k < 3; ++k) xyz.push_back(at[static_cast<std::size_t>((k - axis + 5) % 3)]);
+    }
+  for (const int which : {0, 1})
+    for (int i = 0; i < sides; ++i) {
+      const int low = 2 * which * sides + i, next = 2 * which * sides + (i + 1) % sides;
+      if (which == 0)
+        quads.insert(quads.end(), {low, low + sides, next + sides, next});
+      else
+        quads.insert(quads.end(), {low, next + sides, low + sides, low});
+      tool.push_back(which);
+    }
+  fs::create_directories(path.parent_path());
+  hdf5::File file = hdf5::File::create(path);
+  file.make_group("/tools");
+  file.make_group("/frame");
+  file.make_group("/frame/tools");
+  file.write("/tools/quads", quads, {2 * sides, 4});
+  file.write("/tools/quad_tool", tool, {2 * sides});
+  file.set_attribute("/tools/quad_tool", "kinds", std::string_view("die\npunch"));
+  file.write("/frame/tools/outline", xyz, {4 * sides, 3});
+  return file;
+}
+
 class SpaceReportTest : public ::testing::Test {
  protected:
   // Kept where the environment names a place: tests/report_in_browser.sh opens what lies there.
@@ -236,6 +269,27 @@ TEST_F(SpaceReportTest, DrawsSomeOfVeryManyCracks) {
   const std::string page = report_of(run);
   EXPECT_EQ(head_of(page)["frames"][0]["bonds"], 3 * 20 * 20 * 19);
   EXPECT_LT(page.size(), 15'000'000U);
+}
+
+// Beside a punch with a profile the cavity is not the whole bore.
+TEST_F(SpaceReportTest, EndsTheDensityAtTheDeepestPointOfAPunch) {
+  const SpaceMesh mesh = block(1);
+  const CrossSection bore =
+      cross_section(die_and_punch(folder / "bore.h5", 2), "/frame", mesh.reference);
+  EXPECT_EQ(bore.bound, "die");
+  EXPECT_NEAR(bore.area, 4 * std::numbers::pi, 1e-12);
+  EXPECT_FALSE(bore.bottom.has_value());
+  EXPECT_DOUBLE_EQ(bore.top.value_or(0), 1.5);
+}
+
+TEST_F(SpaceReportTest, HasNoDensityAlongZInADieAlongAnotherAxis) {
+  const SpaceMesh mesh = block(1);
+  for (const int axis : {0, 1}) {
+    const fs::path path = folder / ("lying" + std::to_string(axis) + ".h5");
+    const CrossSection none = cross_section(die_and_punch(path, axis), "/frame", mesh.reference);
+    EXPECT_EQ(none.bound, "die across z");
+    EXPECT_TRUE(density_along_z(mesh.reference, mesh.hexahedra, none, 7).density.empty());
+  }
 }
 
 TEST_F(SpaceReportTest, RefersTheDensityToTheDieOrThePowder) {

@@ -187,6 +187,46 @@ def test_density_along_z_ends_at_the_mouth_of_the_die(ejected, tmp_path):
     assert head.count("relative density, t = ") == 2  # both curves
 
 
+def test_density_along_z_ends_at_the_deepest_point_of_a_punch(ejected, tmp_path):
+    """Beside a punch with a profile the cavity is not the whole bore."""
+    folder = tmp_path / "run"
+    shutil.copytree(ejected, folder)
+    with h5py.File(folder / "run.h5", "r+") as file:
+        quads, kinds = file["tools/quads"][()], file["tools/quad_tool"].attrs["kinds"]
+        for name in ("tools/quads", "tools/quad_tool"):
+            del file[name]
+        write(file, "tools/quads", np.append(quads, [[24, 25, 26, 24], [24, 26, 27, 24]], axis=0).astype(np.int32))
+        write(file, "tools/quad_tool", np.append(np.zeros(len(quads)), [1, 1]).astype(np.int32), names="die\ntop", kinds=f"{kinds}\npunch")
+        for frame in file["frames"].values():
+            outline = frame["tools/outline"][()]
+            del frame["tools/outline"]
+            punch = SIZE * np.array([[0, 0, 0.6], [0, 2, 0.8], [2, 0, 0.8], [0, -2, 0.8]])  # seen from below
+            write(frame, "tools/outline", np.concatenate([outline, punch]), place="list", components=3, unit="m")
+    run = pulvis.open(folder)
+    room = cross_section(run, run.frame(0), run.frame(0).nodes)
+    assert room.top == pytest.approx(0.6 * SIZE) and room.bottom is None
+
+
+def test_a_die_that_does_not_stand_along_z_has_no_density_along_z(ejected, tmp_path):
+    folder = tmp_path / "run"
+    shutil.copytree(ejected, folder)
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for frame in file["frames"].values():
+            for name in ("position", "tools/outline"):
+                frame[name][...] = np.roll(frame[name][()], 1, axis=1)
+    run = pulvis.open(folder)
+    assert cross_section(run, run.frame(0), run.frame(0).nodes) is None
+    with pytest.raises(PulvisError, match="the die does not stand along z"):
+        run.plot.density_profile()
+    says = call("figure", folder, "-o", tmp_path / "drawn", "--format", "csv")
+    assert "no density_profile.csv: the die does not stand along z; needed for a density along z: output.density_cells" in says
+    with h5py.File(folder / "run.h5", "r+") as file:  # the recorded one has the true room
+        for frame in file["frames"].values():
+            write(frame, "density_profile", np.array([0.25, 0.75]))
+            write(frame, "density_grid/z", SIZE * np.array([0.0, 1, 2]))
+    pulvis.open(folder).plot.density_profile()
+
+
 def test_a_section_is_in_the_powder(blocks, tmp_path):
     says = call("figure", blocks, "-o", tmp_path, "--at", "100mm", code=2)
     assert "--at 100 mm: allowed: 0 m to 1 mm, where the powder is along y" in says and not list(tmp_path.iterdir())

@@ -23,7 +23,7 @@ from pulvis.figures.colours import colour_map
 from pulvis.figures.curves import chosen_series, energies, forces, stress_ratio
 from pulvis.figures.densities import density_profile, local_density
 from pulvis.figures.fields import DEFAULT_FIELD, field_picture
-from pulvis.figures.look import Options, write_csv
+from pulvis.figures.look import NotDrawn, Options, write_csv
 from pulvis.figures.network import contact_network, rose
 from pulvis.figures.probe import figures_of_probe
 from pulvis.figures.quantities import inches, length
@@ -99,8 +99,12 @@ def save_all(run, asked, options, place):
     field = (options.field or DEFAULT_FIELD).replace(":", "_")
     names = AFM_FIGURES if run.is_solid else {field: picture_for(run), **(SPACE_FIGURES if run.in_space else PLANE_FIGURES)}
     for name, draw in names.items():
-        figure = draw(run, options if draw in OF_A_FIELD else replace(options, **LIKE_EVERY_FIGURE))
         path = asked.to / f"{name}.{asked.format}"
+        try:
+            figure = draw(run, options if draw in OF_A_FIELD else replace(options, **LIKE_EVERY_FIGURE))
+        except NotDrawn as reason:
+            print(f"figures: no {path.name}: {reason}")
+            continue
         if figure is None or path.suffix == ".csv" and not hasattr(figure, "table"):
             print(f"figures: nothing recorded for {path.name}")
         else:

@@ -8,6 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.font_manager import FontProperties
 from matplotlib.ticker import FuncFormatter
 
+from pulvis.errors import RunError
 from pulvis.figures.names import capital, label, over, plain
 from pulvis.figures.quantities import limits_of, unit_for, with_unit
 
@@ -23,6 +24,10 @@ NARROW = {"font.size": 8, "axes.titlesize": 8.5, "lines.linewidth": 1.2, "axes.l
 NARROW_BELOW = 120 / 25.4  # inches
 
 MANY_LINES = 5
+
+
+class NotDrawn(RunError):
+    """A figure that this run cannot have, with the reason."""
 
 
 @dataclass

@@ -8,7 +8,7 @@ from pulvis.errors import PulvisError
 from pulvis.figures.colours import colour_map, colours_of
 from pulvis.figures.densities import draw_profiles, profile_table
 from pulvis.figures.fields import DEFAULT_FIELD, OUTLINE, field_of
-from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.names import capital, name_of
 from pulvis.figures.quantities import with_unit
 from pulvis.figures.space_mesh import density_along_z, outer_sides, section
@@ -231,6 +231,8 @@ def profile_of(run, frame, room):
     """The recorded one, if it has several layers; else that of the mesh."""
     if "density_profile" in frame and len(frame["density_profile"]) > 1:
         return frame["density_profile"][()], frame["density_grid/z"][()]
+    if room is None:
+        raise NotDrawn("the die does not stand along z; needed for a density along z: output.density_cells with several layers along z")
     return density_along_z(run.mesh.cells, frame["position"][()], room)
 
 
@@ -251,7 +253,7 @@ def space_profile(run, options=None, axes=None):
         return None
     figure, place = sheet(options, (6.4, 4.2), axes)
     draw_profiles(place, "z", profiles)
-    options.head(place, " ".join(filter(None, ["Relative density along z", room.inside])), run)
+    options.head(place, " ".join(filter(None, ["Relative density along z", room.inside if room else "in the die"])), run)
     figure.table = profile_table("z", profiles)
     return figure
 

@@ -53,16 +53,30 @@ class CrossSection(NamedTuple):
     inside: str = ""  # of a die, in words
     low: float = -np.inf  # m, the part of z in which the space has this cross-section: a die ends at its mouth
     high: float = np.inf
-    bottom: float | None = None  # m, z of level planes below and above the powder
+    bottom: float | None = None  # m, z of level planes below and above the powder, in a die also of punches
     top: float | None = None
 
 
+def stands(corners):
+    """Whether a round surface is about z: its area is then turned equally far towards all directions normal to z."""
+    across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    size = np.linalg.norm(across, axis=1)
+    spread = across.T @ (across / np.maximum(size, 1e-300)[:, None])
+    return np.abs(spread - np.diag([*2 * [np.trace(spread[:2, :2]) / 2], spread[2, 2]])).max() <= UPRIGHT * size.sum()
+
+
 def cross_section(run, frame, position):
-    """Of a round die, or of the box between the vertical walls; the width of the powder where there is no wall."""
+    """Of a round die, or of the box between the vertical walls; the width of the powder where there is no wall. None in
+    a die that does not stand along z."""
     corners, kinds = pieces(run, frame)
+    if not stands(corners[kinds == "die"]):
+        return None
     normal = normals(corners)
-    level = (np.abs(normal[:, :2]).max(axis=1, initial=0) < UPRIGHT) & (kinds == "plane")
-    floors, lids = (corners[level & (sign * normal[:, 2] > 0)][:, 0, 2] for sign in (1, -1))
+    # Up to the deepest point of a punch, the cavity is the whole bore.
+    faces = (np.abs(normal[:, :2]).max(axis=1, initial=0) < UPRIGHT) & (kinds == "plane")
+    if (kinds == "die").any():
+        faces |= (np.abs(normal[:, 2]) > UPRIGHT) & (kinds == "punch")
+    floors, lids = (corners[faces & (sign * normal[:, 2] > 0)][..., 2] for sign in (1, -1))
     ends = {"bottom": floors.max() if len(floors) else None, "top": lids.min() if len(lids) else None}
     return area_between(corners, kinds, normal, position)._replace(**ends)
 
