@@ -11,7 +11,7 @@ from PIL import Image
 import pulvis
 from pulvis.errors import PulvisError
 from pulvis.figures.space_mesh import density_along_z, outer_sides, section
-from pulvis.figures.space_tools import CrossSection, cross_section, normals, pieces
+from pulvis.figures.space_tools import CrossSection, cross_section, normals, pieces, rims
 
 N = 3  # cells along an edge of a block
 SIZE = 1e-3  # m
@@ -225,6 +225,26 @@ def test_a_die_that_does_not_stand_along_z_has_no_density_along_z(ejected, tmp_p
             write(frame, "density_profile", np.array([0.25, 0.75]))
             write(frame, "density_grid/z", SIZE * np.array([0.0, 1, 2]))
     pulvis.open(folder).plot.density_profile()
+
+
+def test_edges_between_coplanar_triangles_of_an_stl_tool_are_not_drawn(blocks, tmp_path):
+    """Two squares that meet in a ridge, each of two triangles that have their own corners."""
+    folder = tmp_path / "run"
+    shutil.copytree(blocks, folder)
+    corners = SIZE * np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 1], [2, 1, 1]])
+    triangles = [[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 2]]
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for name in ("tools/quads", "tools/quad_tool"):
+            del file[name]
+        write(file, "tools/quads", np.array([[3 * i, 3 * i + 1, 3 * i + 2, 3 * i + 2] for i in range(4)], np.int32))
+        write(file, "tools/quad_tool", np.zeros(4, np.int32), names="vee", kinds="stl")
+        for frame in file["frames"].values():
+            del frame["tools/outline"]
+            write(frame, "tools/outline", np.concatenate(corners[triangles]), place="list", components=3, unit="m")
+    run = pulvis.open(folder)
+    drawn = {frozenset(int(np.argmin(np.abs(corners - end).sum(axis=1))) for end in edge) for edge in rims(run, run.frame(0))}
+    assert drawn == {frozenset(edge) for edge in ((0, 1), (1, 2), (2, 3), (3, 0), (1, 4), (4, 5), (5, 2))}
+    run.plot.section()
 
 
 def test_a_section_is_in_the_powder(blocks, tmp_path):

@@ -4,6 +4,7 @@ from typing import NamedTuple
 import numpy as np
 
 UPRIGHT = 1e-3
+COPLANAR = 1e-3  # difference of unit normals
 
 
 def pieces(run, frame):
@@ -22,13 +23,23 @@ def normals(corners):
 
 
 def rims(run, frame):
-    """Edges that belong to only one quad: [n, 2, 3] m."""
-    if "tools/quads" not in run.file or "tools/outline" not in frame:
+    """Edges that belong to only one quad, and those between faces of an STL tool that are not coplanar: [n, 2, 3] m."""
+    corners, kinds = pieces(run, frame)
+    if not len(corners):
         return np.empty((0, 2, 3))
-    quads = run.file["tools/quads"][()]
+    quads, stl = run.file["tools/quads"][()], kinds == "stl"
+    if stl.any():  # each of its triangles has corners of its own
+        tools = np.repeat(run.file["tools/quad_tool"][()][stl], 4)
+        alike = np.unique(np.column_stack([tools, corners[stl].reshape(-1, 3)]), axis=0, return_inverse=True)[1]
+        quads[stl] = quads.max() + 1 + alike.reshape(-1, 4)
     edges = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    once, count = np.unique(edges[edges[:, 0] != edges[:, 1]], axis=0, return_counts=True)
-    return frame["tools/outline"][()][once[count == 1]]
+    real = np.flatnonzero(edges[:, 0] != edges[:, 1])
+    _, first, which, count = np.unique(edges[real], axis=0, return_index=True, return_inverse=True, return_counts=True)
+    normal = normals(corners)[real // 4]
+    bend = np.zeros(len(first))
+    np.maximum.at(bend, which.reshape(-1), np.linalg.norm(normal - normal[first[which.reshape(-1)]], axis=1))
+    drawn = first[(count == 1) | stl[real[first] // 4] & (bend > COPLANAR)]
+    return np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2, 3)[real[drawn]]
 
 
 def cut(corners, axis, at):
