@@ -108,32 +108,6 @@ Scene loose_tablet(const std::string& cells) {
                           {"packing[0].density=0.4", "packing[0].class[0].number=20"});
 }
 
-void raise(Experiment& e, DieRoom::Side side, double by) {
-  World& world = e.simulation.world();
-  const int tool = world.resource<DensityGrid>().between.tool[side];
-  world.column<ToolPosition>().values()[tool_axes * tool + 2] += by;
-}
-
-// Beyond the mouth of the die nothing encloses the powder.
-TEST(DensityInSpace, IsThatInsideTheDie) {
-  Experiment e(loose_tablet("[2, 3, 4]"));
-  const DensityGrid& grid = observed_grid(e);
-  const double radius = grid.between.diameter / 2, volume = total(grid.filled);
-  const double mouth = *grid.between.mouth;
-  ASSERT_LT(grid.high[2], mouth);
-  EXPECT_GT(e.value("relative_density"), 0.3);
-  raise(e, DieRoom::top, 2 * mouth);
-  observed_grid(e);
-  EXPECT_TRUE(std::isnan(e.value("relative_density")));
-  EXPECT_DOUBLE_EQ(grid.high[2], mouth);
-  EXPECT_NEAR(e.value("density/compact"), volume / (pi * radius * radius * mouth), 1e-3);
-  raise(e, DieRoom::bottom, 1.1 * mouth);
-  observed_grid(e);
-  for (const char* name : {"relative_density", "density/compact", "density/maximum"})
-    EXPECT_TRUE(std::isnan(e.value(name))) << name;
-  for (const double cell : e.field("local_density")) EXPECT_TRUE(std::isnan(cell));
-}
-
 // The rooms of the cells are those of the cylinder. Before the first step nothing is deformed; corners of faces that stand out
 // of their balls reach into tools and neighbours.
 TEST(DensityInSpace, FillsARoundDieBetweenPlanes) {
