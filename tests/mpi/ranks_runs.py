@@ -44,10 +44,11 @@ CASES = {
     "space-die": ("scenes/compaction-3d/random-100-copper.toml", 60, ["output.contacts=true"]),
     "space-round": ("scenes/compaction-3d/tablet.toml", 720, []),
     "space-stl": ("tests/mpi/stl-floor.toml", 240, []),
+    "space-welds": ("tests/mpi/space-welds.toml", 2600, []),
     "space-mixture": ("scenes/compaction-3d/mixture.toml", 60, ["output.density_cells=[2, 2, 2]"]),
 }
 # Bonds that are made and broken in those steps: points at least.
-BONDS = {"bonds": (400, 20), "welds": (100, 10), "tool-bonds": (50, 10), "constraints": (90, 50)}
+BONDS = {"bonds": (400, 20), "welds": (100, 10), "tool-bonds": (50, 10), "constraints": (90, 50), "space-welds": (100, 20)}
 RANKS_AND_THREADS = [(1, 2), (2, 1), (2, 2), (3, 1), (4, 1)]
 
 

@@ -76,7 +76,7 @@ class FiguresTest(unittest.TestCase):
 
     def test_fragments_are_counted_in_whole_numbers(self):
         series = {"time": np.linspace(0, 1, 5), "bonds/fragments": np.ones(5)}
-        run = types.SimpleNamespace(title="", has=lambda _: True, series=lambda name: series.get(name, np.zeros(5)))
+        run = types.SimpleNamespace(title="", in_space=False, has=lambda _: True, series=lambda name: series.get(name, np.zeros(5)))
         figure = bonds.breaking(run)
         figure.canvas.draw()
         ticks = figure.axes[-1].get_yticks()

@@ -77,7 +77,7 @@ Experiment torn_apart(bool across) {
 [[stage]]
 name = "pull"
 kind = "unload"
-duration = "40 us"
+duration = "60 us"
 [[stage.move]]
 tool = "top"
 displacement = ["{}", "0 mm", "{}"]
@@ -94,7 +94,7 @@ struct Torn {
 Torn tear(bool across) {
   Experiment e = torn_apart(across);
   Torn torn;
-  e.run(2000, [&] {
+  e.run(1000, [&] {
     const double force = e.value(across ? "tool/top/force_x" : "tool/top/force_z");
     torn.largest = std::max(torn.largest, std::abs(force));
     torn.balance = std::max(torn.balance, std::abs(e.value("energy/balance")));

@@ -144,13 +144,17 @@ TEST(Ejection, ReleasesTheStressThatTheWallBore) {
   double wall = 0, released = 0, volume = 0;
   Places held;
   int samples = 0;
+  bool hit = false;
   e.run(400, [&] {
     const double time = e.simulation.clock().time;
-    if (time < 0.99e-3) {
+    // The tablet moves up and down between the plates; when one hits it, it rings.
+    const bool free = e.value("tool/top/force_z") == 0 && e.value("tool/bottom/force_z") == 0;
+    if (time < 0.99e-3 && free) {
       wall = force_on_wall(e);
       held = places_in(e);
     }
-    if (time < 2.9e-3) return;
+    hit = time >= 2.9e-3 && (hit || !free);
+    if (time < 2.9e-3 || hit) return;
     const Widening widening(e, held, places_in(e));
     released += widening.strain;
     volume = widening.volume;
@@ -158,7 +162,7 @@ TEST(Ejection, ReleasesTheStressThatTheWallBore) {
     EXPECT_EQ(e.value("stress/radial"), 0);
     EXPECT_EQ(e.value("tool/die/force_z"), 0);
   });
-  ASSERT_GT(samples, 50);
+  ASSERT_GT(samples, 15);
   const double radius = 18.05e-3;  // of the wall, and the penetration that its springs need
   const double pressure = wall * radius / (2 * volume);
   ASSERT_GT(pressure, 50e6);
