@@ -162,8 +162,9 @@ def test_two_simulations_run_side_by_side(cell):
     meetings = []
 
     def follow(sim):
-        # Each waits for the other in the middle of its run: neither could without Python's lock.
-        sim.every(200, lambda sim: meetings.append(met.wait()) if len(meetings) < 2 else None)
+        # Each waits once for the other in the middle of its run: neither could without Python's lock.
+        to_meet = [met]
+        sim.every(200, lambda sim: meetings.append(to_meet.pop().wait()) if to_meet else None)
         sim.run()
 
     threads = [threading.Thread(target=follow, args=(sim,)) for sim in sims]
