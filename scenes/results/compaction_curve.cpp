@@ -86,6 +86,7 @@ void lay_beside(TransmissionShare& share, double mu, double nu, bool in_space) {
 
 // The loading while under force, in pieces of equal change of density.
 std::vector<std::vector<CompactionSample>> loading(const std::vector<CompactionSample>& samples) {
+  if (samples.empty()) return {};
   const auto last = std::ranges::max_element(samples, {}, &CompactionSample::density);
   double maximum = 0;
   for (auto s = samples.begin(); s != last + 1; ++s) maximum = std::max(maximum, s->top);
@@ -130,6 +131,7 @@ CompactionCurve::CompactionCurve(const Scene& scene)
 
 // The width of a box is that of a square of the same area.
 void CompactionCurve::sample_room(const Results& results) {
+  if (std::isnan(results.value("relative_density"))) return;  // the tools do not enclose the powder
   const auto place = [&](const std::string& tool) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)

@@ -4,10 +4,9 @@
 const atTheEnd = run => run.hasEnded ? "at the end" : "so far";
 
 addFigures(run => {
-  const {summary} = run, ratio = run.end("stress_ratio/axial");
-  const density = summary.relative_density ?? run.end("relative_density");
+  const ratio = run.end("stress_ratio/axial"), density = finalDensity(run);
   if (density === undefined) return [];
-  return [["relative density", digits(density, 4), atTheEnd(run)],
+  return [["relative density", density === null ? "none" : digits(density, 4), atTheEnd(run)],
           run.family === "compaction" && ratio > 0 && ["axial stress / yield stress", digits(ratio, 3), atTheEnd(run)]];
 });
 

@@ -88,16 +88,23 @@ function materialRows(materials) {
      ["materials"]]);
 }
 
+const NOT_ENCLOSED = "none: the tools do not enclose the powder";
+// Undefined if the run has none; null if its tools did not enclose the powder.
+function finalDensity(run) {
+  const density = run.summary.relative_density ?? run.end("relative_density");
+  return density === undefined || Number.isFinite(density) ? density : null;
+}
+
 // Rows for keys with special meaning: [label, text or null, the keys it covers].
 function knownRows(run) {
   const {head, summary: s} = run, has = key => typeof s[key] === "number", count = countOf;
-  const density = has("relative_density") ? s.relative_density : run.end("relative_density");
+  const density = finalDensity(run);
   const mesh = head.mesh || {}, force = largestForce(run);
   return [
     ["Outcome", run.outcome === "running" ? "not ended" : run.outcome, ["outcome"]],
     ["Particles", mesh.particles ? count(mesh.particles) : null, ["particles"]],
     ["Elements", has("elements") || mesh.cells ? count(s.elements ?? mesh.cells) : null, ["elements"]],
-    [run.hasEnded ? "Final relative density" : "Relative density so far", density === undefined ? null : digits(density),
+    [run.hasEnded ? "Final relative density" : "Relative density so far", density === undefined ? null : density === null ? NOT_ENCLOSED : digits(density),
      ["relative_density"]],
     ["Largest force", force.value > 0 ? `${withUnit(force.value, "N")} on ${force.tool}` : null, []],
     ["Thickness of the slice", has("thickness") ? withUnit(s.thickness, "m") : null, ["thickness"]],

@@ -61,6 +61,20 @@ std::vector<FieldInfo> fields_in_space(const World& world) {
   return fields;
 }
 
+// Whether both other tools are in the die: nothing encloses the powder beyond its mouth.
+template <class At>
+bool encloses(const DieRoom& room, const At& at) {
+  if (!room.mouth) return true;
+  const auto above_die = [&](DieRoom::Side side) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += room.axis[k] *
+             (at(room.tool[side], static_cast<int>(k)) - at(room.die, static_cast<int>(k)));
+    return sum;
+  };
+  return above_die(DieRoom::bottom) < *room.mouth && above_die(DieRoom::top) <= *room.mouth;
+}
+
 class SpaceParts : public ResultParts {
  public:
   SpaceParts(const Scene& scene, const World& world)
@@ -70,7 +84,6 @@ class SpaceParts : public ResultParts {
         volume_(powder_of(world, scene).volume),
         tags_(particle_tags(scene, world)),
         sheets_(*scene.space, box_of_nodes(world)) {
-    if (room_) room_->particle_volume = volume_;
     for (std::size_t t = 0; t < scene.space->tools.size(); ++t)
       has_servo_.push_back(is_servo_driven(scene, static_cast<int>(t)) ||
                            is_driven_through_a_spring(scene, static_cast<int>(t)));
@@ -126,9 +139,7 @@ class SpaceParts : public ResultParts {
 
   void append_contacts(std::vector<double>&) const override {}
   void append_observed(std::vector<double>& row) const override {
-    if (room_)
-      append_stress_sample(world_,
-                           room_->volume([&](int tool, int k) { return position(tool, k); }), row);
+    if (room_) append_stress_sample(world_, volume_of_room(), row);
     append_network_sample(world_, row);
     append_density_sample(world_, row);
   }
@@ -171,13 +182,18 @@ class SpaceParts : public ResultParts {
     return sum;
   }
 
+  // m^3; NaN if the tools do not enclose it.
+  double volume_of_room() const {
+    const auto at = [&](int tool, int k) { return position(tool, k); };
+    return encloses(*room_, at) ? room_->volume(at) : std::numeric_limits<double>::quiet_NaN();
+  }
   void append_room(std::vector<double>& row) const {
     const auto at = [&](int tool, int k) { return position(tool, k); };
     const DieRoom::Vector& axis = room_->axis;
     const bool box = room_->kind == DieRoom::Kind::box;
     const double top = push(DieRoom::top, axis), area = room_->area(at);
     const double bottom = push(DieRoom::bottom, {-axis[0], -axis[1], -axis[2]});
-    row.push_back(room_->density(at));
+    row.push_back(volume_ / volume_of_room());
     const std::vector<double> radial = box ? wall_stresses(at) : std::vector{die_stress(at)};
     if (yield_stress_) {
       row.push_back(0.5 * (top + bottom) / area / *yield_stress_);

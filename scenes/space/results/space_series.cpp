@@ -30,7 +30,9 @@ void add_tool_series(const Scene& scene, int number, std::vector<SeriesInfo>& al
 
 void add_room_series(const Scene& scene, const DieRoom& room, std::vector<SeriesInfo>& all) {
   const bool box = room.kind == DieRoom::Kind::box;
-  all.push_back({"relative_density", "-", "undeformed particle volume / volume between the tools"});
+  all.push_back({"relative_density", "-",
+                 "undeformed particle volume / volume between the tools; NaN if one is beyond the "
+                 "mouth of the die"});
   if (common_yield_stress(scene)) {
     all.push_back({"stress_ratio/axial", "-", "mean of top and bottom stress / yield stress"});
     all.push_back({"stress_ratio/lateral", "-",

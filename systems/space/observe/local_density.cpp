@@ -2,8 +2,8 @@
 //
 // Source   systems/space/observe/cell_volume_kernel.hpp, room_kernel.hpp. The surface of a particle is that of its elements:
 //          four triangles between the corners of a face and its centre, which give the volume of the bilinear face exactly.
-//          The grid spans the current room; at a punch with a profile it reaches to the deepest point. What has penetrated a
-//          round wall or such a punch is counted in its cell
+//          The grid spans the current room, up to the mouth of a die; at a punch with a profile it reaches to the
+//          deepest point. What has penetrated a round wall or such a punch is counted in its cell
 // Runs     in sampled steps
 // Active   if the scene asks for density cells
 #include <limits>
@@ -71,6 +71,23 @@ struct DensityLook {
     }
     grid.low[along] = at(ends()[0], along) + reach_of(face(0))[0];
     grid.high[along] = at(ends()[1], along) - reach_of(face(1))[0];
+    if (room.mouth) cut_at_mouth(along);
+  }
+  void cut_at_mouth(std::size_t along) const {
+    DensityGrid& grid = *s.grid;
+    const DieRoom& room = grid.between;
+    const double mouth = at(room.die, along) + room.axis[along] * *room.mouth;
+    if (room.axis[along] > 0)
+      grid.high[along] = std::clamp(mouth, grid.low[along], grid.high[along]);
+    else
+      grid.low[along] = std::clamp(mouth, grid.low[along], grid.high[along]);
+  }
+  // Beyond the mouth of the die there is no room.
+  bool is_empty() const {
+    const DensityGrid& grid = *s.grid;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!(grid.low[k] < grid.high[k])) return true;
+    return false;
   }
 
   Grid lines() const {
@@ -143,11 +160,13 @@ struct DensityLook {
 void local_density::operator()() const {
   const DensityLook look{*this};
   look.find_ends();
-  const Grid lines = look.lines();
   grid->filled.assign(static_cast<std::size_t>(grid->cells[0]) *
                           static_cast<std::size_t>(grid->cells[1]) *
                           static_cast<std::size_t>(grid->cells[2]),
                       0);
+  grid->room.assign(grid->filled.size(), 0);
+  if (look.is_empty()) return;
+  const Grid lines = look.lines();
   look.find_room(lines);
   const auto found =
       list_by_slot<VolumeInCell>(bodies.slots(), [&](int slot, std::vector<VolumeInCell>& of_slot) {

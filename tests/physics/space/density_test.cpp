@@ -103,9 +103,43 @@ TEST(DensityInSpace, HoldsTheVolumeOfTheDeformedElementsWhateverTheGrid) {
   }
 }
 
-Scene loose_tablet(const std::string& cells) {
-  return scene_with_cells("tablet.toml", cells,
-                          {"packing[0].density=0.4", "packing[0].class[0].number=20"});
+Scene loose_tablet(const std::string& cells, const std::string& die_height = "44 mm") {
+  return scene_with_cells(
+      "tablet.toml", cells,
+      {"packing[0].density=0.4", "packing[0].class[0].number=20", "tool[0].height=" + die_height});
+}
+
+// A loose tablet with the top punch drawn back, in a die that is lowered.
+std::unique_ptr<Experiment> in_lowered_die(double top, double lowered) {
+  Scene scene = loose_tablet("[2, 3, 4]");
+  ToolSpec& punch = scene.space->tools.back();
+  punch.on_packing = false;
+  punch.point = Vec3(0, 0, top);
+  scene.space->tools.front().point.z() -= lowered;
+  auto e = std::make_unique<Experiment>(std::move(scene));
+  observed_grid(*e);
+  return e;
+}
+
+// Beyond the mouth of the die nothing encloses the powder.
+TEST(DensityInSpace, IsThatInsideTheDie) {
+  constexpr double radius = 18e-3, mouth = 44e-3;
+  const double area = pi * radius * radius;
+  const auto grid_of = [](Experiment& e) -> const DensityGrid& {
+    return e.simulation.world().resource<DensityGrid>();
+  };
+  const auto closed = in_lowered_die(0.9 * mouth, 0), open = in_lowered_die(1.1 * mouth, 0);
+  const double volume = total(grid_of(*closed).filled);
+  EXPECT_NEAR(closed->value("density/compact"), volume / (area * 0.9 * mouth), 1e-9);
+  EXPECT_NEAR(closed->value("relative_density"), volume / (area * 0.9 * mouth), 1e-3);
+  EXPECT_DOUBLE_EQ(grid_of(*open).high[2], mouth);
+  EXPECT_NEAR(open->value("density/compact"), volume / (area * mouth), 1e-9);
+  EXPECT_TRUE(std::isnan(open->value("relative_density")));
+
+  const auto ejected = in_lowered_die(1.1 * mouth, 1.1 * mouth);
+  for (const char* name : {"relative_density", "density/compact", "density/maximum"})
+    EXPECT_TRUE(std::isnan(ejected->value(name))) << name;
+  for (const double cell : ejected->field("local_density")) EXPECT_TRUE(std::isnan(cell));
 }
 
 // The rooms of the cells are those of the cylinder. Before the first step nothing is deformed; corners of faces that stand out
@@ -121,7 +155,7 @@ TEST(DensityInSpace, FillsARoundDieBetweenPlanes) {
 // A cone on the face of a punch, or a hollow in it.
 TEST(DensityInSpace, TakesTheProfileOfAPunchFromTheRoom) {
   for (const double rise : {2e-3, -2e-3}) {
-    Scene scene = loose_tablet("[7, 7, 9]");
+    Scene scene = loose_tablet("[7, 7, 9]", "70 mm");
     ToolSpec& top = scene.space->tools.back();
     top.shape = ToolSpec::Shape::punch;
     top.diameter = 36e-3;
