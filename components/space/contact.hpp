@@ -41,6 +41,11 @@ struct Roughness : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"roughness", "m^2",
                                       "largest square of that distance minus that of the slack"};
 };
+struct NodeDistance : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{
+      "node_distance", "-",
+      "largest distance of a surface node from the smooth surface, relative to the size of a face"};
+};
 struct FaceForce : Component<SurfaceFace, double, face_numbers> {
   static constexpr ComponentInfo info{"force", "N",
                                       "of all contacts, on a face's Bezier points: all x, y, z"};

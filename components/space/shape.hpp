@@ -99,6 +99,7 @@ struct Shape {
   // A surface node and the point of the smooth surface that belongs to it (systems/space/contact/node_springs.hpp).
   struct SurfaceNode {
     std::int32_t point = 0;  // Bezier point
+    double size = 0;         // m: of the largest face at the node
     double slack = 0;        // m: how far apart they may be
     double stiffness = 0;    // m: area of the node times area over volume of the elements behind it
   };

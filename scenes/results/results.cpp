@@ -6,6 +6,7 @@
 #include "components/body.hpp"
 #include "components/bond.hpp"
 #include "components/contact.hpp"
+#include "components/space/contact.hpp"
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/plane_parts.hpp"
 #include "scenes/space/results/space_parts.hpp"
@@ -105,6 +106,10 @@ void Results::take_peaks() {
   take(peaks_.plastic, energies_.plastic);
   take(peaks_.hourglass, energies_.hourglass);
   take(peaks_.penetration, world_.resource<Totals>().worst_penetration);
+  if (world_.has<space::NodeDistance>())
+    for (const int slot : world_.resource<Bodies>().slot_of_number)
+      take(peaks_.node_distance,
+           world_.column<space::NodeDistance>().values()[static_cast<std::size_t>(slot)]);
 }
 
 double Results::kinetic_ratio() const {

@@ -21,9 +21,10 @@ namespace pulvis {
 struct Peaks {
   double elastic = 0, plastic = 0, hourglass = 0;  // J
   double penetration = 0;                          // -, of a boundary edge's length
+  double node_distance = 0;                        // -, of a face's size: in three dimensions
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(elastic, plastic, hourglass, penetration);
+    bytes(elastic, plastic, hourglass, penetration, node_distance);
   }
 };
 

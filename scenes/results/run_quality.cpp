@@ -11,7 +11,8 @@
 namespace pulvis {
 namespace {
 
-constexpr double most_hourglass = 0.03;  // of the internal energy
+constexpr double most_hourglass = 0.03;     // of the internal energy
+constexpr double most_node_distance = 0.5;  // of a face
 
 // Advice, in the order of the figures.
 constexpr const char* of_energy_balance =
@@ -22,6 +23,8 @@ constexpr const char* of_projections =
     "outlines turn too sharply for their boundary edges: use more of them (boundary_edges)";
 constexpr const char* of_projections_in_space =
     "surfaces turn too sharply for their faces: use more of them (particle.mesh.divisions)";
+constexpr const char* of_node_distance =
+    "the smooth surface does not follow the mesh: use smaller faces (particle.mesh.divisions)";
 
 std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
@@ -82,15 +85,19 @@ void add_lost_force(Figures& figures, const Scene& scene, const ContactFindings&
 
 // Contact figures in three dimensions.
 void add_contacts_in_space(Figures& figures, const Scene& scene, const Totals& totals,
-                           double penetration, const ContactFindings& contacts) {
+                           const Peaks& peaks, const ContactFindings& contacts) {
   figures.add(
-      "Penetration", "deepest overlap of two surfaces, relative to the size of a face", penetration,
-      scene.limits.penetration,
+      "Penetration", "deepest overlap of two surfaces, relative to the size of a face",
+      peaks.penetration, scene.limits.penetration,
       "use stiffer contacts (contact.stiffness), or smaller faces (particle.mesh.divisions)");
   figures.add(
       "Unconverged projections",
       "share of closest-point projections between contacting surfaces that did not converge",
       totals.unconverged_share(), scene.limits.unconverged_projections, of_projections_in_space);
+  figures.add("Surface nodes off the contact surface",
+              "largest distance of a surface node from the smooth surface that is in contact, "
+              "relative to the size of a face: such nodes may be beyond a tool",
+              peaks.node_distance, most_node_distance, of_node_distance);
   add_lost_force(figures, scene, contacts);
 }
 
@@ -147,7 +154,7 @@ std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
         "largest hourglass energy, including plastic work, relative to the largest internal energy",
         peaks.hourglass / internal, most_hourglass, of_hourglass(scene));
   if (scene.space && world.has<ContactRules>())
-    add_contacts_in_space(figures, scene, totals, peaks.penetration, contacts);
+    add_contacts_in_space(figures, scene, totals, peaks, contacts);
   if (!world.has<ContactQuality>()) return figures.all;
   figures.add("Penetration",
               "deepest overlap of two surfaces, relative to the length of a boundary edge",

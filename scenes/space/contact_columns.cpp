@@ -172,6 +172,7 @@ void add_surfaces(World& world, const Touching& touching) {
   world.add<FaceForce>();
   world.add<MaximumSpeed>();
   world.add<Roughness>();
+  world.add<NodeDistance>();
   if (touching.friction || touching.damping) world.add<SurfaceVelocity>();
 }
 

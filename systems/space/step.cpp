@@ -39,6 +39,7 @@ std::vector<System> observed_in_space(World& w) {
   observe.add<kinetic_energy>     ("kinetic_energy");
   observe.add<elastic_energy<F>>  ("elastic_energy");
   observe.add<node_spring_energy> ("node_spring_energy", w.has<Roughness>());
+  observe.add<node_distance>      ("node_distance",     w.has<NodeDistance>());
   observe.add<plastic_work<F>>    ("plastic_work",      w.has<PlasticStrain<F::points>>());
   observe.add<hourglass_energy>   ("hourglass_energy",  F::stabilised);
   observe.add<particle_stress<F>> ("particle_stress",   w.has<ParticleStress>());

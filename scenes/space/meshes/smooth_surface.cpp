@@ -323,6 +323,7 @@ void measure_nodes(Shape& shape, const std::vector<Vec3>& points, const Fit& fit
       node.point = entry(face.point, entry(corner_point, k));
       const Vec3 off = vector_of(entry(shape.nodes, corner.value)) - entry(points, node.point);
       const double slack = fit.is_flat(corner.value) ? flat_slack : curved_slack;
+      node.size = std::max(node.size, face.size);
       node.slack = std::max({node.slack, node_growth * off.norm(), slack * face.size});
       node.stiffness += 0.25 * face.size * face.size * face.stiffness;
     }

@@ -1,5 +1,6 @@
 // contact_surface: Bezier points of the smooth surfaces, linear in the nodes, and their velocities.
 // node_spring_energy: energy of the springs that keep the nodes near them (node_springs.hpp).
+// node_distance: how far nodes are from them. Contact does not feel the nodes: they may be beyond what the surface touches.
 //
 // Source   the terms are computed in scenes/space/meshes
 // Runs     after integrate; the contacts of the next step use its surfaces
@@ -104,6 +105,17 @@ void node_spring_energy::operator()(Chunk chunk) const {
     sum += node_spring(node, away_from_surface(bodies, nodes, chunk, i), bulk).energy;
   }
   energy.chunk(chunk)(Row<Particle>()) += sum;
+}
+
+void node_distance::operator()(Chunk chunk) const {
+  const Shape& shape = bodies.shape_of(chunk);
+  Lane largest{};
+  for (int i = 0; i < static_cast<int>(shape.surface_node.size()); ++i) {
+    const kernels::Vector<Lane> away = away_from_surface(bodies, nodes, chunk, i);
+    const double size = entry(shape.surface_node, i).size;
+    largest = max(largest, dot(away, away) / (size * size));
+  }
+  distance.chunk(chunk)(Row<Particle>()) = sqrt(largest);
 }
 
 }  // namespace pulvis::space

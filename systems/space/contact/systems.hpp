@@ -45,6 +45,14 @@ struct node_spring_energy {
   void operator()(Chunk chunk) const;
 };
 
+// In sampled steps.
+struct node_distance {
+  ShapedBodies bodies;
+  NodesOfSurface nodes;
+  Write<NodeDistance> distance;
+  void operator()(Chunk chunk) const;
+};
+
 // ---- contact rows -------------------------------------------------------------------------------
 struct skin_check {
   ShapedBodies bodies;

@@ -63,11 +63,17 @@ TEST(SpaceContact, NodesFarFromTheSurfaceAreHeld) {
     w.move(0, [](const Vec3& x) { return Vec3(x + Vec3(0, 0, 10 * diameter)); });
     w.update();
     EXPECT_EQ(w.energy_of_node_springs(), 0);
+    EXPECT_LT(w.largest_node_distance(), 0.11);
     constexpr int moved = 30;
     const Vec3 out = (w.position_of(0, moved) - Vec3(0, 0, 10 * diameter)).normalized();
     for (int k = 0; k < 3; ++k) w.node(0, moved, k) += way * out[k];
     w.update(false);
     EXPECT_GT(w.energy_of_node_springs(), 0);
+    const Shape::SurfaceNode& node = w.shape(0).surface_node[moved];
+    const double* at = w.world.column<SurfacePosition>().values() + 3 * node.point;
+    const double away = (w.position_of(0, moved) - Vec3(at[0], at[1], at[2])).norm();
+    EXPECT_GT(away, 0.3 * node.size);
+    EXPECT_NEAR(w.largest_node_distance(), away / node.size, 1e-12);
     EXPECT_LT(way * w.force_on(0, moved).dot(out), 0);
     const double force = w.force_on(0, moved).norm();
     EXPECT_LT(w.force_on(0).norm(), 1e-12 * force);

@@ -137,6 +137,13 @@ class TouchingBodies {
     run<node_spring_energy>("node_spring_energy");
     return std::accumulate(values, values + all.table.rows * lane_count, 0.0);
   }
+  // Largest distance of a surface node of any particle, as the system finds it.
+  double largest_node_distance() {
+    run<node_distance>("node_distance");
+    const auto& all = world.column<NodeDistance>();
+    const double* values = all.values();
+    return *std::max_element(values, values + all.table.rows * lane_count);
+  }
   template <class S>
   void run(const char* name) {
     const System system = make_system<S>(world, name);
