@@ -9,8 +9,7 @@ LAW  hertz      an elastic sphere between frictionless planes, and two spheres: 
      cell       a sphere in a cubic box on four meshes: observed order, wall stress against the mean stress of the particle
      turns      force of a sphere between planes for random rotations of its mesh: rms over the mean
      taylor     copper rod against a rigid wall at 227 m/s: length, radius of the mushroomed end
-     mindlin    a sphere pressed and sheared between planes: compliance, friction work per cycle (Mindlin & Deresiewicz 1953);
-               the last mesh takes about 40 minutes
+     mindlin    partial slip of pressed contacts: compliance, friction work per cycle (Mindlin & Deresiewicz 1953)
      dense      27 plastic spheres pressed to a relative density of 0.94: meshes and contact stiffnesses
      shapes     deviation of the smooth surfaces of coarse meshes from the exact shapes
      sharp      how far sharp grains can be compacted before a run aborts
@@ -269,39 +268,81 @@ hardening_modulus = "100 MPa"
               f"foot {1e3 * across.max():.3f}", flush=True)
 
 
+def partial_slip(h, top, radius, young, nu, mu, begins):
+    """A contact that is pressed and moved back and forth along x. `begins`: of the first slip, and of the cycle. Contact radius
+    (Hertz), amplitude of q = Q/(mu N), compliance and work of friction in a cycle over Mindlin & Deresiewicz's."""
+    time, force, x = h["time"], h[f"tool/{top}/force_x"], h[f"tool/{top}/position_x"]
+    x = x - x[0]
+    forth, cycle = (time > begins[0]) & (time <= begins[1]), time >= begins[1] * (1 - 1e-9)
+    force = -force if force[forth].sum() < 0 else force
+    n = np.mean(np.abs(h[f"tool/{top}/force_z"][cycle]))
+    q = np.ptp(force[cycle]) / 2 / (mu * n)
+    a = (3 * n * radius * (1 - nu**2) / (4 * young)) ** (1 / 3)
+    # Johnson (1985), Sec. 7.2 and 7.4, one of the bodies rigid: displacement, and the area of its hysteresis loop with the force.
+    k = 3 * mu * n / (16 * a) * (2 - nu) * 2 * (1 + nu) / young
+    law = 4.8 * k * mu * n * (1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3)))
+    load = np.clip(force[forth] / (mu * n), 0, 1)
+    fitted = np.linalg.lstsq(np.stack([1 - (1 - load) ** (2 / 3), load], 1), x[forth], rcond=None)[0][0]
+    return a, q, fitted / k, np.trapz(force[cycle], x[cycle]) / law
+
+
+def domed_punches(dome, contacts):
+    """Discs glued to a floor; each is pressed by its own rigid punch with a dome of this radius, to a depth of a^2/dome, and moved."""
+    height, diameter = 6e-3, 12e-3
+    r = np.linspace(0, diameter / 3, 161)
+    profile = ", ".join(f'["{x:.9e} m", "{math.sqrt(dome**2 - x**2) - dome:.9e} m"]' for x in r)
+    text = (f'\n[[particle]]\nname = "disc"\nmaterial = "m"\nshape = "cylinder"\ndiameter = "{diameter} m"\nheight = "{height} m"\n'
+            'rounding = "0.25 mm"\n[particle.mesh]\ngrid = "extruded"\ndivisions = 8\nrings = 4\naxial_divisions = 6\n')
+    text += plane("floor", (0, 0, 0), (0, 0, 1))
+    text += ('\n[[bond]]\nbetween = ["m", "floor"]\norigin = "initial"\nstrength = "1e12 Pa"\nfracture_energy = "1e9 J/m^2"\n'
+             'reach = 0.2\n')
+    moves = [{}, {}, {}, {}]
+    for i, a in enumerate(contacts):
+        x, depth = 2.2 * diameter * i, a * a / dome
+        text += body(x, 0, height / 2, "disc")
+        text += (f'\n[[tool]]\nname = "punch{i}"\nshape = "punch"\npoint = ["{x} m", "0 m", "{height} m"]\nnormal = [0, 0, -1]\n'
+                 f'diameter = "{2 * diameter / 3} m"\nprofile = [{profile}]\n')
+        moves[0][f"punch{i}"] = (0, 0, -depth)
+        for move, by in zip(moves[1:], (0.4, -0.8, 0.8)):
+            move[f"punch{i}"] = (by * depth, 0, 0)
+    for name, duration, move in zip(("press", "forth", "against", "again"), (1e-4, 5e-5, 1e-4, 1e-4), moves):
+        text += stage(duration, move, "compact", name, 0.5)
+    return text
+
+
 def mindlin(bench):
-    radius, mu, nu, young = 5e-3, 0.3, 0.45, 200e9
-    shear = young / 2 / (1 + nu)
+    mu, nu, young = 0.3, 0.45, 200e9
     material = STEEL.replace("0.3", f"{nu}")
-    print("law mindlin: a sphere pressed by four planes, of which two move forth and back and the others against them, so that it")
-    print("neither moves nor turns. Compliance: of the first slip, fitted by k (1 - (1 - q)^(2/3)) + L q, k over Mindlin's; work: that of")
-    print("friction in a cycle over Mindlin & Deresiewicz's, and the same with the fitted k; q: amplitude of Q/(mu N)")
-    for divisions, stiffness, d in ((8, 10, 0.05), (12, 10, 0.05), (12, 40, 0.05), (12, 10, 0.02), (24, 10, 0.02)):
-        rings = 2
-        text = head("Mindlin", material) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
+    output = OUTPUT.replace("200", "400")
+    print("law mindlin: a contact is pressed and then moved back and forth. Compliance: of the first slip, fitted by")
+    print("k (1 - (1 - q)^(2/3)) + L q, k over Mindlin's; work: that of friction in a cycle over Mindlin & Deresiewicz's;")
+    print("q: amplitude of Q/(mu N); p/E: largest pressure of Hertz over Young's modulus")
+
+    def show(what, found, radius, face):
+        a, q, compliance, work = found
+        pressure = 2 / math.pi * a / radius / (1 - nu**2)
+        print(f"  {what:44} contact radius {1e3 * a:.2f} mm, {a / face:.1f} faces, p/E {pressure:.3f}, q {q:.2f}: "
+              f"compliance {compliance:.3f}, work {work:.3f}", flush=True)
+
+    for dome, contacts in ((50e-3, (1.2e-3, 1.7e-3, 2.3e-3, 2.9e-3)), (10e-3, (1.7e-3, 2.3e-3, 2.9e-3))):
+        text = head("Mindlin", material) + domed_punches(dome, contacts) + contact(friction=mu, damping=0.3) + output
+        h = bench.run(f"mindlin-dome-{1e3 * dome:.0f}", text)
+        for i in range(len(contacts)):
+            show(f"disc, dome of {1e3 * dome:.0f} mm", partial_slip(h, f"punch{i}", dome, young, nu, mu, (1.02e-4, 1.5e-4)), dome, 0.75e-3)
+
+    # A sphere between four planes, of which two move forth and back and the others against them, so that it neither moves nor turns.
+    radius = 5e-3
+    for divisions, d in ((8, 0.05), (8, 0.1)):
+        text = head("Mindlin", material) + ball(2 * radius, divisions, 1) + body(0, 0, radius)
         text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
         text += plane("front", (0, -radius, 0), (0, 1, 0)) + plane("back", (0, radius, 0), (0, -1, 0))
         press, t = d * radius, 0.48 * d * radius
         text += stage(1.5e-4, {"top": (0, 0, -press), "bottom": (0, 0, press), "front": (0, press, 0), "back": (0, -press, 0)}, ramp=0.5)
         for name, by, duration in (("forth", t, 5e-5), ("against", -2 * t, 1e-4), ("again", 2 * t, 1e-4)):
             text += stage(duration, {"top": (by, 0, 0), "bottom": (by, 0, 0), "front": (-by, 0, 0), "back": (-by, 0, 0)}, "compact", name, 0.5)
-        text += contact(stiffness=stiffness, friction=mu, damping=0.3) + OUTPUT
-        h = bench.run(f"mindlin-{divisions}-{stiffness}-{d}", text)
-        time, spent = h["time"], h["energy/friction"]
-        late = time > 2e-4
-        sides = [("top", "z"), ("bottom", "z"), ("front", "y"), ("back", "y")]
-        normal = np.mean([np.mean(np.abs(h[f"tool/{s}/force_{n}"][late])) for s, n in sides])
-        q = np.mean([np.ptp(h[f"tool/{s}/force_x"][late]) for s, _ in sides]) / 2 / (mu * normal)
-        a = (3 * normal * radius * (1 - nu**2) / (4 * young)) ** (1 / 3)
-        forth = (time > 1.55e-4) & (time < 2e-4)
-        load = np.clip(-h["tool/top/force_x"][forth] / (mu * normal), 0, 1)
-        found = np.linalg.lstsq(np.stack([1 - (1 - load) ** (2 / 3), load], 1), h["tool/top/position_x"][forth], rcond=None)[0][0]
-        # Johnson (1985), Sec. 7.2 and 7.4, one of the bodies rigid: displacement, and the area of its hysteresis loop with the force.
-        k = 3 * mu * normal / (16 * a) * (2 - nu) / shear
-        law = 4 * 4.8 * k * mu * normal * (1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3)))
-        of_cycle = spent[-1] - np.interp(2e-4, time, spent)
-        print(f"  {divisions} divisions, stiffness {stiffness}, approach {d} R (contact of {a / radius:.3f} R): q = {q:.3f}, "
-              f"compliance {found / k:.3f}, work {of_cycle / law:.3f}, {of_cycle / law / (found / k):.3f}", flush=True)
+        h = bench.run(f"mindlin-sphere-{divisions}-{d}", text + contact(friction=mu, damping=0.3) + output)
+        show(f"sphere, {divisions} divisions, approach {d} R", partial_slip(h, "top", radius, young, nu, mu, (1.55e-4, 2e-4)),
+             radius, math.pi / 2 * radius / divisions)
 
 
 LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin, dense, cost, shapes, sharp)}
