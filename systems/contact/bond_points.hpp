@@ -251,7 +251,10 @@ class BondPass {
       for (int g = 0; g < edge_points; ++g) {
         if ((points >> g & 1) == 0) continue;
         s_.bonds.damage(row, g) = 0;
-        if (s_.rows.bonding->weld) (*s_.rows.bonding->weld)(row, WeldPressure<At>::largest + g) = 0;
+        if (!s_.rows.bonding->weld) continue;
+        const auto& pressure = *s_.rows.bonding->weld;
+        // The one now is that at the anchor: no measure of what the contact has carried.
+        pressure(row, g) = pressure(row, WeldPressure<At>::largest + g) = 0;
       }
     }
   }

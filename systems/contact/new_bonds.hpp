@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "systems/contact/bond_strength.hpp"
 #include "systems/contact/systems.hpp"
@@ -27,7 +28,8 @@ void make_bond(const NewBonds<At>& rows, Row<At> row, int g, int law, double str
 
 // ---- by pressure ------------------------------------------------------------------------------------
 // Tracks the pressure of a row's points and welds those whose pressure has dropped. `anchor(g)` sets where point g is
-// held, and returns its position relative to it.
+// held, and returns its position relative to it; none if the point is no longer opposite the surface. Such a point has not
+// been unloaded, it has slid off: it forgets its pressure.
 template <class At, class Anchor>
 void weld(const NewBonds<At>& rows, const Write<WeldPressure<At>>& pressure, const BondRules& rules,
           Row<At> row, const Anchor& anchor) {
@@ -44,8 +46,12 @@ void weld(const NewBonds<At>& rows, const Write<WeldPressure<At>>& pressure, con
     const double strength = welded_strength(law, largest);
     if ((bonded >> g & 1) != 0)
       rows.strength(row, g) = std::max(rows.strength(row, g), strength);
-    else if (now < weld_at * largest)
-      make_bond(rows, row, g, number, strength, anchor(g));
+    else if (now < weld_at * largest) {
+      if (const std::optional<BondOpening> opening = anchor(g))
+        make_bond(rows, row, g, number, strength, *opening);
+      else
+        largest = 0;
+    }
   }
 }
 

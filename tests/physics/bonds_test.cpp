@@ -332,6 +332,52 @@ move = [{ tool = "head", displacement = ["0 mm", "20 um"] }]
   EXPECT_LT(e.results.energy_balance_error(), 1e-4);
 }
 
+// Points that slide past a corner are closest to the corner itself. They are not unloaded, and weld no more.
+TEST(Glue, OfColdWeldingIsNotMadeBesideACorner) {
+  Experiment e(own_scene(std::string(bar_material) + R"(
+[[particle]]
+name = "wedge"
+material = "stone"
+outline = "polygon"
+corners = [["-0.6 mm", "0.3 mm"], ["0 mm", "-0.5 mm"], ["0.6 mm", "0.3 mm"]]
+mesh = { boundary_edges = 40 }
+[[particle]]
+name = "slider"
+material = "stone"
+outline = "rectangle"
+width = "1 mm"
+height = "0.5 mm"
+mesh = { columns = 8, rows = 4 }
+[[body]]
+particle = "wedge"
+position = ["0 mm", "0 mm"]
+[[body]]
+particle = "slider"
+position = ["0.2 mm", "0.518 mm"]
+[[bond]]
+between = ["stone", "stone"]
+origin = "pressed"
+strength = "10 MPa"
+fracture_energy = "20 J/m^2"
+threshold = "5 MPa"
+growth = 0.5
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "60 us"
+move = [{ tool = "head", displacement = ["0 mm", "-0.006 mm"] }]
+[[stage]]
+name = "slide"
+kind = "compact"
+duration = "200 us"
+move = [{ tool = "head", displacement = ["0.3 mm", "0 mm"] }]
+)" + grip("base", 0, {-.5, -.8, .5, -.05}, "both") +
+                         grip("head", 1, {-1, .7, 1, 1}, "both")));
+  e.run(200);
+  EXPECT_GT(e.value("bonds/crack_length"), 1e-4);
+  EXPECT_LT(e.results.energy_balance_error(), 1e-3);
+}
+
 TEST(Glue, IsBitwiseTheSameForAnyThreads) {
   const auto hash = [](int threads) {
     Experiment e("bonds/cold-weld.toml", {}, threads);
