@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "scenes/language/csv_table.hpp"
-#include "scenes/lever/lab_fit.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/solve/lab_fit.hpp"
 #include "scenes/solve/least_squares.hpp"
 
 namespace pulvis {

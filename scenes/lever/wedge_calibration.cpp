@@ -6,106 +6,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 
 #include "engine/portable_math.hpp"
-#include "scenes/lever/lab_fit.hpp"
+#include "scenes/lever/wedge_readings.hpp"
 
 namespace pulvis::wedge {
 namespace {
 
 constexpr double flat = 1e-6;  // rad: such a slope gives no information
+// Relative: an offset of the detector as large as the crosstalk is then subtracted to this accuracy.
+constexpr double same_load = 0.01;
 
 double squared(double x) { return x * x; }
-
-struct Fit {
-  Value slope, zero;  // per unit load; at zero load
-};
-
-// Through the loops of several loads; `of` and `error_of` select the fitted value.
-template <class Of, class ErrorOf>
-Fit line_through(const std::vector<Loop>& loops, const Of& of, const ErrorOf& error_of) {
-  std::vector<double> load, value;
-  for (const Loop& loop : loops) load.push_back(loop.load), value.push_back(of(loop));
-  const lab::Line line = lab::fit_line(load, value);
-  const auto n = static_cast<double>(loops.size());
-  Fit fit{{line.slope, {}}, {line.at(0), {}}};
-  double slope2 = 0, zero2 = 0;
-  bool known = true;
-  for (const Loop& loop : loops) {
-    const std::optional<double> error = error_of(loop);
-    known = known && error;
-    const double on_slope = (loop.load - line.middle) / line.spread;
-    const double on_zero = 1 / n - line.middle * on_slope;
-    slope2 += squared(on_slope * error.value_or(0));
-    zero2 += squared(on_zero * error.value_or(0));
-  }
-  if (loops.size() > 2) {
-    const double scatter2 = line.residual / (n - 2);
-    slope2 = std::max(known ? slope2 : 0, scatter2 / line.spread);
-    zero2 =
-        std::max(known ? zero2 : 0, scatter2 * (1 / n + line.middle * line.middle / line.spread));
-    known = true;
-  }
-  if (known) fit.slope.error = std::sqrt(slope2), fit.zero.error = std::sqrt(zero2);
-  return fit;
-}
-
-// Loops at one load: their mean over the load.
-template <class Of, class ErrorOf>
-Value mean_by_load(const std::vector<Loop>& loops, const Of& of, const ErrorOf& error_of) {
-  const auto n = static_cast<double>(loops.size());
-  double sum = 0, squares = 0, error2 = 0;
-  bool known = true;
-  for (const Loop& loop : loops) {
-    const double value = of(loop) / loop.load;
-    sum += value;
-    squares += value * value;
-    known = known && error_of(loop);
-    error2 += squared(error_of(loop).value_or(0) / loop.load / n);
-  }
-  const double mean = sum / n;
-  if (loops.size() > 2) {
-    const double scatter2 = std::max(0.0, squares / n - mean * mean) / (n - 1);
-    error2 = std::max(known ? error2 : 0, scatter2);
-    known = true;
-  }
-  return {mean, known ? std::optional(std::sqrt(error2)) : std::nullopt};
-}
-
-Facet facet_of(const std::vector<Loop>& loops) {
-  Facet facet;
-  facet.slope = loops.front().slope;
-  facet.loops = static_cast<int>(loops.size());
-  std::set<double> loads;
-  for (const Loop& loop : loops) loads.insert(loop.load);
-  facet.loads = static_cast<int>(loads.size());
-  const auto width = [](const Loop& loop) { return loop.half_width; };
-  const auto width_error = [](const Loop& loop) { return loop.half_width_error; };
-  const auto offset = [](const Loop& loop) { return loop.offset; };
-  const auto offset_error = [](const Loop& loop) { return loop.offset_error; };
-  if (facet.loads == 1) {
-    if (loops.front().load == 0)
-      throw std::runtime_error(
-          "a facet was measured at zero load only, allowed: loads other than 0");
-    facet.half_width = mean_by_load(loops, width, width_error);
-    facet.offset = mean_by_load(loops, offset, offset_error);
-    return facet;
-  }
-  const Fit w = line_through(loops, width, width_error);
-  facet.half_width = w.slope;
-  facet.offset = line_through(loops, offset, offset_error).slope;
-  const double adhesion = w.zero.value / (w.slope.value * portable::cos(facet.slope));
-  facet.adhesion = Value{adhesion, {}};
-  if (w.zero.error && w.slope.error)
-    facet.adhesion->error =
-        portable::hypot(*w.zero.error / (w.slope.value * portable::cos(facet.slope)),
-                        adhesion * *w.slope.error / w.slope.value);
-  return facet;
-}
 
 struct Pair {
   double friction = 0, sensitivity = 0;
@@ -119,35 +33,103 @@ std::optional<Pair> solve(double width, double offset, double adhesion, double s
   return Pair{*mu, *mu * (1 + adhesion * c) / (c * c - *mu * *mu * s * s) / width};
 }
 
-// A facet's figure, its error without that of the crosstalk, and its derivative with respect to the offset,
-// from which the crosstalk was subtracted: that error is common to all facets.
+// The signal of a flat facet at the loads of an inclined one, to be subtracted. Its errors are common to all
+// facets: those of the flat facet's slope over the loads (or of its only load) and of its value at the mean load.
+struct Level {
+  double by_load = 0;  // V/N
+  std::array<double, 2> errors{};
+  bool errors_known = true;
+};
+
+// With several loads on the flat facet its line separates crosstalk from the offset of the detector. With one load
+// only their sum is known, and only at that load.
+Level level_for(const Reading& flat_one, const Reading& inclined) {
+  const Fit& line = flat_one.offset;
+  if (!flat_one.is_single()) {
+    const double slope_error = line.slope.error.value_or(0);
+    const bool known = line.slope.error.has_value();
+    if (!inclined.is_single()) return {line.slope.value, {slope_error, 0}, known};
+    const double load = inclined.load;
+    return {line.at(load) / load,
+            {slope_error * (load - line.load) / load, line.middle.error.value_or(0) / load},
+            known};
+  }
+  if (inclined.is_single() &&
+      std::abs(inclined.load - flat_one.load) > same_load * std::abs(flat_one.load))
+    throw std::runtime_error(fmt::format(
+        "the flat facet was measured at {:.4g} nN only and the slope of {:g} deg at {:.4g} nN "
+        "only, where an offset of the detector cannot be told from the crosstalk of the load, "
+        "allowed: the same load, or several loads on one of them",
+        flat_one.load * 1e9, inclined.facet.slope * 180 / std::numbers::pi, inclined.load * 1e9));
+  const Value& offset = flat_one.facet.offset;
+  return {offset.value, {offset.error.value_or(0), 0}, offset.error.has_value()};
+}
+
+// What is solved for friction and sensitivity.
+struct Signals {
+  Value half_width, offset;  // V/N, the offset without the flat facet's
+  Value adhesion;            // over the load; 0 where the volts are slopes over several loads
+  double slope = 0;          // rad
+  // The half-width is a slope over several loads, but the offset that of the flat facet's only load.
+  bool is_mixed = false;
+
+  std::optional<Pair> solved(const std::array<double, 4>& x) const {
+    const double width = is_mixed ? x[0] * (1 + x[3] * portable::cos(x[2])) : x[0];
+    return solve(width, x[1], x[3], x[2]);
+  }
+};
+
+// At one load Delta holds crosstalk and offset in the same proportion on all facets.
+Signals at_level_load(const Reading& inclined, double load, const Level& level) {
+  const Fit& line = inclined.offset;
+  Signals signals{inclined.facet.half_width,
+                  {line.at(load) / load - level.by_load, {}},
+                  *inclined.facet.adhesion,
+                  inclined.facet.slope,
+                  true};
+  if (line.slope.error)
+    signals.offset.error =
+        portable::hypot(*line.middle.error / load, *line.slope.error * (load - line.load) / load);
+  signals.adhesion.value /= load;
+  // Its correlation with the half-width hardly matters: adhesion enters Delta with mu^2 only.
+  if (signals.adhesion.error) *signals.adhesion.error /= load;
+  return signals;
+}
+
+// A facet's figure, its error without those common to all facets, and those: of its level, and of how level the
+// flat facet is.
 struct Estimate {
   Value own;
-  double by_offset = 0;
+  Eigen::Vector3d common = Eigen::Vector3d::Zero();
+  double by_offset = 0;  // derivative with respect to the offset
+  bool errors_known = true;
 };
 
 struct FacetEstimates {
   Estimate friction, sensitivity;
 };
 
-FacetEstimates calibrate_facet(const Facet& facet, double adhesion, double slope_error) {
-  const std::array<double, 3> at{facet.half_width.value, facet.offset.value, facet.slope};
-  const auto of = [&](const std::array<double, 3>& x) { return solve(x[0], x[1], adhesion, x[2]); };
-  const auto pair = of(at);
+FacetEstimates calibrate_facet(const Signals& signals, const Level& level, double slope_error) {
+  const std::array<double, 4> at{signals.half_width.value, signals.offset.value, signals.slope,
+                                 signals.adhesion.value};
+  const auto pair = signals.solved(at);
   if (!pair)
     throw std::runtime_error(fmt::format(
         "on the slope of {:g} deg there is no matching friction coefficient: 2 (Delta/W)/sin 2 "
         "theta is {:.4g}, allowed: >= 2",
-        facet.slope * 180 / std::numbers::pi, 2 * at[1] / at[0] / portable::sin(2 * facet.slope)));
-  FacetEstimates e{{{pair->friction, {}}, 0}, {{pair->sensitivity, {}}, 0}};
-  if (!facet.half_width.error || !facet.offset.error) return e;
-  const std::array<double, 3> error{*facet.half_width.error, *facet.offset.error, slope_error};
+        at[2] * 180 / std::numbers::pi, 2 * at[1] / at[0] / portable::sin(2 * at[2])));
+  FacetEstimates e;
+  e.friction.own.value = pair->friction;
+  e.sensitivity.own.value = pair->sensitivity;
+  if (!signals.half_width.error || !signals.offset.error) return e;
+  const std::array<double, 4> error{*signals.half_width.error, *signals.offset.error, slope_error,
+                                    signals.adhesion.error.value_or(0)};
   double friction2 = 0, sensitivity2 = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
     auto up = at, down = at;
-    const double step = 1e-6 * std::abs(at[i]);
+    const double step = 1e-6 * (i == 3 ? 1 : std::abs(at[i]));
     up[i] += step, down[i] -= step;
-    const auto a = of(up), b = of(down);
+    const auto a = signals.solved(up), b = signals.solved(down);
     if (!a || !b) return e;  // at the limit of the solvable range: error unknown
     const double by_friction = (a->friction - b->friction) / (2 * step);
     const double by_sensitivity = (a->sensitivity - b->sensitivity) / (2 * step);
@@ -157,13 +139,18 @@ FacetEstimates calibrate_facet(const Facet& facet, double adhesion, double slope
   }
   e.friction.own.error = std::sqrt(friction2);
   e.sensitivity.own.error = std::sqrt(sensitivity2);
+  for (Estimate* estimate : {&e.friction, &e.sensitivity}) {
+    estimate->errors_known = level.errors_known;
+    estimate->common.head<2>() =
+        estimate->by_offset * Eigen::Vector2d(level.errors[0], level.errors[1]);
+  }
   return e;
 }
 
-Value with_crosstalk(const Estimate& e, const std::optional<Value>& crosstalk) {
-  if (!crosstalk || !e.own.error) return e.own;
-  if (!crosstalk->error) return {e.own.value, {}};
-  return {e.own.value, portable::hypot(*e.own.error, e.by_offset * *crosstalk->error)};
+Value with_common(const Estimate& e) {
+  if (!e.own.error) return e.own;
+  if (!e.errors_known) return {e.own.value, {}};
+  return {e.own.value, portable::hypot(*e.own.error, e.common.norm())};
 }
 
 // Mean of estimates with correlated errors (Aitken 1936); without errors a plain mean and its scatter.
@@ -173,22 +160,20 @@ struct MeanOfFacets {
   double disagreement = 0;      // Birge ratio squared; only for estimates with errors
 };
 
-MeanOfFacets mean_of(const std::vector<Estimate>& estimates,
-                     const std::optional<Value>& crosstalk) {
+MeanOfFacets mean_of(const std::vector<Estimate>& estimates) {
   const auto n = static_cast<Eigen::Index>(estimates.size());
-  Eigen::VectorXd value(n), by_offset(n);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
-  bool weighted = !crosstalk || crosstalk->error;
+  Eigen::VectorXd value(n);
+  Eigen::MatrixXd common(n, 3), covariance = Eigen::MatrixXd::Zero(n, n);
+  bool weighted = true;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Estimate& e = estimates[static_cast<std::size_t>(i)];
     value[i] = e.own.value;
-    by_offset[i] = e.by_offset;
-    weighted = weighted && e.own.error && *e.own.error > 0;
+    common.row(i) = e.common.transpose();
+    weighted = weighted && e.errors_known && e.own.error && *e.own.error > 0;
     covariance(i, i) = e.own.error ? *e.own.error * *e.own.error : 0;
   }
-  const double shared = crosstalk ? crosstalk->error.value_or(0) : 0;
   if (weighted)
-    covariance += shared * shared * by_offset * by_offset.transpose();
+    covariance += common * common.transpose();
   else
     covariance.setIdentity();
   // Scaled by the values: their squares would give matrix entries of about 1e-20.
@@ -208,28 +193,115 @@ MeanOfFacets mean_of(const std::vector<Estimate>& estimates,
   return all;
 }
 
-std::vector<Facet> facets_of(const std::vector<Loop>& loops) {
-  std::map<double, std::vector<Loop>> by_slope;
-  for (const Loop& loop : loops) by_slope[loop.slope].push_back(loop);
-  std::vector<Facet> facets;
-  for (const auto& [slope, own] : by_slope) {
-    if (!(std::abs(slope) < std::numbers::pi / 2))
-      throw std::runtime_error(fmt::format("a slope of {:g} deg, allowed: between -90 and 90 deg",
-                                           slope * 180 / std::numbers::pi));
-    facets.push_back(facet_of(own));
-    if (facets.back().half_width.value == 0)
-      throw std::runtime_error(fmt::format("the loops on {:g} deg have no width, allowed: friction",
-                                           slope * 180 / std::numbers::pi));
-  }
-  return facets;
+// For a facet measured at one load: the known adhesion over that load.
+double adhesion_by_load(const Reading& reading, double adhesion) {
+  return reading.is_single() ? adhesion / reading.load : 0;
 }
 
-// For a facet measured at one load: the known adhesion over that load.
-double adhesion_by_load(const Facet& facet, const std::vector<Loop>& loops, double adhesion) {
-  if (facet.loads > 1) return 0;
-  const auto own = std::ranges::find(loops, facet.slope, &Loop::slope);
-  return adhesion / own->load;
+// The offset of the detector, from where an inclined facet's line of Delta meets zero load.
+Value detector_offset(const Reading& inclined, const Pair& pair) {
+  const double s = portable::sin(inclined.facet.slope), c = portable::cos(inclined.facet.slope);
+  const double mu2 = pair.friction * pair.friction;
+  const double by_adhesion =
+      mu2 * inclined.facet.adhesion->value * s / ((c * c - mu2 * s * s) * pair.sensitivity);
+  return {inclined.offset.zero.value - by_adhesion, inclined.offset.zero.error};
 }
+
+class Evaluation {
+ public:
+  Evaluation(const std::vector<Loop>& loops, const Known& known)
+      : known_(known), readings_(readings_of(loops)) {
+    const auto flat_one = std::ranges::find_if(
+        readings_, [](const Reading& r) { return std::abs(r.facet.slope) < flat; });
+    if (flat_one != readings_.end()) flat_ = &*flat_one;
+    if (flat_) crosstalk_ = flat_->facet.offset;
+    for (Reading& reading : readings_)
+      if (&reading != flat_) evaluate(reading);
+    if (friction_.empty())
+      throw std::runtime_error("there is no facet with a slope, allowed: loops on at least one");
+    if (flat_) add_tilt();
+    if (!offsets_.empty()) take_offset();
+  }
+
+  Calibration result() {
+    Calibration all;
+    all.crosstalk = crosstalk_;
+    std::size_t i = 0;
+    for (Reading& reading : readings_) {
+      if (&reading != flat_) {
+        reading.facet.friction = with_common(friction_[i]);
+        reading.facet.sensitivity = with_common(sensitivity_[i++]);
+      }
+      all.facets.push_back(reading.facet);
+    }
+    all.friction = mean_of(friction_).mean;
+    const MeanOfFacets mean = mean_of(sensitivity_);
+    all.sensitivity = mean.mean;
+    all.weights = mean.weights;
+    all.disagreement = mean.disagreement;
+    if (all.sensitivity.error)
+      all.sensitivity.error =
+          portable::hypot(*all.sensitivity.error, all.sensitivity.value * known_.load_error);
+    if (flat_)
+      all.flat_friction = flat_->facet.half_width.value * all.sensitivity.value /
+                          (1 + adhesion_by_load(*flat_, known_.adhesion));
+    return all;
+  }
+
+ private:
+  void evaluate(Reading& reading) {
+    Facet& facet = reading.facet;
+    const Level level = flat_ ? level_for(*flat_, reading) : Level{};
+    const bool is_mixed = flat_ && flat_->is_single() && !reading.is_single();
+    Signals signals{facet.half_width,
+                    facet.offset,
+                    {adhesion_by_load(reading, known_.adhesion), {}},
+                    facet.slope,
+                    false};
+    signals.offset.value -= level.by_load;
+    if (is_mixed) signals = at_level_load(reading, flat_->load, level);
+    const FacetEstimates e = calibrate_facet(signals, level, known_.slope_error);
+    facet.offset.value -= level.by_load;
+    if (is_mixed) {
+      offsets_.push_back(detector_offset(reading, {e.friction.own.value, e.sensitivity.own.value}));
+      facet.offset.value += offsets_.back().value / flat_->load;
+    }
+    friction_.push_back(e.friction);
+    sensitivity_.push_back(e.sensitivity);
+  }
+
+  // A flat facet that is tilted shows (1 + mu^2) tilt/sensitivity per load besides the crosstalk.
+  void add_tilt() {
+    const double mu = mean_of(friction_).mean.value;
+    const double tilt =
+        (1 + mu * mu) * known_.slope_error / std::abs(mean_of(sensitivity_).mean.value);
+    for (auto* estimates : {&friction_, &sensitivity_})
+      for (Estimate& e : *estimates) e.common[2] = e.by_offset * tilt;
+    if (crosstalk_->error) crosstalk_->error = portable::hypot(*crosstalk_->error, tilt);
+  }
+
+  // The crosstalk of a flat facet with one load, without the offset of the detector.
+  void take_offset() {
+    const double n = static_cast<double>(offsets_.size()) * flat_->load;
+    double error2 = 0;
+    bool known = crosstalk_->error.has_value();
+    for (const Value& offset : offsets_) {
+      crosstalk_->value -= offset.value / n;
+      error2 += squared(offset.error.value_or(0) / n);
+      known = known && offset.error;
+    }
+    crosstalk_->error = known
+                            ? std::optional(portable::hypot(*crosstalk_->error, std::sqrt(error2)))
+                            : std::nullopt;
+  }
+
+  Known known_;
+  std::vector<Reading> readings_;
+  const Reading* flat_ = nullptr;
+  std::optional<Value> crosstalk_;
+  std::vector<Estimate> friction_, sensitivity_;
+  std::vector<Value> offsets_;  // V, of the detector, where the flat facet has one load
+};
 
 }  // namespace
 
@@ -243,36 +315,7 @@ std::optional<double> friction_of_ratio(double ratio, double load, double adhesi
 }
 
 Calibration calibrate(const std::vector<Loop>& loops, const Known& known) {
-  Calibration all;
-  all.facets = facets_of(loops);
-  const auto level = std::ranges::find_if(
-      all.facets, [](const Facet& facet) { return std::abs(facet.slope) < flat; });
-  if (level != all.facets.end()) all.crosstalk = level->offset;
-  std::vector<Estimate> friction, sensitivity;
-  for (Facet& facet : all.facets) {
-    if (std::abs(facet.slope) < flat) continue;
-    if (all.crosstalk) facet.offset.value -= all.crosstalk->value;
-    const FacetEstimates e =
-        calibrate_facet(facet, adhesion_by_load(facet, loops, known.adhesion), known.slope_error);
-    facet.friction = with_crosstalk(e.friction, all.crosstalk);
-    facet.sensitivity = with_crosstalk(e.sensitivity, all.crosstalk);
-    friction.push_back(e.friction);
-    sensitivity.push_back(e.sensitivity);
-  }
-  if (friction.empty())
-    throw std::runtime_error("there is no facet with a slope, allowed: loops on at least one");
-  all.friction = mean_of(friction, all.crosstalk).mean;
-  const MeanOfFacets mean = mean_of(sensitivity, all.crosstalk);
-  all.sensitivity = mean.mean;
-  all.weights = mean.weights;
-  all.disagreement = mean.disagreement;
-  if (all.sensitivity.error)
-    all.sensitivity.error =
-        portable::hypot(*all.sensitivity.error, all.sensitivity.value * known.load_error);
-  if (level != all.facets.end())
-    all.flat_friction = level->half_width.value * all.sensitivity.value /
-                        (1 + adhesion_by_load(*level, loops, known.adhesion));
-  return all;
+  return Evaluation(loops, known).result();
 }
 
 }  // namespace pulvis::wedge

@@ -7,11 +7,14 @@
 //          mu^2 A s]/D. The sensitivity cancels in the ratio Delta/W, which leaves a quadratic for mu.
 //          With several loads the ratio is that of the slopes dDelta/dL and dW/dL: neither adhesion nor a
 //          constant offset of the detector matters, and A follows from where the line of W crosses zero.
-//          A flat facet shows the detector's response to the load itself (crosstalk), which is subtracted.
+//          A flat facet shows the detector's response to the load itself (crosstalk), which is subtracted. At one
+//          load that contains a constant offset: the other facets are then evaluated at the same load, where
+//          it cancels; their line of Delta at zero load gives its size.
 // Uncertainty  one standard deviation each: from the stated errors of the loops, or the scatter about the
 //          lines (the larger), and that of the slope, propagated by finite differences; facets are averaged
 //          with weights. Where they disagree by more, this is included (Birge 1932). The error of the
-//          crosstalk is common to all facets: it cancels between slopes of opposite sign.
+//          crosstalk is common to all facets: it cancels between slopes of opposite sign. That of the flat
+//          facet's own slope adds (1 + mu^2) slope_error/sensitivity to it.
 #pragma once
 
 #include <optional>

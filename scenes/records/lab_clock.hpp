@@ -15,9 +15,9 @@
 // that at the end includes a drift of up to clock.largest_drift, uniformly distributed.
 #pragma once
 
-#include "scenes/lever/lab_fit.hpp"
 #include "scenes/records/lab_record.hpp"
 #include "scenes/records/lab_sliding.hpp"
+#include "scenes/solve/lab_fit.hpp"
 
 #include <optional>
 

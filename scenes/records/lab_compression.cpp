@@ -1,9 +1,9 @@
 #include "scenes/records/lab_compression.hpp"
 
 #include "scenes/language/csv_table.hpp"
-#include "scenes/lever/lab_fit.hpp"
 #include "scenes/records/lab_simulation.hpp"
 #include "scenes/results/density_fit_errors.hpp"
+#include "scenes/solve/lab_fit.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "scenes/records/lab_press.hpp"
 
-#include "scenes/lever/lab_fit.hpp"
+#include "scenes/solve/lab_fit.hpp"
 #include "scenes/solve/least_squares.hpp"
 
 #include <fmt/format.h>

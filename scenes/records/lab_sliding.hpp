@@ -1,8 +1,8 @@
 // Start, end and distance of sliding, from the logger's LVDT signal.
 #pragma once
 
-#include "scenes/lever/lab_fit.hpp"
 #include "scenes/records/lab_record.hpp"
+#include "scenes/solve/lab_fit.hpp"
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "scenes/records/lab_stick_slip.hpp"
 
-#include "scenes/lever/lab_fit.hpp"
 #include "scenes/records/lab_statistics.hpp"
+#include "scenes/solve/lab_fit.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -9,7 +9,7 @@
 
 #include "engine/portable_math.hpp"
 #include "scenes/language/csv_table.hpp"
-#include "scenes/lever/lab_fit.hpp"
+#include "scenes/solve/lab_fit.hpp"
 
 namespace pulvis::wedge {
 namespace {

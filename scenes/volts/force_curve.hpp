@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/lever/lab_fit.hpp"
+#include "scenes/solve/lab_fit.hpp"
 
 namespace pulvis::volts {
 

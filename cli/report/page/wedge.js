@@ -6,26 +6,24 @@
 const inDegrees = slope => `${slope > 0 ? "+" : ""}${digits(slope * 180 / Math.PI, 4)}°`;
 const mean = values => values.reduce((sum, v) => sum + v, 0) / values.length;
 
-// The loops of a facet as markers, with the fitted line: least squares pass through the mean of both. A single
-// load gives no line.
-function facetLine(facet, loops, key, slope) {
+// The loops of a facet as markers, with their least-squares line. A single load gives no line.
+function facetLine(facet, loops, key) {
   const own = loops.filter(loop => loop.slope === facet.slope);
   const x = own.map(loop => loop.load), values = own.map(loop => loop[key]);
   const error = own.map(loop => loop[`${key}_error`] ?? 0);
-  const at = load => mean(values) + slope * (load - mean(x)), ends = [0, Math.max(...x)];
+  const middle = mean(x), about = mean(values);
+  const slope = mean(x.map((load, i) => (load - middle) * (values[i] - about))) / mean(x.map(load => (load - middle) ** 2));
+  const at = load => about + slope * (load - middle), ends = [0, Math.max(...x)];
   return {label: inDegrees(facet.slope), unit: "V", x, values, isMarks: true,
           low: values.map((v, i) => v - error[i]), high: values.map((v, i) => v + error[i]),
           fit: facet.loads > 1 ? {x: ends, values: ends.map(at)} : undefined};
 }
 
-function placeCharts({facets, crosstalk}, loops) {
+function placeCharts({facets}, loops) {
   const load = {label: "load", unit: "N", values: []};
-  const draw = (title, y, key, slopeOf) => drawChart(card(title),
-    {x: load, y, lines: facets.map(facet => facetLine(facet, loops, key, slopeOf(facet)))});
-  draw("Half-width W of the loops against load", "half-width W", "half_width", facet => facet.half_width_by_load.value);
-  const taken = crosstalk ? crosstalk.value : 0;  // subtracted from the other facets' offsets, not from the flat facet's
-  draw("Offset Δ of the loops against load", "offset Δ", "offset",
-       facet => facet.offset_by_load.value + (facet.friction ? taken : 0));
+  const draw = (title, y, key) => drawChart(card(title), {x: load, y, lines: facets.map(facet => facetLine(facet, loops, key))});
+  draw("Half-width W of the loops against load", "half-width W", "half_width");
+  draw("Offset Δ of the loops against load", "offset Δ", "offset");
   return 2;
 }
 

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <random>
 
-#include "scenes/lever/lab_fit.hpp"
 #include "scenes/records/lab_friction.hpp"
 #include "scenes/records/lab_statistics.hpp"
 #include "scenes/records/lab_stick_slip.hpp"
+#include "scenes/solve/lab_fit.hpp"
 
 namespace pulvis::lab {
 namespace {

@@ -96,6 +96,80 @@ TEST(WedgeCalibration, StatedUncertaintiesAreThoseThatAreSeen) {
   EXPECT_NEAR(sensitivity2 / experiments, 0.8, 0.3);
 }
 
+// A constant offset of the detector counts once per load in the mean of one load, and not at all in a slope.
+TEST(WedgeCalibration, AnOffsetOfTheDetectorIsNoCrosstalkWhereTheFlatFacetHasOneLoad) {
+  const Truth truth;
+  std::vector<Loop> all = truth.loops({14, -12.5}, loads);
+  all.push_back(truth.loop(0, loads[1]));
+  const Calibration c = calibrate(all, {});
+  EXPECT_NEAR(c.friction.value, truth.friction, 1e-9);
+  EXPECT_NEAR(c.sensitivity.value / truth.sensitivity, 1, 1e-9);
+  EXPECT_NEAR(c.crosstalk->value / truth.crosstalk, 1, 1e-8);
+  for (const Facet& facet : c.facets) {
+    if (facet.slope == 0) continue;
+    const double s = std::sin(facet.slope), k = std::cos(facet.slope),
+                 mu2 = std::pow(truth.friction, 2);
+    const double by_load = (1 + mu2) * s * k / (k * k - mu2 * s * s) / truth.sensitivity;
+    EXPECT_NEAR(facet.offset.value / by_load, 1, 1e-8);
+  }
+}
+
+TEST(WedgeCalibration, AnOffsetOfTheDetectorIsKnownWhereTheFlatFacetHasSeveralLoads) {
+  const Truth truth;
+  std::vector<Loop> all = truth.loops({0}, loads);
+  all.push_back(truth.loop(14, loads[2]));
+  all.push_back(truth.loop(-12.5, loads[1]));
+  const Calibration c = calibrate(all, {truth.adhesion, 0, 0});
+  EXPECT_NEAR(c.friction.value, truth.friction, 1e-9);
+  EXPECT_NEAR(c.sensitivity.value / truth.sensitivity, 1, 1e-9);
+}
+
+TEST(WedgeCalibration, OneLoadOnEveryFacetMustBeTheSame) {
+  const Truth truth;
+  const Known known{truth.adhesion, 0, 0};
+  const Calibration c = calibrate(truth.loops({0, 14, -12.5}, {80e-9}), known);
+  EXPECT_NEAR(c.friction.value, truth.friction, 1e-9);
+  EXPECT_THAT(message_of<std::runtime_error>([&] {
+                calibrate({truth.loop(0, 50e-9), truth.loop(14, 80e-9)}, known);
+              }),
+              HasSubstr("50 nN only and the slope of 14 deg at 80 nN only"));
+}
+
+// The loops of slopes that differ from the stated ones, the flat facet's among them, by a known standard uncertainty.
+void expect_seen_errors(const std::vector<double>& slopes, const std::vector<double>& flat_loads) {
+  const Truth truth;
+  constexpr double tilt = 0.2;  // deg
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0, tilt);
+  double friction2 = 0, sensitivity2 = 0, crosstalk2 = 0;
+  constexpr int experiments = 2000;
+  for (int e = 0; e < experiments; ++e) {
+    std::vector<Loop> all;
+    for (const double slope : slopes) {
+      const double real = slope + normal(random);
+      for (const double load : slope == 0 ? flat_loads : loads) {
+        all.push_back(truth.loop(real, load));
+        all.back().slope = slope * degree;
+        all.back().half_width_error = all.back().offset_error = 1e-9;
+      }
+    }
+    const Calibration c = calibrate(all, {truth.adhesion, tilt * degree, 0});
+    friction2 += std::pow((c.friction.value - truth.friction) / *c.friction.error, 2);
+    sensitivity2 += std::pow((c.sensitivity.value - truth.sensitivity) / *c.sensitivity.error, 2);
+    crosstalk2 += std::pow((c.crosstalk->value - truth.crosstalk) / *c.crosstalk->error, 2);
+  }
+  EXPECT_NEAR(friction2 / experiments, 1, 0.15);
+  EXPECT_NEAR(sensitivity2 / experiments, 1, 0.15);
+  EXPECT_NEAR(crosstalk2 / experiments, 1, 0.15);
+}
+
+TEST(WedgeCalibration, TheSlopeErrorOfTheFlatFacetIsAmongTheUncertainties) {
+  expect_seen_errors({0, 14}, loads);
+}
+TEST(WedgeCalibration, TheSlopeErrorOfAFlatFacetWithOneLoadIsAmongTheUncertainties) {
+  expect_seen_errors({0, 14}, {loads[2]});
+}
+
 TEST(WedgeCalibration, WhatFitsNoFrictionIsRefused) {
   const auto message = [](const std::vector<Loop>& loops) -> std::string {
     return message_of<std::runtime_error>([&] { calibrate(loops, {}); });

@@ -1,4 +1,4 @@
-#include "scenes/lever/lab_fit.hpp"
+#include "scenes/solve/lab_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
