@@ -10,6 +10,7 @@
 #include "engine/portable_math.hpp"
 #include "scenes/language/csv_table.hpp"
 #include "scenes/solve/lab_fit.hpp"
+#include "scenes/volts/loop_rows.hpp"
 
 namespace pulvis::wedge {
 namespace {
@@ -44,9 +45,11 @@ std::vector<Loop> loops_of_traces(const csv::Table& table, double skip) {
   csv::only(table, {"slope", "load", "trace", "retrace", "position"});
   const auto slope = column(table, "slope", "rad"), load = column(table, "load", "N");
   const auto trace = column(table, "trace", "V"), retrace = column(table, "retrace", "V");
+  const auto position =
+      csv::has_column(table, "position") ? column(table, "position", "m") : std::vector<double>();
   std::vector<Loop> loops;
   for (std::size_t begin = 0, end = 0; begin < slope.size(); begin = end) {
-    while (end < slope.size() && slope[end] == slope[begin] && load[end] == load[begin]) ++end;
+    end = volts::end_of_loop({slope, load, position}, begin);
     const auto left_out = static_cast<std::size_t>(skip * static_cast<double>(end - begin));
     const std::size_t count = end - begin - 2 * left_out;
     if (count < fewest_places)

@@ -8,6 +8,7 @@
 #include "engine/portable_math.hpp"
 #include "scenes/language/csv_table.hpp"
 #include "scenes/language/units.hpp"
+#include "scenes/volts/loop_rows.hpp"
 
 namespace pulvis::volts {
 namespace {
@@ -108,9 +109,8 @@ std::vector<VoltsLoop> loops_of_raw(const csv::Table& table, Columns& columns, d
   if (csv::has_column(table, "position")) columns.position = numbers_of(table, "position", "m");
   add_normal(table, columns.normal);
   std::vector<VoltsLoop> loops;
-  const auto &slope = columns.slope, &load = columns.load;
-  for (std::size_t begin = 0, end = 0; begin < load.size(); begin = end) {
-    while (end < load.size() && slope[end] == slope[begin] && load[end] == load[begin]) ++end;
+  for (std::size_t begin = 0, end = 0; begin < columns.load.size(); begin = end) {
+    end = end_of_loop({columns.slope, columns.load, columns.position}, begin);
     loops.push_back(loop_of(table, columns, begin, end, skip));
   }
   return loops;

@@ -213,6 +213,44 @@ TEST(WedgeRecords, RawTracesGiveTheTruthBackWithinTheStatedUncertainty) {
   EXPECT_LT(std::abs(c.sensitivity.value - truth.sensitivity), 3 * *c.sensitivity.error);
 }
 
+// Three times the same loop, one after the other: three loops, each as if it were alone.
+TEST(WedgeRecords, ARepetitionBeginsWhereThePositionReturns) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("pulvis-repetitions-" + std::to_string(getpid()) + ".csv");
+  const Truth truth;
+  const Loop loop = truth.loop(14, loads[0]);
+  constexpr int places = 64;
+  const auto written = [&](int repetitions, const char* unit, double sign) {
+    std::ofstream out(file);
+    out << "slope [deg],load [nN],position [" << unit << "],trace [V],retrace [V]\n";
+    for (int r = 0; r < repetitions; ++r)
+      for (int i = 0; i < places; ++i) {
+        const double place = sign * (i + 2 * (i % 2));  // with the noise of a position sensor
+        const double stick = 1 - 2 * std::exp(-i / 2.0),
+                     back = 1 - 2 * std::exp((i - places + 1) / 2.0);
+        out << fmt::format("14,{},{},{:.9f},{:.9f}\n", loads[0] * 1e9, place,
+                           loop.offset + loop.half_width * stick,
+                           loop.offset - loop.half_width * back);
+      }
+  };
+  written(1, "nm", 1);
+  const std::vector<Loop> once = read_loops(file, 0.15);
+  ASSERT_EQ(once.size(), 1u);
+  for (const double sign : {1.0, -1.0}) {
+    written(3, "nm", sign);
+    const std::vector<Loop> thrice = read_loops(file, 0.15);
+    ASSERT_EQ(thrice.size(), 3u);
+    for (const Loop& one : thrice) {
+      EXPECT_EQ(one.half_width, once.front().half_width);
+      EXPECT_EQ(one.offset, once.front().offset);
+    }
+    EXPECT_NEAR(once.front().half_width / loop.half_width, 1, 0.01);
+  }
+  written(1, "xyz", 1);
+  EXPECT_THAT(message_of([&] { read_loops(file, 0.15); }), HasSubstr("position"));
+  std::filesystem::remove(file);
+}
+
 // Recognised by the columns that are right, and refused for those that are wrong.
 TEST(WedgeRecords, WithAMisspeltColumnAreStillLoops) {
   const auto file = std::filesystem::temp_directory_path() /
