@@ -18,6 +18,7 @@
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
 #include "scenes/language/counted.hpp"
+#include "scenes/language/csv_table.hpp"
 #include "scenes/records/wedge_records.hpp"
 
 namespace pulvis {
@@ -92,8 +93,26 @@ void name_runs(std::vector<lab::RunFiles>& runs) {
   }
 }
 
+// Without settings that give a header line, a record that cannot be read is wrong itself; otherwise the reader of its
+// instrument reports it. First of all, since without records the settings would be said to be incomplete.
+void require_readable(const Inputs& inputs, const std::vector<std::string>& overrides) {
+  const auto gives_header = [](const std::string& setting) {
+    return setting.find("header_line") != std::string::npos;
+  };
+  if (!inputs.settings.empty() || std::ranges::any_of(overrides, gives_header)) return;
+  for (const std::filesystem::path& file : inputs.records) csv::read(file, {0, true});
+}
+
+void refuse_simulations(const ReduceOptions& options) {
+  if (!options.simulations.empty())
+    refuse(options.simulations.front(), "simulation",
+           "is not compared with an AFM calibration, allowed: --simulation with sliding-plate "
+           "tests, compression curves and instrumented dies");
+}
+
 // A file of friction loops among the records determines the kind of reduction.
 lab::LoadedSettings settings_of(const Inputs& inputs, std::vector<std::string> overrides) {
+  require_readable(inputs, overrides);
   const auto loops = std::ranges::find_if(inputs.records, wedge::holds_loops);
   if (loops != inputs.records.end()) {
     if (inputs.records.size() > 1)
@@ -215,7 +234,10 @@ std::optional<LabOutput> output_of(const ReduceOptions& options,
 ExitCode reduce_records(const ReduceOptions& options) {
   const Inputs inputs = sorted_inputs(options.files);
   const lab::LoadedSettings loaded = settings_of(inputs, options.overrides);
-  if (loaded.settings.volts.wanted()) return reduce_volts(options, inputs, loaded);
+  if (loaded.settings.volts.wanted()) {
+    refuse_simulations(options);
+    return reduce_volts(options, inputs, loaded);
+  }
   if (const auto output = output_of(options, loaded)) {
     if (!inputs.records.empty())
       refuse(
@@ -225,6 +247,7 @@ ExitCode reduce_records(const ReduceOptions& options) {
     return ExitCode::done;
   }
   if (!loaded.settings.wedge.loops.empty()) {
+    refuse_simulations(options);
     const WedgeReduction calibrated = wedge_reduction(loaded);
     open_folder(options, {"reduce.toml", "summary.json", "report.html", "facets.csv"});
     write_wedge(options.folder, calibrated);

@@ -104,6 +104,20 @@ PlateComparison::PlateComparison(const PlateFit& fit)
     distance_.push_back(scale * distance[i]);
     friction_.push_back(friction[i]);
   }
+  // Before anything runs; set_reach does so again with the way of the simulated plate.
+  const double end = m.until.value_or(distance_.empty() ? 0 : std::ranges::max(distance_));
+  require_samples(end);
+}
+
+void PlateComparison::require_samples(double until) {
+  compared_.clear();
+  for (std::size_t i = 0; i < distance_.size(); ++i)
+    if (distance_[i] >= from() && distance_[i] <= until) compared_.push_back(i);
+  if (compared_.size() < fewest_compared)
+    refuse(fit_.file, "measured.record",
+           fmt::format("{} of its samples lie between {:.4g} and {:.4g} mm, allowed: at least {} "
+                       "in the compared range",
+                       compared_.size(), from() * 1e3, until * 1e3, fewest_compared));
 }
 
 void PlateComparison::set_reach(const lab::SimulatedCurve& simulated) {
@@ -120,14 +134,7 @@ void PlateComparison::set_reach(const lab::SimulatedCurve& simulated) {
   }
   const double recorded = distance_.empty() ? 0 : std::ranges::max(distance_);
   until_ = std::min({until_, recorded, m.until.value_or(until_)});
-  compared_.clear();
-  for (std::size_t i = 0; i < distance_.size(); ++i)
-    if (distance_[i] >= from() && distance_[i] <= until_) compared_.push_back(i);
-  if (compared_.size() < fewest_compared)
-    refuse(fit_.file, "measured.record",
-           fmt::format("{} of its samples lie between {:.4g} and {:.4g} mm, allowed: at least {} "
-                       "in the compared range",
-                       compared_.size(), from() * 1e3, until_ * 1e3, fewest_compared));
+  require_samples(until_);
 }
 
 Eigen::VectorXd PlateComparison::residuals(const lab::SimulatedCurve& simulated) const {

@@ -22,7 +22,7 @@ class PlateComparison {
   // Reads the record; throws SceneError if it is not one.
   explicit PlateComparison(const PlateFit& fit);
 
-  // The first simulated curve decides the range of comparison; refused if that is empty.
+  // The first simulated curve decides the range of comparison; refused if that has too few samples.
   void set_reach(const lab::SimulatedCurve& simulated);
   Eigen::VectorXd residuals(const lab::SimulatedCurve& simulated) const;
 
@@ -43,6 +43,8 @@ class PlateComparison {
                                         const Eigen::MatrixXd& jacobian) const;
 
  private:
+  void require_samples(double until);
+
   const PlateFit& fit_;
   double simulated_diameter_ = 0;         // m, mean diameter of the circles of equal area
   double measured_way_ = 0;               // m, as in the record
