@@ -97,6 +97,7 @@ ReducedCurve reduce_curve(const PressRecord& record, const CurveSpec& spec,
   const CompressionSpec& c = settings.compression;
   ReducedCurve reduced{spec.name, record.file, {}, {}, {}, {}};
   reduced.curve = press_curve(record, spec, settings.die, c, machine);
+  check_density(record, reduced.curve, settings.die);
   reduced.unloading = unloading_of(reduced.curve);
   reduced.range = range_of(reduced.curve, spec, c);
   reduced.laws = laws_of(reduced.range);

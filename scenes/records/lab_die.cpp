@@ -102,11 +102,26 @@ SliceStep step_of(const Column& column, const DieCurve& die, const Settings& set
   return step;
 }
 
+void check_gauge(const DieCurve& die, const Settings& settings) {
+  if (!die.radial_height) return;
+  const double largest = std::ranges::max(die.top);
+  double highest = 0;  // compact that is evaluated
+  for (std::size_t i = 0; i < die.height.size(); ++i)
+    if (die.top[i] >= settings.gauges.from * largest) highest = std::max(highest, die.height[i]);
+  if (*die.radial_height > highest)
+    throw SceneError(
+        {{settings.file.string(), 1, 1, "", "gauges.radial_height",
+          fmt::format("{:.4g} mm is above the compact, which is at most {:.4g} mm high where it is "
+                      "evaluated, allowed: up to that",
+                      *die.radial_height * 1e3, highest * 1e3)}});
+}
+
 }  // namespace
 
 DieCurve die_curve(const DieRecord& record, const TransmissionSpec& spec, const Settings& settings,
                    const Compliance& machine) {
   const PressCurve press = press_curve(record, spec, settings.die, settings.compression, machine);
+  check_density(record, press, settings.die);
   DieCurve die{
       spec.name, {}, {}, {}, {}, {}, settings.die.wall_length(), settings.gauges.radial_height, {}};
   for (std::size_t i = 0; i <= press.peak; ++i) {
@@ -116,6 +131,7 @@ DieCurve die_curve(const DieRecord& record, const TransmissionSpec& spec, const 
     die.radial.push_back(record.radial[press.first + i]);
     die.height.push_back(press.height[i]);
   }
+  check_gauge(die, settings);
   return die;
 }
 

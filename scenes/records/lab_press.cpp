@@ -13,7 +13,10 @@
 namespace pulvis::lab {
 namespace {
 
-constexpr std::size_t fewest_loading = 20;                 // samples
+constexpr std::size_t fewest_loading = 20;  // samples
+constexpr double unloaded = 0.1;            // of the largest pressure
+// The solid itself is compressed: by a tenth at 1 GPa on a bulk modulus of 10 GPa, that of organic powders.
+constexpr double densest_loaded = 1.1;
 constexpr double unloads_from = 0.9, unloads_until = 0.4;  // of the largest pressure: modulus
 
 std::size_t peak_of(const std::vector<double>& force) {
@@ -124,6 +127,21 @@ PressCurve press_curve(const PressRecord& record, const Filling& filling, const 
   curve.peak = peak - begin;
   curve.machine_give = machine.at(record.force[peak]);
   return curve;
+}
+
+void check_density(const PressRecord& record, const PressCurve& curve, const DieSpec& die) {
+  const std::size_t last = curve.height.size() - 1;
+  const bool is_unloaded = curve.pressure[last] < unloaded * curve.pressure[curve.peak];
+  const double margin = 2 * std::hypot(die.mass_error, die.height_error / curve.height[last]);
+  const auto check = [&](std::size_t at, double most, const char* state) {
+    if (curve.density[at] > most)
+      refuse(record, curve.first + at, "displacement",
+             fmt::format("the relative density is {:.4g} {}, allowed: up to {:.4g} (check mass, "
+                         "die.solid_density, the section of the die and the height)",
+                         curve.density[at], state, most));
+  };
+  if (is_unloaded) check(last, 1 + margin, "without load");
+  check(curve.peak, densest_loaded + margin, "under the largest force");
 }
 
 std::optional<Unloading> unloading_of(const PressCurve& curve) {

@@ -47,6 +47,10 @@ struct PressCurve {  // one value per sample, from the start of the loading on
 PressCurve press_curve(const PressRecord& record, const Filling& filling, const DieSpec& die,
                        const CompressionSpec& spec, const Compliance& machine);
 
+// Rejects a relative density that no compact has: above 1 without load, beyond twice the stated uncertainties, or
+// under load above what elastic compression explains.
+void check_density(const PressRecord& record, const PressCurve& curve, const DieSpec& die);
+
 struct Unloading {
   double last_pressure = 0, last_density = 0;  // Pa, -
   double recovery = 0;                         // -, axial: (last height - lowest)/lowest

@@ -214,6 +214,11 @@ ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Se
   run.dynamic = dynamic_mean(run.curve, analysis);
   if (settings.compact.stress_ratio) run.elastic_dynamic = elastic_dynamic(run.curve, settings);
   run.stick_slip = find_stick_slip(dynamic_part(run.curve, run.dynamic), run.noise);
+  if (const double first = std::ranges::min(run.curve.distance); first > analysis.static_within)
+    refuse(logger, settings.logger.lvdt,
+           fmt::format("no sample lies within {:.4g} mm of the start (analysis.static_within), the "
+                       "first at {:.4g} mm, allowed: a distance of at least that",
+                       analysis.static_within * 1e3, first * 1e3));
   run.peak = static_peak(run.curve, analysis.static_within);
   const double swing = run.stick_slip ? run.stick_slip->amplitude / 2 : 2 * run.dynamic.deviation;
   run.peak.is_distinct = run.peak.value > run.dynamic.mean + swing + 3 * run.noise;

@@ -181,7 +181,12 @@ CurveFigures figures_of(const ForceCurve& curve, const CurveWindow& window) {
   figures.sensitivity = {figures.approach.contact.slope, figures.approach.slope_error};
   std::optional<lab::Mean> crosstalk;
   if (!there.lateral.empty()) crosstalk = crosstalk_of(window, there);
-  if (window.needs_return || curve.turn + fewest_in_line < curve.displacement.size()) {
+  const bool returns = curve.turn + fewest_in_line < curve.displacement.size();
+  if (window.needs_return && !returns)
+    wrong(curve, fmt::format("ends {} samples after its turning point, without a retract, allowed: "
+                             "an approach and a retract of the same curve",
+                             curve.displacement.size() - 1 - curve.turn));
+  if (returns) {
     Trace back = trace_of(curve, true);
     figures.retract = way_of(curve, window, back);
     find_pull_off(curve, window, back, figures);

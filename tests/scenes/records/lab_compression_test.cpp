@@ -55,6 +55,29 @@ void expect_found(const Measured& found, double truth, double share) {
   EXPECT_GT(found.half_width(0.95), 0) << found.name;
 }
 
+TEST(LabCompression, DensitiesThatNoCompactHasAreRefused) {
+  const auto refusal = [](const char* mass) {
+    const Settings settings =
+        load_settings(lab_folder / "press.toml", {std::string("curve[0].mass=") + mass}).settings;
+    const CurveSpec& spec = settings.curves.front();
+    const PressRecord record = read_press(lab_folder / spec.press, settings);
+    return message_of([&] { reduce_curve(record, spec, settings, machine_of(settings)); });
+  };
+  EXPECT_THAT(refusal("11.5 g"),
+              AllOf(HasSubstr("press-heckel.csv"), HasSubstr("1.038 without load"),
+                    HasSubstr("check mass, die.solid_density")));
+  EXPECT_THAT(refusal("94.88 g"), HasSubstr("relative density is 8.5"));
+  const Settings settings =
+      load_settings(lab_folder / "press.toml", {"curve[0].mass=13 g"}).settings;
+  const CurveSpec& spec = settings.curves.front();
+  PressRecord loading = read_press(lab_folder / spec.press, settings);
+  const auto until = std::ranges::max_element(loading.force) - loading.force.begin() + 1;
+  for (auto* values : {&loading.time, &loading.force, &loading.displacement})
+    if (!values->empty()) values->resize(static_cast<std::size_t>(until));
+  EXPECT_THAT(message_of([&] { reduce_curve(loading, spec, settings, machine_of(settings)); }),
+              HasSubstr("under the largest force, allowed: up to 1.1"));
+}
+
 TEST(LabCompression, TheShippedRecordsGiveTheirLawsBack) {
   const Reduced all = shipped_curves();
   std::ifstream file(lab_folder / "press-truth.json");

@@ -57,6 +57,13 @@ TEST(LabDie, RoundDieWithAGaugeGivesFrictionAndRatioBack) {
                0.02);
 }
 
+TEST(LabDie, AGaugeAboveTheCompactAndADensityAboveOneAreRefused) {
+  EXPECT_THAT(message_of([] { steps_of("die.toml", {"gauges.radial_height=30 mm"}); }),
+              HasSubstr("gauges.radial_height: 30 mm is above the compact"));
+  EXPECT_THAT(message_of([] { steps_of("die.toml", {"transmission[0].mass=132 g"}); }),
+              HasSubstr("check mass, die.solid_density"));
+}
+
 TEST(LabDie, SlotWithItsMeanWallStressToo) { expect_truth(steps_of("slot.toml"), 0.02); }
 
 // A cell that is 1% wrong moves the loss, and with it the friction, by 1% of sigma_t/sigma_b: far more than its scatter.

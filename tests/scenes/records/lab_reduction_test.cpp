@@ -202,6 +202,11 @@ TEST(LabReduction, RefusesATooShortDistance) {
               HasSubstr("with 0 samples for the dynamic mean, allowed: at least 20"));
 }
 
+TEST(LabReduction, RefusesAStaticCoefficientWithoutASample) {
+  EXPECT_THAT(message_of([] { reduced(SlidingTest{}, {"analysis.static_within=0.00001 mm"}); }),
+              HasSubstr("no sample lies within 1e-05 mm of the start (analysis.static_within)"));
+}
+
 TEST(LabReduction, RefusesRecordsOfDifferentTests) {
   SlidingTest press, logger;
   logger.speed = 0.7e-3;  // slides for 71 s; the press held its force for 66 s

@@ -102,6 +102,11 @@ TEST(ForceCurve, WhatIsNoForceCurveIsRefused) {
   for (double& v : turned.normal) v = -v;
   EXPECT_THAT(message(turned),
               HasSubstr("allowed: volts that increase where the probe is pressed on"));
+  ForceCurve approach = truth.curve(0.004);
+  approach.displacement.resize(approach.turn + 1);
+  approach.normal.resize(approach.turn + 1);
+  EXPECT_THAT(message(approach),
+              HasSubstr("without a retract, allowed: an approach and a retract"));
   truth.touch = 500 * nm;  // never reached
   EXPECT_THAT(message(truth.curve(0.004)), HasSubstr("no contact signal above the noise"));
   truth.touch = 220 * nm;
