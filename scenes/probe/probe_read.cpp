@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scenes/language/describe.hpp"
+#include "scenes/language/seed_list.hpp"
 #include "scenes/language/table_reader.hpp"
 #include "scenes/probe/declare_probe.hpp"
 
@@ -88,6 +89,8 @@ class ProbeReader {
     if (std::ranges::adjacent_find(densities, std::greater_equal()) != densities.end())
       problems_.add(origins.at("densities"), "densities",
                     "they do not increase, allowed: each larger than the one before");
+    if (repeats_a_seed(probe_.spec.seeds))
+      problems_.add(origins.at("seeds"), "seeds", repeated_seed);
     if (probe_.spec.paths.empty())
       problems_.add({{1, 1}, -1}, "path", "none is given, allowed: at least one [[path]]");
     for (std::size_t i = 0; i < probe_.spec.paths.size(); ++i)

@@ -7,6 +7,7 @@
 
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/language/counted.hpp"
+#include "scenes/language/seed_list.hpp"
 #include "scenes/study/study_fits.hpp"
 #include "scenes/study/study_power.hpp"
 #include "scenes/study/study_series.hpp"
@@ -57,9 +58,7 @@ class StudyChecks {
   }
 
   void seeds() {
-    const std::set<std::int64_t> different(study_.spec.seeds.begin(), study_.spec.seeds.end());
-    if (different.size() != study_.spec.seeds.size())
-      refuse("seeds", "a seed is given twice, allowed: each once");
+    if (repeats_a_seed(study_.spec.seeds)) refuse("seeds", repeated_seed);
   }
 
   void curves() {

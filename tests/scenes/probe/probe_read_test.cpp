@@ -2,7 +2,9 @@
 #include "scenes/probe/probe_read.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -41,6 +43,18 @@ TEST(ProbeScenes, HaveOneSeed) {
   const std::string wrong = message_of([&] { load_probe(file, {"seed=7"}); });
   EXPECT_NE(wrong.find("--set seed=7: seed: the probe has its own `seeds`"), std::string::npos)
       << wrong;
+}
+
+TEST(ProbeScenes, HaveEachSeedOnce) {
+  namespace fs = std::filesystem;
+  const fs::path file =
+      fs::temp_directory_path() / ("pulvis-seeds" + std::to_string(getpid()) + ".toml");
+  std::ofstream(file) << "seeds = [1, 1]\ndensities = [0.9]\n[[path]]\nname = \"isostatic\"\n"
+                         "scene = \"isostatic.toml\"\n[probe]\nduration = \"0.2 ms\"\n";
+  const std::string wrong = message_of([&] { load_probe(file); });
+  EXPECT_NE(wrong.find(":1:9: seeds: a seed is given twice, allowed: each once"), std::string::npos)
+      << wrong;
+  fs::remove(file);
 }
 
 // By strain and by stress, in a direction and in shear.
