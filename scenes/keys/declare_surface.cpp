@@ -189,7 +189,7 @@ const TableDeclaration<ActionSpec>& action() {
        {{.name = "force",
          .kind = Kind::quantity,
          .unit = "N",
-         .range = within(-1, 1),
+         .range = above(0, 1),
          .only_for = "press",
          .doc = "Vertical force of the surface on the tip at the end of the press.",
          .fallback_doc = "none: the surface moves by `distance`"},

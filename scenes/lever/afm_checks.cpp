@@ -207,13 +207,24 @@ class AfmChecks {
       refuse("laser.position",
              fmt::format("the spot (x = {:g} m, y = {:g} m, radius {:g} m) is not on the lever, "
                          "allowed: {}",
-                         middle.x(), middle.y(), laser.radius,
-                         lever_.solid
-                             ? "on the elements of the file's surface 'back'"
-                             : fmt::format("0 to {:g} m along it, within {:g} m of its axis there",
-                                           lever_.length, half_width_at(middle.x()))));
+                         middle.x(), middle.y(), laser.radius, places_for_laser(middle.x())));
       return;
     }
+  }
+
+  std::string places_for_laser(double x) const {
+    if (lever_.solid) return "on the elements of the file's surface 'back'";
+    const std::string along = fmt::format("0 to {:g} m along it", lever_.length);
+    if (x < 0 || x > lever_.length) return along;
+    const bool v = lever_.shape == LeverSpec::Shape::v;
+    const double opening = v ? v_outline(lever_).inner : 0;
+    if (x >= opening)
+      return fmt::format("{}, within {:g} m of its axis there", along, half_width_at(x));
+    return fmt::format(
+        "{}; before x = {:g} m the V is open, and its arms are {:g} to {:g} m from "
+        "its axis there",
+        along, opening, (opening - x) * portable::tan(v_outline(lever_).half_angle),
+        half_width_at(x));
   }
 
   // Tetrahedra have no plastic history variables.
@@ -309,8 +320,6 @@ class AfmChecks {
       const bool press = action.kind == ActionSpec::Kind::press;
       if (press && (action.distance != 0) == action.force.has_value())
         refuse(path + ".distance", "neither or both of distance and force are given, allowed: one");
-      if (action.force && *action.force <= 0)
-        refuse(path + ".force", fmt::format("{:g} N, allowed: > 0 N", *action.force));
       if (action.servo && !pressed)
         refuse(path + ".set_point", "there is no force to hold yet, allowed: after a press");
       pressed = pressed || press;

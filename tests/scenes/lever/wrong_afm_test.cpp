@@ -88,6 +88,12 @@ TEST(WrongAfm, ActionsNeedASurfaceAndAForceToKeep) {
   EXPECT_NE(refusal(scan).find("there is no surface"), std::string::npos);
   EXPECT_NE(refusal(scan + "[surface]\nshape = \"plane\"\n").find("no force to hold"),
             std::string::npos);
+  for (const char* force : {"0 N", "-5 nN"}) {
+    const std::string press =
+        refusal(std::string(beam_with_tip) + "[[action]]\nkind = \"press\"\nforce = \"" + force +
+                "\"\n[surface]\nshape = \"plane\"\n");
+    EXPECT_NE(press.find("allowed: > 0 and <= 1"), std::string::npos) << press;
+  }
 }
 
 // The map of raster.toml reaches 710 nm from its middle to both sides.
@@ -161,6 +167,12 @@ set_back = "5 um"
   EXPECT_EQ(refusal(v), "");
   EXPECT_NE(refusal(v, {"lever.arm_width=51 um"}).find("allowed: < 5e-05 m"), std::string::npos);
   EXPECT_NE(refusal(v, {"lever.base_width=100 um"}).find("one of them"), std::string::npos);
+  // Between the arms: tan(30 deg) times 50 um and 90 um from the axis 10 um from the clamp.
+  const std::string open = refusal(v, {"laser.position=10 um"});
+  EXPECT_NE(open.find("before x = 6e-05 m the V is open, and its arms are 2.88675e-05 to "
+                      "5.19615e-05 m from its axis there"),
+            std::string::npos)
+      << open;
 }
 
 TEST(WrongAfm, AKeyOfTheMeshThatChangesNothingIsRefused) {
