@@ -64,6 +64,16 @@ TEST(AfmLever, TheErrorOfTheMeshIsEstimated) {
   }
 }
 
+// Too coarse for the strips at its sides and for the rim of the foot, whether it is a little coarser or not.
+TEST(AfmLever, TheErrorOfAUniformMeshIsEstimated) {
+  const Scene scene =
+      afm_scene(beam_with_tip, {"lever.elements_along=40", "lever.elements_across=4"});
+  const Calibration c = AfmSimulation(scene).calibrate();
+  const double error = c.lateral_stiffness / 76.46 - 1;
+  EXPECT_GT(error, 0.02);
+  EXPECT_NEAR(mesh_error(scene, c, 1)->lateral / error, 1, 0.4);
+}
+
 TEST(AfmLever, WhereTheFootStandsChangesTheMeshSmoothly) {
   // Square and round, on the axis and beside it, flush with the end: no jump from one mesh to another.
   double before = 0;
