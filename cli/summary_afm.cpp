@@ -65,6 +65,7 @@ Json calibration_json(const Calibration& c) {
 Json loop_json(const FrictionLoop& loop) {
   Json json{{"action", loop.action},
             {"load", loop.load},
+            {"touches", loop.touches},
             {"slides", loop.slides},
             {"turned", loop.turned},
             {"drift", loop.drift},
@@ -102,9 +103,23 @@ Json curve_json(const ForceCurveFigures& curve) {
   return json;
 }
 
+std::string invols_text(double invols) {
+  return std::isfinite(invols) ? fmt::format("{:.4g} m/V", invols)
+                               : "none, the detector's gain is 0";
+}
+
+const char* without_wedge(const FrictionLoop& loop) {
+  if (loop.load <= 0) return "the load is not above 0";
+  if (loop.volts_half_width == 0) return "the detector shows no friction, its gain is 0";
+  return "no coefficient of friction up to 1 fits W and Delta";
+}
+
 std::string unsettled_text(const FrictionLoop& loop) {
   std::string text =
       "  W is not caused by friction alone: in the half of the traverse where it is evaluated ";
+  if (loop.touches < 1)
+    return text + fmt::format("the probe is off the sample {:.0f}% of the time\n",
+                              100 * (1 - loop.touches));
   if (loop.slides <= 1 - 1e-3)
     text += fmt::format("the probe sticks {:.0f}% of the time", 100 * (1 - loop.slides));
   else if (loop.turned <= 1 - 1e-3)
@@ -168,12 +183,20 @@ std::string curve_text(const ForceCurveFigures& curve) {
 }
 
 std::string loop_text(const FrictionLoop& loop) {
-  std::string text = fmt::format(
-      "friction loop of action {}: load {:.5g} N, W {:.5g} N, Delta {:.5g} N; W/L {:.5f}, "
-      "Delta/L {:.5f}\n",
-      loop.action, loop.load, loop.half_width, loop.offset, loop.half_width / loop.load,
-      loop.offset / loop.load);
+  if (loop.touches == 0)
+    return fmt::format(
+        "friction loop of action {}: the probe does not touch the sample where W is evaluated\n",
+        loop.action);
+  std::string text =
+      fmt::format("friction loop of action {}: load {:.5g} N, W {:.5g} N, Delta {:.5g} N",
+                  loop.action, loop.load, loop.half_width, loop.offset);
+  if (loop.load > 0)
+    text += fmt::format("; W/L {:.5f}, Delta/L {:.5f}", loop.half_width / loop.load,
+                        loop.offset / loop.load);
+  text += "\n";
   if (!loop.full()) text += unsettled_text(loop);
+  if (loop.on_slope && loop.full() && !loop.friction)
+    text += fmt::format("  no wedge calibration: {}\n", without_wedge(loop));
   if (loop.friction)
     text += fmt::format("  wedge calibration of the detector: friction {:.5f}, {:.5g} N/V\n",
                         *loop.friction, *loop.sensitivity);
@@ -203,9 +226,8 @@ std::string calibration_text(const Calibration& c) {
   if (c.mesh_error)
     text += fmt::format("the mesh makes them too stiff by about {:.1f}% (k_n) and {:.1f}% (k_l)\n",
                         100 * c.mesh_error->normal, 100 * c.mesh_error->lateral);
-  text += fmt::format("InvOLS normal {:.4g} m/V, lateral {:.4g} m/V\n", c.normal_invols,
-                      c.lateral_invols);
-  return text;
+  return text + fmt::format("InvOLS normal {}, lateral {}\n", invols_text(c.normal_invols),
+                            invols_text(c.lateral_invols));
 }
 
 }  // namespace pulvis

@@ -34,14 +34,6 @@ std::vector<Withdrawal> withdrawals(const std::vector<ActionSpec>& actions) {
   return all;
 }
 
-// The area below zero under a straight line from one force to the next.
-double pulling_area(double from, double to, double way) {
-  if (from >= 0 && to >= 0) return 0;
-  if (from <= 0 && to <= 0) return -(from + to) / 2 * way;
-  const double below = std::min(from, to), share = below / (below - std::max(from, to));
-  return -below / 2 * share * way;
-}
-
 std::optional<double> work_of_adhesion(const AfmScene& afm, double pull_off) {
   const double radius = std::max(afm.tip.radius, afm.tip.end_radius);
   if (!(radius > 0)) return std::nullopt;
@@ -50,6 +42,13 @@ std::optional<double> work_of_adhesion(const AfmScene& afm, double pull_off) {
 }
 
 }  // namespace
+
+double pulling_area(double from, double to, double way) {
+  if (from >= 0 && to >= 0) return 0;
+  if (from <= 0 && to <= 0) return -(from + to) / 2 * way;
+  const double below = std::min(from, to), share = below / (below - std::max(from, to));
+  return -below / 2 * share * way;
+}
 
 bool has_force_curve(const Scene& scene) {
   return scene.afm && scene.afm->target && !withdrawals(scene.afm->actions).empty();
@@ -69,13 +68,9 @@ std::vector<ForceCurveFigures> force_curves(const Scene& scene, const AfmHistory
     curve.action = static_cast<int>(away.begin);
     curve.released = history.value(last, "contact/points") == 0;
     curve.greatest = history.value(row, "probe/force_z");
-    for (std::size_t i = row + 1; i <= last; ++i) {
-      const double from = history.value(i - 1, "probe/force_z"),
-                   to = history.value(i, "probe/force_z");
-      const double way = history.value(i - 1, "scanner/z") - history.value(i, "scanner/z");
-      curve.pull_off = std::max(curve.pull_off, -to);
-      curve.work += pulling_area(from, to, way);
-    }
+    for (std::size_t i = row + 1; i <= last; ++i)
+      curve.pull_off = std::max(curve.pull_off, -history.value(i, "probe/lowest_force_z"));
+    curve.work = history.value(last, "energy/pulling") - history.value(row, "energy/pulling");
     curve.work_of_adhesion = work_of_adhesion(afm, curve.pull_off);
     all.push_back(curve);
   }

@@ -5,6 +5,7 @@
 // the largest tensile force; its work is the area below zero force of F against the scanner's travel. It therefore
 // includes the energy stored in the lever, (pull-off)^2/(2 k_n) for a stiff contact, and equals that of a measured
 // curve (scenes/volts/force_curve.hpp). The work of adhesion follows from the pull-off by the contact law:
+// Both include the subdivisions of an increment, which locate the release to 0.05% of the pull-off force.
 //   DMT  F = 2 pi w R,  sharp tips by their rounding        JKR  F = 3/2 pi w R
 #pragma once
 
@@ -23,6 +24,9 @@ struct ForceCurveFigures {
   double work = 0;                         // J
   std::optional<double> work_of_adhesion;  // J/m^2, where the tip has a radius
 };
+
+// J, the area below zero under a straight line from one force to the next.
+double pulling_area(double from, double to, double way);
 
 bool has_force_curve(const Scene& scene);
 

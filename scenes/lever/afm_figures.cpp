@@ -5,7 +5,6 @@
 #include "scenes/lever/afm_calibration.hpp"
 #include "scenes/lever/afm_curve.hpp"
 #include "scenes/lever/afm_loop.hpp"
-#include "scenes/lever/afm_programme.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "scenes/lever/afm_programme.hpp"
 #include "scenes/lever/loop_plateau.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
@@ -35,7 +34,7 @@ std::optional<double> friction(double half_width, double offset, double slope,
 namespace {
 
 struct Means {
-  double force = 0, load = 0, volts = 0;
+  double force = 0, load = 0, volts = 0, touches = 0;
 };
 
 Means means(const AfmHistory& history, const std::string& force, const std::string& volts,
@@ -47,10 +46,11 @@ Means means(const AfmHistory& history, const std::string& force, const std::stri
     sum.force -= history.value(i, force);  // the dragging force is opposite to the holding one
     sum.load += history.value(i, "probe/force_z");
     sum.volts -= history.value(i, volts);
+    sum.touches += history.value(i, "contact/points") > 0 ? 1 : 0;
     ++samples;
   }
   const double n = std::max(samples, 1);
-  return {sum.force / n, sum.load / n, sum.volts / n};
+  return {sum.force / n, sum.load / n, sum.volts / n, sum.touches / n};
 }
 
 // Whether the means were taken on a plateau.
@@ -59,7 +59,7 @@ void judge(FrictionLoop& loop, const Plateau& trace, const Plateau& retrace) {
   loop.turned = std::min(trace.turned, retrace.turned);
   const double maximum = std::max(std::abs(trace.drift), std::abs(retrace.drift));
   loop.drift = maximum == 0 ? 0 : maximum / std::max(maximum, std::abs(loop.half_width));
-  if (loop.slides <= 1 - 1e-3 || loop.turned <= 1 - 1e-3)
+  if (loop.touches == 1 && (loop.slides <= 1 - 1e-3 || loop.turned <= 1 - 1e-3))
     loop.needed = std::max(trace.needed, retrace.needed);
 }
 
@@ -90,6 +90,43 @@ std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
   }
 }
 
+std::vector<SeriesInfo> afm_series() {
+  return {
+      {"scanner/x", "m", "displacement of the sample along x"},
+      {"scanner/y", "m", "displacement of the sample along y"},
+      {"scanner/z", "m", "rise of the sample from first contact"},
+      {"probe/force_x", "N", "force of the sample on the probe"},
+      {"probe/force_y", "N", "force of the sample on the probe: lateral"},
+      {"probe/force_z", "N", "force of the sample on the probe: vertical"},
+      {"probe/displacement_x", "m", "of the tip's end"},
+      {"probe/displacement_y", "m", "of the tip's end"},
+      {"probe/displacement_z", "m", "of the tip's end"},
+      {"foot/displacement_y", "m", "of the lever's middle plane above the tip: lateral bending"},
+      {"foot/twist", "rad", "of the lever above the tip"},
+      {"clamp/force_x", "N", "of the clamp on the lever"},
+      {"clamp/force_y", "N", "of the clamp on the lever"},
+      {"clamp/force_z", "N", "of the clamp on the lever"},
+      {"slope/normal", "rad", "of the lever's back at the laser spot, > 0: its end is up"},
+      {"slope/lateral", "rad", "of the lever's back at the laser spot, > 0: its +y side is up"},
+      {"detector/normal", "V", "normal gain times slope"},
+      {"detector/lateral", "V", "lateral gain times slope"},
+      {"contact/points", "-", "points of the probe in contact"},
+      {"contact/radius", "m",
+       "of a ball: square root of 5/2 times the mean square distance of the contact forces from "
+       "their centre, equal to the contact radius of Hertz; of an adhesive ball the radius of its "
+       "law"},
+      {"contact/pressure", "Pa",
+       "of a ball: the largest nodal value; of an adhesive ball the value at the centre"},
+      {"contact/slides", "-", "share of the contact points that slide"},
+      {"energy/elastic", "J", "stored in lever and probe"},
+      {"energy/released", "J", "released so far by jumps of the probe onto and off the surface"},
+      {"newton/iterations", "-", "of the increment, including its subdivisions"},
+      {"probe/lowest_force_z", "N",
+       "lowest vertical force of the increment, including its subdivisions"},
+      {"energy/pulling", "J",
+       "area below the zero-force line so far, over the scanner's way down"}};
+}
+
 double AfmHistory::value(std::size_t sample, const std::string& series) const {
   static const std::vector<SeriesInfo> all = afm_series();
   const auto found = std::ranges::find(all, series, &SeriesInfo::name);
@@ -113,6 +150,7 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     const double sign = action.distance < 0 ? -1 : 1;
     FrictionLoop loop;
     loop.action = static_cast<int>(a);
+    loop.touches = std::min(trace.touches, retrace.touches);
     loop.load = 0.5 * (trace.load + retrace.load);
     loop.trace = trace.force;
     loop.retrace = retrace.force;
@@ -122,7 +160,8 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     loop.volts_offset = 0.5 * (trace.volts + retrace.volts);
     judge(loop, plateau_of(scene, history, a, false), plateau_of(scene, history, a, true));
     const TargetSpec& target = *scene.afm->target;
-    if (loop.full() && loop.load > 0 && on_incline(target, action)) {
+    loop.on_slope = on_incline(target, action);
+    if (loop.full() && loop.load > 0 && loop.on_slope) {
       const double adhesion = pull_off_force(scene);
       loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline,
                                       adhesion / loop.load);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/record.hpp"
 #include "scenes/lever/wedge_calibration.hpp"
 #include "scenes/spec/scene.hpp"
 
@@ -30,6 +31,8 @@ std::optional<double> friction(double half_width, double offset, double slope,
 struct FrictionLoop {
   int action = 0;   // position of the scan in the programme
   double load = 0;  // N, mean vertical force
+  double touches =
+      1;  // -, share of the positions at which the probe touches, where the means are taken
   // -, share of the points in contact that slide where the means are taken. Below 1 the scan was too short for
   // full sliding: W does not measure friction, and nothing is recovered from it.
   double slides = 0;
@@ -41,10 +44,14 @@ struct FrictionLoop {
   double trace = 0, retrace = 0;      // N, mean force along the scan that drags the probe
   double half_width = 0, offset = 0;  // N, W and Delta
   double volts_half_width = 0, volts_offset = 0;  // V, of the lateral detector
+  bool on_slope = false;                          // along the scan: a wedge calibration
   std::optional<double> friction;     // recovered from the volts, on a slope along the scan
   std::optional<double> sensitivity;  // N/V, recovered along with it
   bool full() const { return slides > 1 - 1e-3 && turned > 1 - 1e-3 && drift < 0.01; }
 };
+
+// Series of a programme's history, in the order of AfmProgramme's rows.
+std::vector<SeriesInfo> afm_series();
 
 struct AfmHistory {
   std::vector<double> times;

@@ -9,6 +9,7 @@
 #include "engine/portable_math.hpp"
 #include "engine/run_failure.hpp"
 #include "scenes/lever/adhesion.hpp"
+#include "scenes/lever/afm_curve.hpp"
 #include "scenes/lever/target_shape.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "systems/lever/jkr_kernel.hpp"
@@ -19,6 +20,8 @@ namespace {
 
 constexpr int max_halvings = 8;
 constexpr int max_iterations = 400;  // of an increment, including its halves
+// Of the pull-off force: change of the lever's force in the step in which an adhesive tip is released.
+constexpr double release_resolution = 5e-4;
 
 Vec3 on_target(const AfmModel& model, int node) {
   const double* x = model.world->column<ReferencePosition>().values() + 3 * node;
@@ -81,39 +84,6 @@ ContactPatch contact_patch(const AfmModel& model) {
 
 }  // namespace
 
-std::vector<SeriesInfo> afm_series() {
-  return {
-      {"scanner/x", "m", "displacement of the sample along x"},
-      {"scanner/y", "m", "displacement of the sample along y"},
-      {"scanner/z", "m", "rise of the sample from first contact"},
-      {"probe/force_x", "N", "force of the sample on the probe"},
-      {"probe/force_y", "N", "force of the sample on the probe: lateral"},
-      {"probe/force_z", "N", "force of the sample on the probe: vertical"},
-      {"probe/displacement_x", "m", "of the tip's end"},
-      {"probe/displacement_y", "m", "of the tip's end"},
-      {"probe/displacement_z", "m", "of the tip's end"},
-      {"foot/displacement_y", "m", "of the lever's middle plane above the tip: lateral bending"},
-      {"foot/twist", "rad", "of the lever above the tip"},
-      {"clamp/force_x", "N", "of the clamp on the lever"},
-      {"clamp/force_y", "N", "of the clamp on the lever"},
-      {"clamp/force_z", "N", "of the clamp on the lever"},
-      {"slope/normal", "rad", "of the lever's back at the laser spot, > 0: its end is up"},
-      {"slope/lateral", "rad", "of the lever's back at the laser spot, > 0: its +y side is up"},
-      {"detector/normal", "V", "normal gain times slope"},
-      {"detector/lateral", "V", "lateral gain times slope"},
-      {"contact/points", "-", "points of the probe in contact"},
-      {"contact/radius", "m",
-       "of a ball: square root of 5/2 times the mean square distance of the contact forces from "
-       "their centre, equal to the contact radius of Hertz; of an adhesive ball the radius of its "
-       "law"},
-      {"contact/pressure", "Pa",
-       "of a ball: the largest nodal value; of an adhesive ball the value at the centre"},
-      {"contact/slides", "-", "share of the contact points that slide"},
-      {"energy/elastic", "J", "stored in lever and probe"},
-      {"energy/released", "J", "released so far by jumps of the probe onto and off the surface"},
-      {"newton/iterations", "-", "of the increment, including its subdivisions"}};
-}
-
 void add_probe(const Scene& scene, AfmModel& model) {
   const AfmScene& afm = *scene.afm;
   World& world = *model.world;
@@ -158,11 +128,32 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
     if (std::abs(gap) < 1e-15 || !(rise > 0)) break;
     target.origin[2] += gap / rise;
   }
+  // An adhesive ball jumps in where the gap is 0; it has not yet.
+  if (target.ball.work > 0) target.origin[2] -= 2e-15;
   double* memory = world.column<ProbeMemory>().values();
   for (int i = 0; i < points; ++i) {
     const Vec3 x = on_target(model, node[i]);
     for (int k = 0; k < 3; ++k) memory[ProbeMemory::count * i + 3 + k] = x[k];
   }
+}
+
+bool AfmProgramme::adheres() const {
+  const Target& target = model_.world->resource<Target>();
+  return target.pull_off > 0 || target.ball.work > 0;
+}
+
+bool AfmProgramme::touches() const {
+  const auto& state = model_.world->column<ProbeState>();
+  for (std::size_t i = 0; i < state.table.rows; ++i)
+    if (state.values()[ProbeState::count * i + 3] > 0) return true;
+  return false;
+}
+
+bool AfmProgramme::touched() const {
+  const auto& memory = model_.world->column<ProbeMemory>();
+  for (std::size_t i = 0; i < memory.table.rows; ++i)
+    if (memory.values()[ProbeMemory::count * i + 6] != 0) return true;
+  return false;
 }
 
 double AfmProgramme::vertical_force() const {
@@ -203,8 +194,9 @@ bool AfmProgramme::tell() {
        {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
         detector.lateral_gain * spot.lateral, touching, patch.radius, patch.pressure,
         touching > 0 ? sliding / touching : 0, elastic_energy(model_), position_.released,
-        static_cast<double>(iterations_)})
+        static_cast<double>(iterations_), std::min(lowest_, force.z()), position_.pulling})
     row.push_back(value);
+  lowest_ = std::numeric_limits<double>::infinity();
   position_.told += 1;
   return record_(time_, row);
 }
@@ -218,23 +210,28 @@ bool AfmProgramme::skip() {
 void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int depth) {
   Target& target = model_.world->resource<Target>();
   const auto before = target.travel;
+  const StaticSolver::State start = solver_.state();
+  const double pulled = vertical_force();
   for (std::size_t k = 0; k < 3; ++k) target.travel[k] += travel[k];
   target.servo = servo;
   NewtonSettings settings;
   // Factors of a yielding solid are far too soft for one that unloads.
   settings.reuse_factors = !model_.world->has<SolidYield>();
-  settings.may_jump = depth == max_halvings;
+  settings.may_jump = depth >= max_halvings;
   const IncrementStep step{travel[0], travel[1], travel[2], target.set_point - position_.set_point};
   const NewtonReport report = equilibrium(settings, step);
-  if (report.converged) {
+  if (report.converged && !is_released_too_far(travel, servo)) {
+    lowest_ = std::min(lowest_, vertical_force());
+    position_.pulling += pulling_area(pulled, vertical_force(), before[2] - target.travel[2]);
     position_.released += report.released;
     position_.set_point = target.set_point;
     position_.trail.add(solver_.state(), step);
     return solver_.commit();
   }
   position_.trail.clear();
+  solver_.restore(start);
   target.travel = before;
-  if (depth == max_halvings || iterations_ > max_iterations)
+  if (!report.converged && (depth >= max_halvings || iterations_ > max_iterations))
     throw RunFailure(fmt::format(
         "{}: no equilibrium at {:.4f} of the programme, with the sample at x {:.4g}, y {:.4g}, z "
         "{:.4g} m, after {} halvings of the increment; residual {:.2g} of the forces in balance: "
@@ -245,6 +242,14 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   advance(half, servo, depth + 1);
 }
 
+// A long step reaches the equilibrium of the free tip without passing the one at which it lets go.
+bool AfmProgramme::is_released_too_far(const std::array<double, 3>& travel, bool servo) const {
+  const bool straight_down = travel[0] == 0 && travel[1] == 0 && travel[2] < 0 && !servo;
+  return straight_down && adheres() && touched() && !touches() && iterations_ <= max_iterations &&
+         model_.normal_stiffness * -travel[2] >
+             release_resolution * model_.world->resource<Target>().pull_off;
+}
+
 NewtonReport AfmProgramme::equilibrium(const NewtonSettings& settings, const IncrementStep& step) {
   const auto search = [&] {
     const NewtonReport report = solver_.equilibrate(settings);
@@ -253,8 +258,7 @@ NewtonReport AfmProgramme::equilibrium(const NewtonSettings& settings, const Inc
   };
   Target& target = model_.world->resource<Target>();
   // Where the probe can jump there may be two equilibria: use the nearer one.
-  const bool adheres = target.pull_off > 0 || target.ball.work > 0;
-  const auto guess = adheres ? std::nullopt : position_.trail.next(step);
+  const auto guess = adheres() ? std::nullopt : position_.trail.next(step);
   const StaticSolver::State start = solver_.state();
   if (!guess || guess->displacement.size() != start.displacement.size() ||
       guess->force.size() != start.force.size())
@@ -362,9 +366,23 @@ bool AfmProgramme::raster(const ActionSpec& action) {
   return true;
 }
 
+// The force at which the action begins is its set point.
+void AfmProgramme::hold_force(std::size_t action) {
+  if (!touched())
+    throw RunFailure(fmt::format(
+        "action[{}]: the probe does not touch the sample, so there is no force to hold; its "
+        "nearest "
+        "point is {:.3g} m away, allowed: set_point = \"force\" with the probe in contact, after a "
+        "press",
+        action, smallest_gap(model_).gap));
+  model_.world->resource<Target>().set_point = vertical_force();
+}
+
 bool AfmProgramme::run() {
   if (position_.told == 0) {
+    // With a DMT attraction a tip without force is pressed on by it: it has touched before the first increment.
     solver_.look();
+    solver_.commit();
     if (!tell()) return false;
   } else {
     to_skip_ = position_.told - 1;
@@ -374,8 +392,7 @@ bool AfmProgramme::run() {
     using Kind = ActionSpec::Kind;
     bool on = true;
     const double end = static_cast<double>(i + 1);
-    if (action.servo && to_skip_ == 0)
-      model_.world->resource<Target>().set_point = vertical_force();
+    if (action.servo && to_skip_ == 0) hold_force(i);
     switch (action.kind) {
       case Kind::press:
         doing_ = "press";

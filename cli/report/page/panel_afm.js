@@ -121,13 +121,19 @@ addPanel({
       {title: "retrace", unit: "N", cells: of(loop => loop.retrace)},
       {title: "half-width W", unit: "N", cells: of(loop => loop.half_width)},
       {title: "offset Δ", unit: "N", cells: of(loop => loop.offset)},
-      {title: "W / L", unit: "-", cells: of(loop => loop.half_width / loop.load)},
-      {title: "Δ / L", unit: "-", cells: of(loop => loop.offset / loop.load)},
+      {title: "W / L", unit: "-", cells: of(loop => loop.load > 0 ? loop.half_width / loop.load : null)},
+      {title: "Δ / L", unit: "-", cells: of(loop => loop.load > 0 ? loop.offset / loop.load : null)},
       {title: "W", unit: "V", cells: of(loop => loop.volts_half_width)},
       {title: "Δ", unit: "V", cells: of(loop => loop.volts_offset)},
       {title: "friction", unit: "-", cells: of(loop => loop.friction)},
       {title: "sensitivity", unit: "N/V", cells: of(loop => loop.sensitivity)}]);
     for (const loop of run.summary.loops.filter(loop => loop.settled === false)) {
+      if (loop.touches < 1) {
+        host.append(element("p", {className: "note", textContent: loop.touches === 0
+          ? `In action ${loop.action} the probe does not touch the sample where W is evaluated.`
+          : `In action ${loop.action} the probe is off the sample for part of the scan where W is evaluated.`}));
+        continue;
+      }
       const why = loop.slides < 1 - 1e-3 ? "the probe still sticks" :
         loop.turned < 1 - 1e-3 ? "friction is not yet aligned with the scan" : "the force still drifts";
       const scan = loop.needed_distance ? `a scan of ${withUnit(loop.needed_distance, "m")}` : "a longer scan, or a scan at constant force,";

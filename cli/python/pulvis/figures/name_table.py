@@ -92,6 +92,8 @@ NAMES = {
   "foot/twist": ["twist of the foot", "\\varphi"],
   "newton/iterations": ["Newton iterations", ""],
   "energy/released": ["released energy", "E"],
+  "energy/pulling": ["pull-off work", "W"],
+  "probe/lowest_force_z": ["lowest vertical force", "F_z"],
   "k_n": ["normal stiffness", "k_n"],
   "k_l": ["lateral stiffness", "k_l"],
   "k_x": ["longitudinal stiffness", "k_x"],
