@@ -134,7 +134,8 @@ TEST(ForceCurve, AProbeOffTheSampleHasNoForceToHoldAndNoLoop) {
   const auto scanned = [](const std::string& keys) {
     return own_scene(
         "extends = \"afm/force-curve.toml\"\nremove = [\"expect\"]\nsurface = { shape = "
-        "\"plane\", friction = 0.2 }\naction = [{ kind = \"press\", distance = \"-50 nm\", "
+        "\"plane\", friction = 0.2, pull_off = \"0 N\" }\naction = [{ kind = \"press\", distance = "
+        "\"-50 nm\", "
         "increments = 1 }, { kind = \"scan\", distance = \"8 nm\", increments = 4" +
             keys + " }]\n",
         v_on_plates);
