@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "components/bond.hpp"
 #include "components/cell.hpp"
 #include "components/ranks.hpp"
 #include "components/run_state.hpp"
@@ -21,6 +22,9 @@ void begin_with_state(World& world, const Scene& scene) {
   else
     state.restore(world, anew);
   Clock& clock = world.resource<Clock>();
+  // What broke before the state was saved broke before time 0 of this run.
+  if (world.has<BondTotals>())
+    for (Crack& crack : world.resource<BondTotals>().cracks) crack.time -= clock.time;
   clock.step = 0;
   clock.time = 0;
   clock.end = end;

@@ -241,8 +241,10 @@ std::vector<TableInfo> bond_tables(const Scene& scene) {
   if (!has_bonds(scene)) return {};
   const char* place = "where it was then";
   const char* half = "half of it where the points of the other side break as well";
-  TableInfo cracks{"cracks",
-                   {{"time", "s", "when the point broke"}, {"x", "m", place}, {"y", "m", place}}};
+  const char* time = scene.initial_state
+                         ? "when the point broke; <= 0: before the initial state was saved"
+                         : "when the point broke";
+  TableInfo cracks{"cracks", {{"time", "s", time}, {"x", "m", place}, {"y", "m", place}}};
   const auto add = [&](const SeriesInfo& column) { cracks.columns.push_back(column); };
   if (scene.space) add({"z", "m", place});
   add({"particle", "-",

@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include "components/cell.hpp"
 #include "engine/files/checkpoint.hpp"
 #include "engine/run_failure.hpp"
+#include "scenes/results/bond_results.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {
@@ -189,8 +192,34 @@ TEST(CellStages, ThatDoNotReachTheirDensityStopTheRun) {
   EXPECT_THROW(e.simulation.run_until(1), RunFailure);
 }
 
+class InitialState : public testing::Test {
+ protected:
+  InitialState() { std::filesystem::create_directories(folder); }
+  ~InitialState() override { std::filesystem::remove_all(folder); }
+
+  // The scene `before` + `first`, run to its end, whose state is kept.
+  std::unique_ptr<Experiment> kept(const std::string& before, const std::string& first) const {
+    const LoadedScene loading = load_scene_text(before + first, folder / "loading.toml");
+    auto part = std::make_unique<Experiment>(loading.scene);
+    part->run(10);
+    CheckpointInfo info;
+    info.powder_hash = fmt::format("{:016x}", loading.powder_hash);
+    write_state_file(folder / "state.h5", info, part->simulation.world());
+    return part;
+  }
+  // The scene `before` + `second`, from the kept state.
+  Experiment gone_on(const std::string& before, const std::string& second) const {
+    return Experiment(
+        load_scene_text("initial_state = \"state.h5\"\n" + before + second, folder / "rest.toml")
+            .scene);
+  }
+
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("pulvis-state-{}", getpid());
+};
+
 // Of one run through two stages, and of another that begins with the state between them.
-TEST(InitialState, GoesOnAsTheRunThatKeptIt) {
+TEST_F(InitialState, GoesOnAsTheRunThatKeptIt) {
   const std::string first =
       stage("press", "strain_xx = -0.03\nstrain_yy = -0.04\n", "keep_state = true\n");
   const std::string second = stage("shear", "strain_xx = 0.005\nstrain_yy = -0.02\n");
@@ -198,18 +227,8 @@ TEST(InitialState, GoesOnAsTheRunThatKeptIt) {
   Experiment whole(own_scene(before + first + second));
   whole.run(20);
 
-  const auto folder =
-      std::filesystem::temp_directory_path() / fmt::format("pulvis-state-{}", getpid());
-  std::filesystem::create_directories(folder);
-  const LoadedScene loading = load_scene_text(before + first, folder / "loading.toml");
-  Experiment part(loading.scene);
-  part.run(10);
-  CheckpointInfo info;
-  info.powder_hash = fmt::format("{:016x}", loading.powder_hash);
-  write_state_file(folder / "state.h5", info, part.simulation.world());
-  Experiment rest(
-      load_scene_text("initial_state = \"state.h5\"\n" + before + second, folder / "rest.toml")
-          .scene);
+  kept(before, first);
+  Experiment rest = gone_on(before, second);
   rest.run(10);
   for (const char* part_of : {"cell/stress_xx", "cell/stress_yy"})
     EXPECT_NEAR(rest.value(part_of) / whole.value(part_of), 1, 2e-3) << part_of;
@@ -235,7 +254,63 @@ TEST(InitialState, GoesOnAsTheRunThatKeptIt) {
             std::string::npos);
   EXPECT_NE(told("initial_state = \"none.h5\"\n" + before + second).find("not a file"),
             std::string::npos);
-  std::filesystem::remove_all(folder);
+}
+
+// Crystals of grains that break in both stages.
+TEST_F(InitialState, CountsTheTimesOfCracksFromItsOwnStart) {
+  const std::string before = R"(
+family = "compaction"
+[[material]]
+name = "salt"
+density = "2165 kg/m^3"
+youngs_modulus = "1.9 GPa"
+poissons_ratio = 0.252
+[[particle]]
+name = "crystal"
+material = "salt"
+outline = "disc"
+diameter = "0.25 mm"
+grains = { number = 5, edges = 10 }
+[[packing]]
+kind = "random"
+width = "0.8 mm"
+density = 0.75
+class = [{ particle = "crystal", number = 4 }]
+[cell]
+width = "0.8 mm"
+[[bond]]
+between = ["salt", "salt"]
+origin = "initial"
+inside = true
+strength = "10 MPa"
+fracture_energy = "10 J/m^2"
+stiffness = 2
+[contact]
+friction = 0.2
+damping = 0.1
+)";
+  const std::string press = R"(
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "20 us"
+cell = { strain_xx = -0.08, strain_yy = -0.08 }
+)";
+  const auto part = kept(before, press);
+  const auto old = crack_rows(part->simulation.world(), 0);
+  ASSERT_FALSE(old.empty());
+  Experiment rest = gone_on(before, press);
+  const auto inherited = crack_rows(rest.simulation.world(), 0);
+  ASSERT_EQ(inherited.size(), old.size());
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    EXPECT_EQ(inherited[i][0], old[i][0] - part->simulation.clock().time);
+    EXPECT_LE(inherited[i][0], 0);
+  }
+  rest.run(10);
+  const auto rows = crack_rows(rest.simulation.world(), 0);
+  EXPECT_GT(rows.size(), old.size());
+  EXPECT_GT(rows[old.size()][0], 0);
+  EXPECT_TRUE(std::ranges::is_sorted(rows, {}, [](const auto& row) { return row[0]; }));
 }
 
 }  // namespace
