@@ -120,7 +120,7 @@ struct Crack {
   // m (in three dimensions m^2), half the length (area) of the point: the other side is sampled too. All of it for tools.
   double size = 0;
   double shear = 0;   // -, shear share of the energy at failure: 0 mode I, 1 mode II
-  double energy = 0;  // J, dissipated by breaking it, from damage initiation on
+  double energy = 0;  // J, fracture energy of the law in that mode, times the area of the point
 
   template <class Bytes>
   void state(Bytes& bytes) {

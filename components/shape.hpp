@@ -97,7 +97,7 @@ struct Bodies {
     int shape = 0;            // position in `shapes`
     int material = 0;         // material number in the scene
     int first_control = 0;    // row of its first control point
-    int parent = empty_slot;  // number of the particle that it is a grain of, or its own number
+    int parent = empty_slot;  // position of its particle in the order of placement
   };
 
   double thickness = 0;  // m

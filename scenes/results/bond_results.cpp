@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "components/bond.hpp"
@@ -48,6 +49,17 @@ double total_damage(const Fragments& found) {
     return std::accumulate(of.begin(), of.end(), 0.0);
   };
   return damage(sum(found.bonded), sum(found.broken));
+}
+
+// Of every particle: the lowest number among the grains of the same particle, so that it can be joined with other numbers.
+std::vector<double> parents_of(const Bodies& bodies) {
+  std::vector<double> parents;
+  std::map<int, int> first;  // by Slot::parent
+  for (const int slot : bodies.slot_of_number) {
+    const Bodies::Slot& of = entry(bodies.slots, slot);
+    parents.push_back(first.try_emplace(of.parent, of.number).first->second);
+  }
+  return parents;
 }
 
 // ---- lines on the outlines --------------------------------------------------------------------------
@@ -210,7 +222,8 @@ std::vector<FieldInfo> bond_fields(const Scene& scene) {
                           FieldPlace::particle, 1, true},
                          {"damage", "-", damage_meaning(scene), FieldPlace::particle, 1}});
   if (!scene.space)  // no grains there
-    all.push_back({"parent", "-", "number of the particle it is a grain of, or its own number",
+    all.push_back({"parent", "-",
+                   "lowest number of the grains of its particle; its own number if it has none",
                    FieldPlace::particle, 1, true});
   return all;
 }
@@ -231,9 +244,7 @@ void append_bond_frame(const World& world, std::vector<std::vector<double>>& fie
   for (std::size_t p = 0; p < found.bonded.size(); ++p)
     of_particle.push_back(damage(found.bonded[p], found.broken[p]));
   if (in_space(world)) return;
-  const Bodies& bodies = world.resource<Bodies>();
-  std::vector<double>& parents = fields.emplace_back();
-  for (const int slot : bodies.slot_of_number) parents.push_back(entry(bodies.slots, slot).parent);
+  fields.push_back(parents_of(world.resource<Bodies>()));
 }
 
 // ---- cracks -------------------------------------------------------------------------------------------
@@ -255,7 +266,7 @@ std::vector<TableInfo> bond_tables(const Scene& scene) {
   add({"bond", "-", "position of its [[bond]] in the scene", true});
   add(scene.space ? SeriesInfo{"area", "m^2", half} : SeriesInfo{"length", "m", half});
   add({"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"});
-  add({"energy", "J", "dissipated in breaking it"});
+  add({"energy", "J", "fracture energy of the bond law in the mode at breakage, times the area"});
   if (!scene.space) add({"inside", "-", "1 between grains of one particle, otherwise 0", true});
   return {cracks};
 }

@@ -246,6 +246,35 @@ TEST(BondResults, FragmentsComeFromBondsThatBreak) {
   EXPECT_LT(*found->shear_share, 1e-6);
 }
 
+// Numbers that can be looked up among the particles, whatever is whole and whatever is of grains.
+TEST(BondResults, ParentsAreTheLowestNumbersOfTheirGrains) {
+  std::string text = bar_material;
+  for (const char* grains : {"", "grains = { number = 3 }\n"})
+    text += fmt::format(
+        "[[particle]]\nname = \"disc{}\"\nmaterial = \"stone\"\noutline = \"disc\"\ndiameter = "
+        "\"1 mm\"\n{}",
+        *grains == 0 ? "" : "-of-grains", grains);
+  double x = 0;
+  for (const char* of : {"", "-of-grains", "", "-of-grains", ""})
+    text += fmt::format("[[body]]\nparticle = \"disc{}\"\nposition = [\"{} mm\", \"0 mm\"]\n", of,
+                        x += 2);
+  Experiment e(own_scene(text + R"(
+[[bond]]
+between = ["stone", "stone"]
+origin = "initial"
+inside = true
+strength = "10 MPa"
+fracture_energy = "20 J/m^2"
+[[stage]]
+name = "rest"
+kind = "hold"
+duration = "1 us"
+)"));
+  e.run(1);
+  EXPECT_THAT(e.field("parent"), ::testing::ElementsAre(0, 1, 1, 1, 4, 5, 5, 5, 8));
+  EXPECT_THAT(e.field("fragment"), ::testing::ElementsAre(0, 1, 1, 1, 4, 5, 5, 5, 8));
+}
+
 // A weld joins two particles, and is no damage when it breaks.
 TEST(BondResults, WeldsJoinFragmentsAndAreNoDamage) {
   Experiment e("bonds/cold-weld.toml");
