@@ -19,6 +19,9 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double straight = 1 - 1e-9;  // cosine between directions that count as parallel
 constexpr double goes_along = 0.1;     // share of the target's speed by which a particle may lag
 constexpr double least_shared = 0.02;  // of the normal force: a smaller lateral force has no shares
+// Of the planned distance. The powder still settles from loading when the target starts: over a tiny distance that plastic
+// work would count as an enormous force.
+constexpr double least_ploughed = 0.02;
 constexpr double static_share = 0.25;  // of the sliding distance, from its beginning
 constexpr double dynamic_share = 0.5;  // of the sliding distance, to its end
 
@@ -50,6 +53,12 @@ Vec2 velocity_of(const World& world, int slot) {
   return sum / nodes;
 }
 
+// m: a stage that ends once the tool has moved far enough plans no more than that.
+double planned_distance(const StageSpec& stage, int tool, double moved) {
+  const bool ends_early = stage.until && stage.until->tool == tool && stage.until->displacement;
+  return ends_early ? std::min(moved, *stage.until->displacement) : moved;
+}
+
 // The longest move in a stage along a tool's own face.
 std::optional<ShearSetup> target_of(const Scene& scene, const StageSpec& stage) {
   std::optional<ShearSetup> target;
@@ -66,6 +75,7 @@ std::optional<ShearSetup> target_of(const Scene& scene, const StageSpec& stage) 
     target->target = move.tool;
     target->up = up;
     target->along = along.normalized();
+    target->planned = planned_distance(stage, move.tool, longest);
   }
   return target;
 }
@@ -96,14 +106,15 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
   if (!setup) return {};
   std::vector<SeriesInfo> all{
       {"shear/distance", "m",
-       "displacement of the target along itself since the shear stage began"},
+       "displacement of the target along itself since the first shear stage began"},
       {"shear/friction", "-", "lateral over normal force on the target; NaN where it carries none"},
       {"shear/work", "J", "work of the target against friction and grooves"},
       {"shear/locked", "-", "particles that touch the target and move with it, within 10%"},
-      {"shear/plastic_work", "J", "dissipated by plastic flow since the shear stage began"},
+      {"shear/plastic_work", "J", "dissipated by plastic flow since the first shear stage began"},
       {"shear/ploughing", "-",
        "shear/plastic_work over the normal force on the target, integrated over the distance: "
-       "contribution of ploughing to the mean coefficient; NaN before the target has moved"}};
+       "contribution of ploughing to the mean coefficient; NaN before the target has moved by 2% "
+       "of the distance planned for its first shear stage"}};
   if (setup->width > 0) {
     all.push_back({"shear/normal_stress", "Pa", "on the target: normal force / width x thickness"});
     all.push_back({"shear/lateral_stress", "Pa", "on the target, against its motion"});
@@ -112,8 +123,9 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
           {"shear/punch_lateral_stress", "Pa", "on the punch, along the target's motion"});
   }
   if (setup->punch >= 0)
-    all.push_back({"shear/dilation", "m",
-                   "displacement of the punch away from the target since the shear stage began"});
+    all.push_back(
+        {"shear/dilation", "m",
+         "displacement of the punch away from the target since the first shear stage began"});
   if (setup->wall >= 0)
     all.push_back({"shear/wall_share", "-",
                    "force on the wall that the powder is dragged against / lateral force on the "
@@ -124,9 +136,8 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
 std::vector<FieldInfo> ShearResults::fields(const Scene& scene) {
   if (!shear_setup(scene)) return {};
   return {{"target_slip", "m",
-           "displacement of the target past the particle while they touch, since the shear stage "
-           "began, "
-           "summed up over samples",
+           "displacement of the target past the particle while they touch, since the first shear "
+           "stage began, summed up over samples",
            FieldPlace::particle, 1}};
 }
 
@@ -197,8 +208,10 @@ void ShearResults::append_sample(double plastic, std::vector<double>& row) {
   const bool begun = punch_at_begin_.has_value();
   if (!begun) plastic_at_begin_ = plastic;
   const double flow = plastic - plastic_at_begin_;
+  const double farthest = std::max(distance, samples_.empty() ? 0 : samples_.back().distance);
+  const bool ploughs = farthest >= least_ploughed * setup_->planned && pressed_ > 0;
   row.insert(row.end(), {distance, friction, work_, static_cast<double>(take_touching(begun)), flow,
-                         pressed_ > 0 ? flow / pressed_ : nothing});
+                         ploughs ? flow / pressed_ : nothing});
   if (setup_->width > 0) {
     row.insert(row.end(), {normal / face, lateral / face});
     if (setup_->punch >= 0)

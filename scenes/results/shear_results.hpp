@@ -20,6 +20,7 @@ struct ShearSetup {
   Vec2 along = Vec2::UnitX();  // the direction in which the target moves
   Vec2 up = Vec2::UnitY();     // outward normal of the target
   double width = 0;            // m, between the walls; 0: there are no two walls
+  double planned = 0;          // m, by which the target is to move in that stage
 };
 std::optional<ShearSetup> shear_setup(const Scene& scene);
 
