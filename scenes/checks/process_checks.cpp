@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "engine/entry.hpp"
+
 namespace pulvis {
 
 void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t drives,
@@ -33,6 +35,23 @@ void refuse_two_tools(const std::string& first, const std::string& second,
   };
   if (is_tool(first) && is_tool(second))
     refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
+}
+
+// A particle has one material, and so have its grains.
+void refuse_inside_nothing(const Scene& scene, std::size_t number, const Refuse& refuse) {
+  const BondSpec& bond = scene.bonds[number];
+  if (!bond.inside) return;
+  std::set<std::string> of_grains;
+  for (const ParticleSpec& particle : scene.particles)
+    if (particle.grains) of_grains.insert(entry(scene.materials, particle.material).name);
+  if (bond.first == bond.second && of_grains.contains(bond.first)) return;
+  std::string allowed = "false";
+  for (const std::string& name : of_grains)
+    allowed += fmt::format(", or between = [\"{0}\", \"{0}\"]", name);
+  refuse(fmt::format("bond[{}].inside", number),
+         fmt::format("it bonds the grains of one particle, but no particle of '{}' and '{}' has "
+                     "[particle.grains], allowed: {}",
+                     bond.first, bond.second, allowed));
 }
 
 }  // namespace
@@ -66,6 +85,7 @@ void check_bonds(const Scene& scene, const std::vector<std::string>& tools, cons
       refuse(path, fmt::format("the pair '{}' and '{}' is named twice with this origin, allowed: "
                                "once",
                                first, second));
+    refuse_inside_nothing(scene, i, refuse);
   }
   if (scene.bonds.size() > most_bonds)
     refuse("bond[255]",

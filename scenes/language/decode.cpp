@@ -235,6 +235,16 @@ void set_direction(const KeyInfo& key, const Value& value, Decoded& result) {
   result.vector3 = (given / largest).normalized();
 }
 
+// Tools without contact are refused by the checks, with the reason.
+std::string no_surface(const Value& part, std::vector<std::string> known, const Names& names) {
+  if (const auto found = names.find(without_contact); found != names.end())
+    std::erase_if(known, [&](const std::string& name) {
+      return std::ranges::find(found->second, name) != found->second.end();
+    });
+  return fmt::format("no material or tool is called {}{}, allowed: {}", document::value_text(part),
+                     suggestion(part.get<std::string>(), known), listed(known));
+}
+
 std::array<std::string, 2> name_pair(const KeyInfo& key, const Value& value, const Names& names) {
   const document::Array& parts = parts_of(key, value);
   std::vector<std::string> known;
@@ -246,9 +256,7 @@ std::array<std::string, 2> name_pair(const KeyInfo& key, const Value& value, con
   for (const Value& part : parts) {
     const std::string& given = word(key, part);
     if (given.empty() || std::find(known.begin(), known.end(), given) == known.end())
-      throw Refusal(part.origin, fmt::format("no material or tool is called {}{}, allowed: {}",
-                                             document::value_text(part), suggestion(given, known),
-                                             listed(known)));
+      throw Refusal(part.origin, no_surface(part, known, names));
   }
   return {word(key, parts[0]), word(key, parts[1])};
 }

@@ -51,6 +51,9 @@ void TableReader::collect_name(const std::string& table, const document::Value& 
                               "those of all materials, for the friction pairs",
                               *name));
   own.push_back(*name);
+  const std::string* shape = document::find_text(keys, "shape");
+  if (table == "tool" && shape != nullptr && *shape == "constraint")
+    names_[without_contact].push_back(*name);
 }
 
 const document::Array& TableReader::elements(const document::Table& parent,

@@ -74,6 +74,41 @@ normal = [0, 1]
   EXPECT_THAT(problems[0].message, HasSubstr("allowed: reach >= 0.02"));
 }
 
+// ---- names and grains ------------------------------------------------------------------------------------
+TEST(BondsInside, WithoutGrainsAreRefusedWithTheReason) {
+  const auto whole = problems_in(
+      [] { own_scene("extends = \"bonds/pulled-blocks.toml\"\n", {"bond[0].inside=true"}); });
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_EQ(whole[0].key, "bond[0].inside");
+  EXPECT_EQ(whole[0].message,
+            "it bonds the grains of one particle, but no particle of 'stone' and 'stone' has "
+            "[particle.grains], allowed: false");
+  const auto with = [](const char* pair) {
+    return problems_in([&] {
+      own_scene("extends = \"bonds/brazilian-disc.toml\"\n",
+                {"bond[0].inside=true", std::string("bond[0].between=") + pair});
+    });
+  };
+  EXPECT_THAT(with("[\"salt\", \"salt\"]"), IsEmpty());
+  const auto tool = with("[\"salt\", \"top\"]");
+  ASSERT_EQ(tool.size(), 1U);
+  EXPECT_THAT(tool[0].message, HasSubstr("allowed: false, or between = [\"salt\", \"salt\"]"));
+}
+
+// A name that the message offers is accepted.
+TEST(BondsBetween, UnknownNamesAreToldThoseOfSurfaces) {
+  const auto told = [](const char* pair) {
+    return message_of([&] {
+      own_scene("extends = \"bonds/pulled-blocks.toml\"\n",
+                {std::string("bond[0].between=") + pair});
+    });
+  };
+  const std::string unknown = told("[\"stone\", \"hed\"]");
+  EXPECT_THAT(unknown, HasSubstr("no material or tool is called \"hed\", allowed: stone"));
+  EXPECT_THAT(unknown, ::testing::Not(HasSubstr("head")));
+  EXPECT_THAT(told("[\"stone\", \"head\"]"), HasSubstr("the constraint 'head' has no contact"));
+}
+
 // ---- random strengths ------------------------------------------------------------------------------------
 // P(s > s_max) = exp(-s_max^m): 10.5% for s_max = 1.5, m = 2.
 TEST(RandomStrengths, ThatAreCutOffAreToldOf) {
