@@ -83,3 +83,18 @@ def test_a_mesh_fills_its_outline(scenes):
     assert np.array_equal(pulvis.mesh(scene).nodes, mesh.nodes)
     with pytest.raises(KeyError, match="allowed: disc"):
         pulvis.mesh(scene, "ball")
+
+
+def test_a_particle_of_grains_has_the_meshes_of_its_grains(scenes):
+    scene = pulvis.Scene(scenes / "bonds/brazilian-disc.toml")
+    packing = pulvis.pack(scene)
+    of_disc = "particles of class 'disc' consist of grains and have no {} of their own, allowed: .*'disc#1.1' to 'disc#1.60'"
+    for disc in ("disc", 0):
+        with pytest.raises(ValueError, match=of_disc.format("mesh")):
+            pulvis.mesh(scene, disc)
+    with pytest.raises(ValueError, match=of_disc.format("outline")):
+        packing.outline(0)
+    assert packing.areas == pytest.approx([np.pi * 25e-6], rel=1e-6)
+    grains = [pulvis.mesh(scene, f"disc#1.{n + 1}") for n in range(60)]
+    assert sum(grain.area for grain in grains) == pytest.approx(packing.areas[0], rel=1e-9)
+    assert sum(len(grain.quads) for grain in grains) == 1560

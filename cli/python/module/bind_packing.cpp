@@ -148,8 +148,13 @@ py::dict mesh_of_class(const LoadedScene& loaded, int number) {
     for (std::size_t k = 0; k < 4; ++k)
       quads.mutable_at(static_cast<py::ssize_t>(e), static_cast<py::ssize_t>(k)) =
           shape.quads[e][k].value;
+  py::list grains;  // names of their classes
+  for (const auto& tessellation : particle.tessellations)
+    for (const GrainPlace& grain : tessellation)
+      grains.append(scene.grains[static_cast<std::size_t>(grain.grain)].name);
   py::dict all;
   all["name"] = particle.name;
+  all["grains"] = grains;
   all["nodes"] = pairs(shape.nodes);
   all["quads"] = quads;
   all["boundary_nodes"] = shape.boundary_nodes;

@@ -54,12 +54,27 @@ class SolidMesh:
     area: float
 
 
+def refuse_grains(found: dict[str, Any], wanted: str) -> None:
+    """A run meshes the grains of a particle, and not the particle."""
+    grains = found.get("grains")
+    if grains:
+        raise ValueError(f"particles of class '{found['name']}' consist of grains and have no {wanted} of their own, allowed: "
+                         f"classes without grains, or those of its grains, '{grains[0]}' to '{grains[-1]}'")
+
+
 def made(found: dict[str, Any]) -> Mesh | SolidMesh:
-    return SolidMesh(**found) if "hexahedra" in found else Mesh(**found)
+    if "hexahedra" in found:
+        return SolidMesh(**found)
+    refuse_grains(found, "mesh")
+    return Mesh(**{key: value for key, value in found.items() if key != "grains"})
 
 
 def mesh(scene: Scene, particle: str | int = 0) -> Mesh | SolidMesh:
-    """The mesh of a particle class of a scene, by name or index: `Mesh`, or `SolidMesh` in three dimensions."""
+    """The mesh of a particle class of a scene, by name or index: `Mesh`, or `SolidMesh` in three dimensions.
+
+    A class with [particle.grains] has none. Each of its grains is a class with a mesh: "disc#2.7" is the seventh grain of the
+    second variant of "disc". Its centroid is the origin.
+    """
     if isinstance(particle, str):
         number = 0
         names: list[str] = []

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pulvis import _core
+from pulvis.meshes import refuse_grains
 
 if TYPE_CHECKING:
     from pulvis.scene import Scene
@@ -40,8 +41,9 @@ class Packing:
         return len(self.centres)
 
     def outline(self, number: int) -> np.ndarray:
-        """Boundary nodes of a particle, counter-clockwise, m [nodes, 2]."""
+        """Boundary nodes of a particle, counter-clockwise, m [nodes, 2]. Not of a particle of grains."""
         mesh = self._meshes[self.classes[number]]
+        refuse_grains(mesh, "outline")
         points = mesh["nodes"][: mesh["boundary_nodes"]]
         c, s = np.cos(self.angles[number]), np.sin(self.angles[number])
         return points @ np.array([[c, s], [-s, c]]) + self.centres[number]
