@@ -14,41 +14,12 @@
 #include "scenes/results/state_hash.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/wrong.hpp"
+#include "tests/physics/stone_pieces.hpp"
 
 namespace pulvis {
 namespace {
 
 // ---- a bar of one piece, or glued from two unlike ones ---------------------------------------------------
-constexpr const char* bar_material = R"(
-family = "compaction"
-thickness = "1 mm"
-[[material]]
-name = "stone"
-density = "2000 kg/m^3"
-youngs_modulus = "20 GPa"
-poissons_ratio = 0.25
-[material.damping]
-mass_proportional = "60000 1/s"
-)";
-
-std::string piece(const char* name, double length, double x, double y = 0) {
-  return fmt::format(R"(
-[[particle]]
-name = "{0}"
-material = "stone"
-outline = "rectangle"
-width = "{1} mm"
-height = "1 mm"
-[particle.mesh]
-columns = {2}
-rows = 10
-[[body]]
-particle = "{0}"
-position = ["{3} mm", "{4} mm"]
-)",
-                     name, length, std::lround(10 * length), x, y);
-}
-
 std::string bar(bool glued) {
   if (!glued) return piece("whole", 6, 0);
   return piece("left", 2.5, -1.75) + piece("right", 3.5, 1.25) + R"(
@@ -58,13 +29,6 @@ origin = "initial"
 strength = "1 GPa"
 fracture_energy = "0.1 MJ/m^2"
 )";
-}
-
-std::string grip(const char* name, int body, const std::array<double, 4>& box, const char* holds) {
-  return fmt::format(
-      "[[tool]]\nname = \"{}\"\nshape = \"constraint\"\nbody = {}\nlow = [\"{} mm\", \"{} mm\"]\n"
-      "high = [\"{} mm\", \"{} mm\"]\nholds = \"{}\"\n",
-      name, body, box[0], box[1], box[2], box[3], holds);
 }
 
 struct Loading {
@@ -298,113 +262,6 @@ TEST(BondResults, AreAbsentWithoutBonds) {
   for (const FieldInfo& field : e.results.fields())
     EXPECT_THAT(field.name,
                 ::testing::Not(::testing::ContainsRegex("bonds/|cracks/|fragment|damage")));
-}
-
-// ---- a compact ------------------------------------------------------------------------------------------------
-// Pressed, unloaded and without walls: how many boundary edges still touch another particle.
-double touching_after_ejection(const char* scene, const std::vector<std::string>& more) {
-  std::vector<std::string> overrides{
-      "packing[0].width=40 mm", "packing[0].class[0].number=16",
-      "tool.right.point=[\"40 mm\", \"0 mm\"]",
-      "stage.press.move.top.displacement=[\"0 mm\", \"-3.75 mm\"]",
-      "stage.press.move.bottom.displacement=[\"0 mm\", \"3.75 mm\"]"};
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  Experiment e(scene, overrides);
-  double largest = 0;
-  e.run(40, [&] { largest = std::max(largest, e.value("contacts")); });
-  EXPECT_GT(largest, 100);
-  EXPECT_LT(e.results.energy_balance_error(), 0.01);
-  return e.value("contacts");
-}
-
-TEST(Glue, OfColdWeldingHoldsACompactTogether) {
-  // One or two touch as they fly past each other.
-  EXPECT_LE(touching_after_ejection("bonds/loose-compact.toml", {}), 2);
-  EXPECT_GT(touching_after_ejection(
-                "bonds/green-strength.toml",
-                {"stage.split.duration=1 us",
-                 "stage.split.move.left-platen.displacement=[\"1e-6 mm\", \"0 mm\"]",
-                 "stage.split.move.right-platen.displacement=[\"-1e-6 mm\", \"0 mm\"]"}),
-            50);
-}
-
-// A block pressed onto another and lifted: every step is looked at, those in which points weld, too.
-TEST(Glue, OfColdWeldingIsCountedOnceInEveryStep) {
-  Experiment e(own_scene(std::string(bar_material) + piece("base", 3, 0) + piece("head", 1, 0, 1) +
-                         R"(
-[[bond]]
-between = ["stone", "stone"]
-origin = "pressed"
-strength = "40 MPa"
-fracture_energy = "200 J/m^2"
-threshold = "20 MPa"
-growth = 0.1
-[[stage]]
-name = "press"
-kind = "compact"
-duration = "20 us"
-move = [{ tool = "head", displacement = ["0 mm", "-4 um"] }]
-[[stage]]
-name = "part"
-kind = "unload"
-duration = "20 us"
-move = [{ tool = "head", displacement = ["0 mm", "20 um"] }]
-)" + grip("base", 0, {-2, -.6, 2, .6}, "both") +
-                         grip("head", 1, {-.6, .4, .6, 1.6}, "both")));
-  double area = 0, work = 0;
-  e.run(8000, [&] {
-    area = std::max(area, e.value("bonds/area"));
-    work = std::max(work, e.value("energy/contact"));
-  });
-  EXPECT_NEAR(area, 1e-6, 0.2e-6);
-  EXPECT_GT(work, 1e-5);
-  EXPECT_LT(e.results.energy_balance_error(), 1e-4);
-}
-
-// Points that slide past a corner are closest to the corner itself. They are not unloaded, and weld no more.
-TEST(Glue, OfColdWeldingIsNotMadeBesideACorner) {
-  Experiment e(own_scene(std::string(bar_material) + R"(
-[[particle]]
-name = "wedge"
-material = "stone"
-outline = "polygon"
-corners = [["-0.6 mm", "0.3 mm"], ["0 mm", "-0.5 mm"], ["0.6 mm", "0.3 mm"]]
-mesh = { boundary_edges = 40 }
-[[particle]]
-name = "slider"
-material = "stone"
-outline = "rectangle"
-width = "1 mm"
-height = "0.5 mm"
-mesh = { columns = 8, rows = 4 }
-[[body]]
-particle = "wedge"
-position = ["0 mm", "0 mm"]
-[[body]]
-particle = "slider"
-position = ["0.2 mm", "0.518 mm"]
-[[bond]]
-between = ["stone", "stone"]
-origin = "pressed"
-strength = "10 MPa"
-fracture_energy = "20 J/m^2"
-threshold = "5 MPa"
-growth = 0.5
-[[stage]]
-name = "press"
-kind = "compact"
-duration = "60 us"
-move = [{ tool = "head", displacement = ["0 mm", "-0.006 mm"] }]
-[[stage]]
-name = "slide"
-kind = "compact"
-duration = "200 us"
-move = [{ tool = "head", displacement = ["0.3 mm", "0 mm"] }]
-)" + grip("base", 0, {-.5, -.8, .5, -.05}, "both") +
-                         grip("head", 1, {-1, .7, 1, 1}, "both")));
-  e.run(200);
-  EXPECT_GT(e.value("bonds/crack_length"), 1e-4);
-  EXPECT_LT(e.results.energy_balance_error(), 1e-3);
 }
 
 TEST(Glue, IsBitwiseTheSameForAnyThreads) {
