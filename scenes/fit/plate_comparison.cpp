@@ -110,6 +110,11 @@ PlateComparison::PlateComparison(const PlateFit& fit)
 }
 
 void PlateComparison::require_samples(double until) {
+  if (until < from())
+    refuse(fit_.file, "measured.record",
+           fmt::format("the compared range would end at {:.4g} mm, allowed: beyond its start at "
+                       "{:.4g} mm (measured.from)",
+                       until * 1e3, from() * 1e3));
   compared_.clear();
   for (std::size_t i = 0; i < distance_.size(); ++i)
     if (distance_[i] >= from() && distance_[i] <= until) compared_.push_back(i);

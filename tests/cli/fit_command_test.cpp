@@ -53,6 +53,12 @@ servo = [{ tool = "top", force = "4 kN" }]
 between = ["316L", "target"]
 coefficient = 0.2
 )";
+// 30 rows from `first` mm on, a millimetre apart.
+std::string steady_rows(int first) {
+  std::string rows;
+  for (int i = 0; i < 30; ++i) rows += std::to_string(first + i) + ",0.2\n";
+  return rows;
+}
 const std::string one_key = R"(scene = "plate.toml"
 
 [[parameter]]
@@ -179,7 +185,7 @@ TEST_F(FitCommand, AMovedFolderDoesTheSameAgain) {
 }
 
 TEST_F(FitCommand, RefusesWhatCannotBeSought) {
-  write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n");
+  write("measured.csv", "distance [mm],friction\n" + steady_rows(0));
   EXPECT_EQ(refusal(), "");
   write("fit.toml", one_key + "[fit]\ntarget = \"plate\"\n");
   EXPECT_THAT(refusal(), HasSubstr("fit.target: the scene has no tool 'plate'"));
@@ -220,7 +226,7 @@ TEST_F(FitCommand, SmallStepsGetMoreDigits) {
 
 // A key without effect, and two that have the same effect in units that differ by many orders.
 TEST_F(FitCommand, GivesNoIntervalToWhatItCannotDetermine) {
-  write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n");
+  write("measured.csv", "distance [mm],friction\n" + steady_rows(0));
   const std::string second = R"([[parameter]]
 key = "limits.energy_balance"
 start = 0.5
@@ -262,7 +268,7 @@ TEST_F(FitCommand, RefusesToReplaceAParameter) {
 
 // Where the record has few samples within the simulated way nothing is compared.
 TEST_F(FitCommand, RefusesARecordThatDoesNotReachTheSimulation) {
-  write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n50,0.2\n");
+  write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n" + steady_rows(50));
   const PlateFit read = load_plate_fit(place / "fit.toml");
   PlateComparison comparison(read);
   EXPECT_NEAR(comparison.simulated_diameter(), 10e-3, 1e-5);
@@ -276,22 +282,21 @@ TEST_F(FitCommand, RefusesARecordFromBeforeTheStart) {
   std::string samples = "distance [mm],friction\n";
   for (int i = 1; i <= 40; ++i) samples += std::to_string(-i) + ",0.2\n";
   write("measured.csv", samples);
-  const PlateFit read = load_plate_fit(place / "fit.toml");
-  PlateComparison comparison(read);
-  EXPECT_THAT(message_of([&] {
-                comparison.set_reach({"s", {0, 1e-3, 2e-3}, {0, 0.1, 0.1}});
-              }),
-              HasSubstr("0 of its samples lie between"));
+  EXPECT_THAT(refusal(), HasSubstr("the compared range would end at 0 mm, allowed: beyond its"));
 }
 
 // As `mean` in curves.csv where only one run reaches.
 TEST_F(FitCommand, LeavesOutRowsWithoutAValue) {
-  write("measured.csv", "distance [mm],mean\n0,0.1\n1,0.2\n1.5,\n2,0.3\n9,\n");
+  write("measured.csv", "distance [mm],mean\n0,0.1\n1,0.2\n1.5,\n2,0.3\n9,\n" + steady_rows(10));
   write("fit.toml", one_key + "friction = \"mean\"\n");
   const PlateFit read = load_plate_fit(place / "fit.toml");
   const PlateComparison comparison(read);
-  EXPECT_THAT(comparison.distance(), ::testing::ElementsAre(0, 1e-3, 2e-3));
-  EXPECT_THAT(comparison.friction(), ::testing::ElementsAre(0.1, 0.2, 0.3));
+  ASSERT_EQ(comparison.distance().size(), 33U);
+  EXPECT_DOUBLE_EQ(comparison.distance()[2], 2e-3);
+  EXPECT_DOUBLE_EQ(comparison.distance()[3], 10e-3);
+  ASSERT_EQ(comparison.friction().size(), 33U);
+  EXPECT_DOUBLE_EQ(comparison.friction()[2], 0.3);
+  EXPECT_DOUBLE_EQ(comparison.friction()[3], 0.2);
 }
 
 TEST_F(FitCommand, RefusesSceneInThreeDimensions) {

@@ -38,5 +38,5 @@ def test_a_short_record_is_refused_before_the_first_simulation(tmp_path):
     lines = (LAB / "plate-measured.csv").read_text(encoding="utf-8").splitlines(keepends=True)
     (tmp_path / "plate-measured.csv").write_text("".join(lines[:15]), encoding="utf-8")
     told = call("fit", tmp_path / "plate-fit.toml", "-o", tmp_path / "fit", code=2)
-    assert "measured.record: " in told and "of its samples lie between" in told and "round 1" not in told
+    assert "measured.record: " in told and "would end at" in told and "round 1" not in told
     assert not (tmp_path / "fit").exists()
