@@ -277,9 +277,8 @@ std::string caps_text(const Probe& probe, const std::vector<ProbeSurface>& surfa
     const std::size_t points = usable_points(pooled);
     if (rows.empty()) {
       text += fmt::format(
-          "{:<16}{:>8.4f}  {} of {} yield points can be used (in-plane pressure >= 10%, q >= -5% "
-          "of "
-          "the largest pressure), a surface needs {}\n",
+          "{:<16}{:>8.4f}  {} of {} yield points can be used (in-plane pressure >= 10% and "
+          "q >= -5% of the largest pressure), a surface needs {}\n",
           group.path, group.density(), points, pooled.size(), fewest_points);
       continue;
     }

@@ -29,10 +29,9 @@ std::optional<double> friction(double half_width, double offset, double slope,
 }  // namespace wedge
 
 struct FrictionLoop {
-  int action = 0;   // position of the scan in the programme
-  double load = 0;  // N, mean vertical force
-  double touches =
-      1;  // -, share of the positions at which the probe touches, where the means are taken
+  int action = 0;      // position of the scan in the programme
+  double load = 0;     // N, mean vertical force
+  double touches = 1;  // -, share of the positions with contact, where the means are taken
   // -, share of the points in contact that slide where the means are taken. Below 1 the scan was too short for
   // full sliding: W does not measure friction, and nothing is recovered from it.
   double slides = 0;

@@ -19,8 +19,6 @@ constexpr double flat = 1e-6;  // rad: such a slope gives no information
 // Relative: an offset of the detector as large as the crosstalk is then subtracted to this accuracy.
 constexpr double same_load = 0.01;
 
-double squared(double x) { return x * x; }
-
 struct Pair {
   double friction = 0, sensitivity = 0;
 };

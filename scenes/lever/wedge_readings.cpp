@@ -15,8 +15,6 @@
 namespace pulvis::wedge {
 namespace {
 
-double square_of(double x) { return x * x; }
-
 // Through the loops of several loads; `of` and `error_of` select the fitted value.
 template <class Of, class ErrorOf>
 Fit line_through(const std::vector<Loop>& loops, const Of& of, const ErrorOf& error_of) {
@@ -32,9 +30,9 @@ Fit line_through(const std::vector<Loop>& loops, const Of& of, const ErrorOf& er
     known = known && error;
     const double on_slope = (loop.load - line.middle) / line.spread;
     const double on_zero = 1 / n - line.middle * on_slope;
-    slope2 += square_of(on_slope * error.value_or(0));
-    zero2 += square_of(on_zero * error.value_or(0));
-    middle2 += square_of(error.value_or(0) / n);
+    slope2 += squared(on_slope * error.value_or(0));
+    zero2 += squared(on_zero * error.value_or(0));
+    middle2 += squared(error.value_or(0) / n);
   }
   if (loops.size() > 2) {
     const double scatter2 = line.residual / (n - 2);
@@ -62,7 +60,7 @@ Value mean_by_load(const std::vector<Loop>& loops, const Of& of, const ErrorOf& 
     sum += value;
     squares += value * value;
     known = known && error_of(loop);
-    error2 += square_of(error_of(loop).value_or(0) / loop.load / n);
+    error2 += squared(error_of(loop).value_or(0) / loop.load / n);
   }
   const double mean = sum / n;
   if (loops.size() > 2) {

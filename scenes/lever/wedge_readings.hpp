@@ -7,6 +7,8 @@
 
 namespace pulvis::wedge {
 
+inline double squared(double x) { return x * x; }
+
 struct Fit {
   Value slope, zero;  // per unit load; at zero load
   Value middle;       // at the mean load, where its error is independent of that of the slope
