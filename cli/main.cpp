@@ -353,6 +353,12 @@ int parse_and_run(int argc, char** argv) {
   add_study(app, options.study, code);
   add_probe(app, options.probe, code);
   add_fit(app, options.fit, code);
+  for (const std::string name : {"study", "probe", "fit"})
+    app.get_subcommand(name)->preparse_callback([name](std::size_t) {
+      if (started_as_rank())
+        throw CLI::ValidationError(
+            name, "cannot be one of several ranks of mpirun or srun: it starts runs of its own");
+    });
 
   add_check(app, options, code);
   add_preview(app, options.preview, code);

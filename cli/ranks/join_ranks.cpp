@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "cli/ranks/mpi_plugin.hpp"
+#include "cli/shell_word.hpp"
 #include "engine/instruction_set.hpp"
 
 namespace pulvis {
@@ -53,6 +54,14 @@ Ranks::Bytes bytes_of(std::string_view text) {
 
 std::string text_of(const Ranks::Bytes& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string own_words() {  // of the command line, without the program's path
+  std::ifstream file("/proc/self/cmdline");
+  std::string words = "pulvis", word;
+  std::getline(file, word, '\0');
+  while (std::getline(file, word, '\0')) words += ' ' + shell_word(word);
+  return words;
 }
 
 std::string host_name() {
@@ -112,22 +121,20 @@ bool started_by_mpirun() {
 
 void require_mpi() { mpi_plugin(); }
 
-void require_alike(Ranks& ranks, const std::string& own) {
-  const auto all = ranks.gather(bytes_of(own + '\n' + host_name()));
+void require_alike(Ranks& ranks, const std::string& own, const std::string& rule) {
+  const auto all = ranks.gather(bytes_of(host_name() + '\n' + own));
   const auto told = [](const Ranks::Bytes& bytes) {
     const std::string text = text_of(bytes);
     const auto end = text.find('\n');
-    return std::array{text.substr(0, end), text.substr(end + 1)};
+    return std::array{text.substr(end + 1), text.substr(0, end)};
   };
   Ranks::Bytes refusal;
   for (std::size_t i = 0; i < all.size() && refusal.empty(); ++i) {
     const auto [first, first_host] = told(all[0]);
     const auto [other, other_host] = told(all[i]);
     if (other != first)
-      refusal =
-          bytes_of(fmt::format("all ranks of a run must be the same program on the same kind of "
-                               "processor: rank 0 on {} is {}, rank {} on {} is {}",
-                               first_host, first, i, other_host, other));
+      refusal = bytes_of(fmt::format("{}: rank 0 on {}: {}, rank {} on {}: {}", rule, first_host,
+                                     first, i, other_host, other));
   }
   ranks.broadcast(refusal);
   if (!refusal.empty()) throw UnlikeRanks(ranks.is_root() ? text_of(refusal) : "");
@@ -143,7 +150,9 @@ std::unique_ptr<Ranks> join_ranks() {
         "the ranks with mpirun or srun --mpi=pmix");
   }
   try {
-    require_alike(*ranks, build_identity() + " with " + instruction_set());
+    require_alike(*ranks, build_identity() + " with " + instruction_set(),
+                  "all ranks of a run must be the same program on the same kind of processor");
+    require_alike(*ranks, own_words(), "all ranks of a run must get the same command");
   } catch (const UnlikeRanks& refusal) {
     const std::string what = refusal.what();
     ranks.reset();

@@ -34,8 +34,8 @@ void require_mpi();
 // Null if the process is alone. Called by all ranks, once per process. Throws NoMpi, UnlikeRanks.
 std::unique_ptr<Ranks> join_ranks();
 
-// Checks that all ranks run the same program, as each describes itself. Collective; throws UnlikeRanks.
-void require_alike(Ranks& ranks, const std::string& own);
+// Checks that all ranks have the same text about themselves; `rule` begins the refusal. Collective; throws UnlikeRanks.
+void require_alike(Ranks& ranks, const std::string& own, const std::string& rule);
 
 struct MachineShare {
   int threads = 1;  // processors for this rank; each is shared evenly by the ranks that may use it

@@ -106,8 +106,31 @@ fs::path temporary_folder() {
   return "/tmp";
 }
 
-void tell_how_to_go_on(const fs::path& folder) {
-  if (checkpoints_in(folder).empty())
+// The state of a run's folder: which checkpoint is the last one, and when its files were written.
+struct Written {
+  std::vector<fs::path> checkpoints;
+  fs::file_time_type checkpoint, results, summary;  // the earliest possible time if there is none
+
+  explicit Written(const fs::path& folder)
+      : checkpoints(checkpoints_in(folder)),
+        checkpoint(checkpoints.empty() ? fs::file_time_type::min() : time_of(checkpoints.front())),
+        results(time_of(folder / "run.h5")),
+        summary(time_of(folder / "summary.json")) {}
+  bool operator==(const Written&) const = default;
+
+ private:
+  static fs::file_time_type time_of(const fs::path& file) {
+    std::error_code missing;
+    const fs::file_time_type time = fs::last_write_time(file, missing);
+    return missing ? fs::file_time_type::min() : time;
+  }
+};
+
+void tell_how_to_go_on(const fs::path& folder, const Written& before) {
+  if (const Written now(folder); now == before)
+    tell(stderr,
+         "pulvis: nothing was written; once the cause is fixed, give the same command again\n");
+  else if (now.checkpoints.empty())
     tell(stderr,
          "pulvis: there is no checkpoint to continue from; once the cause is fixed, run it again, "
          "with --overwrite if {} holds a run.h5\n",
@@ -131,10 +154,14 @@ bool end_without_mpirun(const fs::path& folder) {
   return !is_locked(folder);
 }
 
-ExitCode end_of(int status, bool asked, const fs::path& folder) {
+ExitCode end_of(int status, bool asked, const fs::path& folder, const Written& before) {
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  if (code == static_cast<int>(ExitCode::machine)) tell_how_to_go_on(folder);
   if (is_own(code)) return static_cast<ExitCode>(code);
+  // SIGTERM to mpirun as well: it ends with another code than the ranks, which have told where they stopped.
+  if (asked && end_without_mpirun(folder))
+    if (const Written now(folder);
+        now.summary != before.summary && now.checkpoint != before.checkpoint)
+      return ExitCode::interrupted;
   if (asked && (WIFSIGNALED(status) ||
                 code == killed + wish_to_stop)) {  // before the ranks could react to it
     tell(stderr, "pulvis: interrupted before all ranks had started\n");
@@ -145,14 +172,14 @@ ExitCode end_of(int status, bool asked, const fs::path& folder) {
          strsignal(WTERMSIG(status)));
     if (!end_without_mpirun(folder))
       tell(stderr, "pulvis: its ranks still run: kill them before anything else\n");
-  } else if (code > killed)
+  } else if (code > killed && code <= killed + SIGRTMAX)
     tell(stderr, "pulvis: a rank was killed by signal {} ({}), and the others were terminated\n",
          code - killed, strsignal(code - killed));
   else
     tell(stderr,
          "pulvis: the ranks did not start or did not finish: mpirun ended with exit code {}\n",
          code);
-  tell_how_to_go_on(folder);
+  tell_how_to_go_on(folder, before);
   return ExitCode::machine;
 }
 
@@ -183,6 +210,7 @@ ExitCode launch_ranks(const RankLaunch& launch) {
   // Three ranks used 4 MB with Open MPI 4.1, and did not start with less.
   require_room_to_start(temporary_folder(), std::uintmax_t{32} << 20);
   const std::vector<std::string> command = command_of(launch);
+  const Written before(launch.folder);
   const SignalsHeld signals;
   const pid_t child = start(command, signals);
   bool asked = false;
@@ -192,7 +220,7 @@ ExitCode launch_ranks(const RankLaunch& launch) {
     const int signal = signals.next({patience, 0});
     if (signal == SIGCHLD) {
       if (waitpid(child, &status, WNOHANG) == child && !WIFSTOPPED(status))
-        return end_of(status, asked, launch.folder);
+        return end_of(status, asked, launch.folder, before);
     } else if (signal != 0) {
       asked = true;
       kill(child, wish_to_stop);

@@ -5,9 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 
 #include "engine/files/file_descriptor.hpp"
 #include "engine/files/output_error.hpp"
@@ -35,13 +37,25 @@ class SpawnActions {
   posix_spawn_file_actions_t actions_{};
 };
 
-pid_t spawn(const std::vector<std::string>& words, const SpawnActions& actions) {
-  std::vector<char*> arguments;
+std::vector<char*> environment_without(const std::vector<std::string>& hidden) {
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    if (std::ranges::none_of(hidden, [&](const std::string& name) {
+          return std::string_view(*variable).starts_with(name);
+        }))
+      variables.push_back(*variable);
+  variables.push_back(nullptr);
+  return variables;
+}
+
+pid_t spawn(const std::vector<std::string>& words, const SpawnActions& actions,
+            const std::vector<std::string>& hidden) {
+  std::vector<char*> arguments, variables = environment_without(hidden);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   pid_t child = 0;
-  const int error =
-      posix_spawnp(&child, arguments[0], actions.get(), nullptr, arguments.data(), environ);
+  const int error = posix_spawnp(&child, arguments[0], actions.get(), nullptr, arguments.data(),
+                                 variables.data());
   if (error == ENOENT) throw NoProgram();
   if (error != 0) throw OutputError(words[0], "start it", std::strerror(error));
   return child;
@@ -59,7 +73,8 @@ std::string all_of(int descriptor) {
 
 }  // namespace
 
-Captured run_captured(const std::vector<std::string>& words, const std::filesystem::path& folder) {
+Captured run_captured(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                      const std::vector<std::string>& hidden) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
     throw OutputError(words[0], "start it", std::strerror(errno));
@@ -67,7 +82,7 @@ Captured run_captured(const std::vector<std::string>& words, const std::filesyst
   pid_t child = 0;
   {
     const FileDescriptor in(ends[1]);
-    child = spawn(words, SpawnActions(in.get(), folder));
+    child = spawn(words, SpawnActions(in.get(), folder), hidden);
   }
   Captured end;
   end.text = all_of(out.get());

@@ -12,9 +12,10 @@ struct Captured {
   std::string text;  // standard output and standard error, interleaved as printed
 };
 
-// The first word is looked up on PATH; `folder` is the working directory. Throws NoProgram, or OutputError if the
-// system refuses.
-Captured run_captured(const std::vector<std::string>& words, const std::filesystem::path& folder);
+// The first word is looked up on PATH; `folder` is the working directory; variables whose names start with one of `hidden`
+// are not passed on. Throws NoProgram, or OutputError if the system refuses.
+Captured run_captured(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                      const std::vector<std::string>& hidden = {});
 
 class NoProgram : public std::exception {
  public:

@@ -46,7 +46,8 @@ std::optional<std::set<std::size_t>> tasks_in_queue(const SlurmArray& array, std
                                  "--jobs=" + array.job};
   if (!array.cluster.empty()) words.push_back("--clusters=" + array.cluster);
   try {
-    const Captured end = run_captured(words, ".");
+    // A user's own filters of the list would hide tasks, whose runs would be done twice.
+    const Captured end = run_captured(words, ".", {"SQUEUE_"});
     const bool forgotten = end.text.find("Invalid job id") != std::string::npos;
     if (end.code != 0 && !forgotten) {
       reason = end.text.substr(0, end.text.find('\n'));
@@ -119,8 +120,9 @@ void require_sbatch() {
   }
 }
 
-SlurmArray submit_slurm_script(const fs::path& folder) {
-  const Captured end = run_captured({"sbatch", "--parsable", slurm_script_file}, folder);
+SlurmArray submit_slurm_script(const fs::path& folder, const std::vector<std::string>& hidden) {
+  // These variables come before what the script says.
+  const Captured end = run_captured({"sbatch", "--parsable", slurm_script_file}, folder, hidden);
   // "12", with several clusters "12;name"; sites may print more.
   std::istringstream lines(end.text);
   SlurmArray array;

@@ -39,7 +39,8 @@ class SlurmQueue {
 };
 
 // Submits slurm.sh of this folder. Throws OutputError with sbatch's message.
-SlurmArray submit_slurm_script(const std::filesystem::path& folder);
+SlurmArray submit_slurm_script(const std::filesystem::path& folder,
+                               const std::vector<std::string>& hidden);
 void require_sbatch();  // throws OutputError
 
 }  // namespace pulvis

@@ -46,7 +46,7 @@ constexpr const char* task_text = R"(
 mine=()
 for ((i = SLURM_ARRAY_TASK_ID; i < ${{#runs[@]}}; i += {tasks})); do mine+=(--run "${{runs[i]}}"); done
 
-{program} study study.toml -o . "${{mine[@]}}" --jobs 1 --threads-per-run "$SLURM_CPUS_PER_TASK" &
+{program} study {study} -o . "${{mine[@]}}" --jobs 1 --threads-per-run "$SLURM_CPUS_PER_TASK" &
 pulvis=$!
 
 # USR1 comes before the time limit, TERM when the job is cancelled: on both, runs stop with a checkpoint.
@@ -90,7 +90,17 @@ std::string slurm_script(const SlurmJob& job, const SlurmOptions& options) {
   for (const std::string& run : job.runs) text += "  " + shell_word(run) + "\n";
   text += ")\n";
   return text + fmt::format(task_text, fmt::arg("tasks", tasks),
-                            fmt::arg("program", shell_word(job.program)));
+                            fmt::arg("program", shell_word(job.program)),
+                            fmt::arg("study", shell_word(job.study)));
+}
+
+std::vector<std::string> variables_of_script(const SlurmOptions& options) {
+  std::vector<std::string> names{
+      "SBATCH_ARRAY_INX=", "SBATCH_JOB_NAME=",  "SBATCH_REQUEUE=", "SBATCH_NO_REQUEUE=",
+      "SBATCH_SIGNAL=",    "SBATCH_OPEN_MODE=", "SBATCH_OUTPUT="};
+  if (!options.partition.empty()) names.emplace_back("SBATCH_PARTITION=");
+  if (!options.time.empty()) names.emplace_back("SBATCH_TIMELIMIT=");
+  return names;
 }
 
 std::optional<long> time_limit_seconds(const std::string& text) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/interrupt.hpp"
+#include "cli/shell_word.hpp"
 #include "cli/slurm/slurm_queue.hpp"
 #include "cli/study/study_fit_files.hpp"
 #include "cli/study/study_folder.hpp"
@@ -59,7 +60,7 @@ ExitCode finish(StudyRunner& runner, const Study& study, const fs::path& folder)
 void print_list(const Study& study) {
   for (const StudyRun& run : study.runs) {
     tell("{}\n  {}\n", run.name, run.file.string());
-    for (const std::string& change : run.overrides) tell("  --set '{}'\n", change);
+    for (const std::string& change : run.overrides) tell("  --set {}\n", shell_word(change));
   }
   tell("{}: good: {} of {}, {}\n", study.file.string(), counted(study.runs.size(), "run"),
        counted(study.variations.size(), "variation"),

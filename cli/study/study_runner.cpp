@@ -75,7 +75,7 @@ void require_own_run(const fs::path& folder) {
 // Its first line names the command; the run's output follows.
 void begin_log(const fs::path& log, const Job& job) {
   std::string line = "pulvis";
-  for (const std::string& word : job.arguments) line += " " + word;
+  for (const std::string& word : job.arguments) line += " " + shell_word(word);
   write_own(log, role::study, line + "\n", Extent::start);
 }
 

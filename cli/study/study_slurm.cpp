@@ -31,10 +31,33 @@ std::vector<std::string> runs_to_submit(const Study& study, const fs::path& fold
   return runner.waiting();
 }
 
-SlurmJob job_of(const StudyOptions& options, std::vector<std::string> runs) {
+// Of its own for every submission: its tasks may start after the study has changed, and has been submitted again.
+fs::path copy_of_study(const fs::path& folder) {
+  const auto copy = [](int number) {
+    return fs::path(slurm_log_folder) / std::to_string(number) / "study.toml";
+  };
+  int number = 1;
+  while (fs::exists((folder / copy(number)).parent_path())) ++number;
+  return copy(number);
+}
+
+SlurmJob job_of(const StudyOptions& options, const fs::path& folder,
+                std::vector<std::string> runs) {
   return {"pulvis-" + printable(options.study.stem().string()),
-          fs::read_symlink("/proc/self/exe").string(), std::move(runs),
-          std::max(1, options.threads), options.jobs};
+          fs::read_symlink("/proc/self/exe").string(),
+          copy_of_study(folder).string(),
+          std::move(runs),
+          std::max(1, options.threads),
+          options.jobs};
+}
+
+// Tasks would fail before their first word, and nothing would say why.
+void require_path_for_slurm(const fs::path& folder) {
+  const fs::path whole = fs::weakly_canonical(folder);
+  if (whole.string().find_first_of("%\\") != std::string::npos)
+    throw OutputError(whole, "submit a study from this folder",
+                      "Slurm replaces % and \\ in the path of a task's output; allowed: a path "
+                      "without them");
 }
 
 void print_job(const SlurmJob& job, const SlurmOptions& options, const fs::path& folder) {
@@ -46,25 +69,27 @@ void print_job(const SlurmJob& job, const SlurmOptions& options, const fs::path&
 }  // namespace
 
 ExitCode submit_study(const StudyOptions& options, const Study& study, const fs::path& folder) {
+  require_path_for_slurm(folder);
   if (options.slurm.dry_run) {
     const auto runs = runs_to_submit(study, folder, SlurmQueue(folder));
-    if (!runs.empty()) print_job(job_of(options, runs), options.slurm, folder);
+    if (!runs.empty()) print_job(job_of(options, folder, runs), options.slurm, folder);
     return ExitCode::done;
   }
   require_sbatch();
   take_interrupts();
   const FolderLock lock = lock_study(folder);
   SlurmQueue queue(folder);
-  const SlurmJob job = job_of(options, runs_to_submit(study, folder, queue));
+  const SlurmJob job = job_of(options, folder, runs_to_submit(study, folder, queue));
   queue.write();
   if (job.runs.empty()) {
     tell("there is nothing to submit\n");
     return ExitCode::done;
   }
   save_study(folder, study);
-  make_folder(folder / slurm_log_folder);
+  make_folder((folder / job.study).parent_path());
+  save_study((folder / job.study).parent_path(), study);
   write_own(folder / slurm_script_file, role::study, slurm_script(job, options.slurm));
-  SlurmArray array = submit_slurm_script(folder);
+  SlurmArray array = submit_slurm_script(folder, variables_of_script(options.slurm));
   array.tasks = task_count(options.slurm, job.runs.size());
   array.runs = job.runs;
   queue.add(array);

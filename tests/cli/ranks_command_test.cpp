@@ -53,6 +53,28 @@ TEST_F(RanksCommand, WithoutMpiItsPackageIsNamed) {
   EXPECT_THAT(end.err, ::testing::AllOf(HasSubstr("pulvis-mpi"), HasSubstr("-DPULVIS_MPI=ON")));
 }
 
+TEST_F(RanksCommand, StudiesAreNoRanks) {
+  for (const char* command : {"study", "probe", "fit"}) {
+    const Outcome end = pulvis({command, "some.toml"}, "export OMPI_COMM_WORLD_SIZE=2");
+    EXPECT_EQ(end.code, 2);
+    EXPECT_THAT(end.err, HasSubstr("cannot be one of several ranks"));
+  }
+}
+
+// An mpirun that starts nothing: the run of before stays what it was, and is not offered as this one.
+TEST_F(RanksCommand, AFolderInWhichNothingWasWrittenIsNotContinued) {
+  if (!has_mpi()) GTEST_SKIP() << "this build has no MPI";
+  ASSERT_EQ(pulvis(short_run("r", {"--stop-after", "5"})).code, 130);
+  std::ofstream(place / "mpirun") << "#!/bin/sh\nexit 243\n";
+  fs::permissions(place / "mpirun", fs::perms::owner_all);
+  const Outcome end =
+      pulvis(short_run("r", {"--ranks", "2", "--overwrite"}), "PATH=" + place.string() + ":$PATH");
+  EXPECT_EQ(end.code, 4);
+  EXPECT_THAT(end.err,
+              ::testing::AllOf(HasSubstr("exit code 243"), HasSubstr("nothing was written"),
+                               Not(HasSubstr("signal")), Not(HasSubstr("resume"))));
+}
+
 TEST_F(RanksCommand, MpirunGetsTheProgramAndItsWords) {
   if (!has_mpi()) GTEST_SKIP() << "this build has no MPI";
   std::ofstream(place / "mpirun") << "#!/bin/sh\nprintf '%s ' \"$@\" >words\nexit 3\n";

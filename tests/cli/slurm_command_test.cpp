@@ -65,10 +65,53 @@ TEST_F(SlurmCommand, DryRunPrintsTheJobAndChangesNothing) {
         "#SBATCH --time=1:00:00\n", "#SBATCH --requeue\n", "#SBATCH --signal=B:USR1@120\n",
         "#SBATCH --account=powders\n", "#SBATCH '--comment=all of it'\n",
         "runs=(\n  friction=0.1\n  friction=0.2\n  friction=0.3\n)\n",
-        "study study.toml -o . \"${mine[@]}\" --jobs 1"})
+        "study slurm/1/study.toml -o . \"${mine[@]}\" --jobs 1"})
     EXPECT_THAT(end.out, HasSubstr(line));
   EXPECT_THAT(end.out, HasSubstr("cd " + results.string() + " && sbatch --parsable slurm.sh\n"));
   EXPECT_FALSE(fs::exists(results));
+}
+
+// Tasks of the first submission may still wait when the study has changed and is submitted again.
+TEST_F(SlurmCommand, EverySubmissionHasItsOwnCopyOfTheStudy) {
+  submit_in_two_tasks();
+  const std::string first = text_of(results / "slurm/1/study.toml");
+  stand_in("squeue", "echo 77 0; echo 77 1");
+  std::ofstream(place / "study.toml", std::ios::app) << "element.formulation = [\"four-point\"]\n";
+  ASSERT_EQ(submit().code, 0);
+  EXPECT_EQ(text_of(results / "slurm/1/study.toml"), first);
+  EXPECT_THAT(text_of(results / "slurm/2/study.toml"), HasSubstr("four-point"));
+  EXPECT_THAT(text_of(results / "slurm.sh"), HasSubstr("study slurm/2/study.toml"));
+  EXPECT_EQ(study({"--gather"}).code, 130);
+  EXPECT_EQ(text_of(results / "slurm/1/study.toml"), first);
+}
+
+TEST_F(SlurmCommand, AFolderThatSlurmWouldNotFindIsRefused) {
+  for (const char* name : {"Fe-2%Al", "res\\ult"}) {
+    const Outcome end = pulvis({"study", (place / "study.toml").string(), "-o",
+                                (place / name).string(), "--slurm", "--dry-run"});
+    EXPECT_EQ(end.code, 4) << end.out;
+    EXPECT_THAT(end.err, HasSubstr("Slurm replaces"));
+  }
+}
+
+// What they say would come before the script, or hide its tasks.
+TEST_F(SlurmCommand, VariablesOfSlurmForTheSameOptionsAreNotPassedOn) {
+  stand_in("sbatch",
+           "env | grep ^SBATCH_ | sort | tr '\\n' ' ' >" + (place / "seen").string() + "; echo 77");
+  stand_in("squeue", "test -z \"$SQUEUE_STATES\" && echo 77 0");
+  setenv("SBATCH_ARRAY_INX", "0-1", 1);
+  setenv("SBATCH_TIMELIMIT", "7", 1);
+  setenv("SBATCH_ACCOUNT", "powders", 1);
+  setenv("SQUEUE_STATES", "RUNNING", 1);
+  EXPECT_EQ(submit({"--array-size", "1"}).code, 0);
+  EXPECT_EQ(text_of(place / "seen"), "SBATCH_ACCOUNT=powders SBATCH_TIMELIMIT=7 ");
+  EXPECT_THAT(submit({"--dry-run"}).out, HasSubstr("3 under way"));
+  fs::remove_all(results);
+  EXPECT_EQ(submit({"--time", "5"}).code, 0);
+  EXPECT_EQ(text_of(place / "seen"), "SBATCH_ACCOUNT=powders ");
+  for (const char* name :
+       {"SBATCH_ARRAY_INX", "SBATCH_TIMELIMIT", "SBATCH_ACCOUNT", "SQUEUE_STATES"})
+    unsetenv(name);
 }
 
 // A quarter of a short limit is left for the checkpoint, of a long one two minutes.

@@ -209,13 +209,15 @@ TEST(Ranks, AnyThreadMayCall) {
   EXPECT_EQ(numbers[0], ranks->count());
 }
 
-TEST(Ranks, TheSameProgramIsAccepted) { EXPECT_NO_THROW(require_alike(*ranks, "0.1 with AVX2")); }
+TEST(Ranks, TheSameProgramIsAccepted) {
+  EXPECT_NO_THROW(require_alike(*ranks, "0.1 with AVX2", "one program"));
+}
 
 TEST(Ranks, AnotherProgramIsRefusedOnAllRanksAndToldOnce) {
   if (ranks->count() == 1) GTEST_SKIP() << "there is no other";
   const bool other = ranks->rank() == ranks->count() - 1;
   try {
-    require_alike(*ranks, other ? "0.1 with AVX-512" : "0.1 with AVX2");
+    require_alike(*ranks, other ? "0.1 with AVX-512" : "0.1 with AVX2", "one program");
     ADD_FAILURE() << "was not refused";
   } catch (const UnlikeRanks& refusal) {
     if (ranks->is_root())
