@@ -50,6 +50,7 @@ class ProbeContact {
       // Points that snapped off in an earlier iteration are no longer held by contact adhesion.
       if (equations_.jumped && state_(row, 3) == 0) problem.points.back().touched = false;
     }
+    find_responses();
     problem.compliance = compliance();
     return problem;
   }
@@ -110,19 +111,29 @@ class ProbeContact {
     return probe_place(node(p), configuration_, target_) + moved(p, direction);
   }
 
-  // K^-1 B_p, computed once.
-  const MatrixXd& response(int p) const {
-    auto& answers = equations_.answers;
-    answers.resize(static_cast<std::size_t>(probe_.node.rows()));
-    MatrixXd& mine = entry(answers, p);
-    if (mine.size() > 0) return mine;
+  // K^-1 B_p, computed once: by find_responses.
+  const MatrixXd& response(int p) const { return entry(equations_.answers, p); }
+
+  void find_responses() const {
+    equations_.answers.resize(static_cast<std::size_t>(probe_.node.rows()));
+    std::vector<int> unknown;
+    for (const int p : points_)
+      if (response(p).size() == 0) unknown.push_back(p);
+    // Together they take less time, but not too much memory.
+    constexpr std::size_t most = 16;
+    for (std::size_t first = 0; first < unknown.size(); first += most)
+      find_responses(std::span(unknown).subspan(first, std::min(most, unknown.size() - first)));
+  }
+
+  void find_responses(std::span<const int> points) const {
     stop_if_asked();
-    SolidFactors<double>::Three unit(3 * mesh_.unknowns, 3);
-    unit.setZero();
-    for (const auto& s : mesh_.supports_of(node(p)))
-      for (int k = 0; k < 3; ++k) unit(mesh_.first_equation(s.node) + k, k) += s.weight;
-    mine = equations_.solve_three(unit);
-    return mine;
+    MatrixXd unit = MatrixXd::Zero(3 * mesh_.unknowns, 3 * std::ssize(points));
+    for (Index i = 0; i < std::ssize(points); ++i)
+      for (const auto& s : mesh_.supports_of(node(entry(points, i))))
+        for (int k = 0; k < 3; ++k) unit(mesh_.first_equation(s.node) + k, 3 * i + k) += s.weight;
+    const MatrixXd answers = equations_.solve(unit);
+    for (Index i = 0; i < std::ssize(points); ++i)
+      entry(equations_.answers, entry(points, i)) = answers.middleCols<3>(3 * i);
   }
 
   MatrixXd compliance() const {

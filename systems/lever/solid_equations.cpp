@@ -1,13 +1,15 @@
 // residual, factorise, newton_direction: the equations of an equilibrium iteration.
 //
-// Source   K du = r with the lower triangle of K by columns; Eigen's simplicial L D L^T, whose ordering
-//          (approximate minimum degree) is computed once: the pattern never changes.
+// Source   K du = r with the lower triangle of K by columns; L D L^T by supernodes (systems/sparse) in the order of
+//          Eigen's approximate minimum degree, computed once: the pattern never changes.
 // Runs     after solid_force (residual) and block_tangent (factorise, then newton_direction)
 // Active   when the scene has a lever
 #include "systems/lever/solid_equations.hpp"
 
 #include <fmt/format.h>
 
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -21,66 +23,67 @@
 namespace pulvis {
 namespace {
 
-// The pattern of the scalar matrix from that of its blocks.
-template <class Matrix>
-void make_pattern(const SolidAssembly& assembly, Matrix& k) {
-  const int blocks = assembly.columns();
-  k.resize(3 * blocks, 3 * blocks);
-  std::vector<int> sizes;
-  for (int c = 0; c < blocks; ++c)
-    for (int j = 0; j < 3; ++j)
-      sizes.push_back(3 * static_cast<int>(assembly.rows_of(c).size()) - j);
-  k.reserve(sizes);
-  for (int c = 0; c < blocks; ++c)
-    for (int j = 0; j < 3; ++j)
-      for (const int r : assembly.rows_of(c))
-        for (int i = r == c ? j : 0; i < 3; ++i) k.insert(3 * r + i, 3 * c + j) = 0;
-  k.makeCompressed();
+sparse::BlockGraph graph_of(const SolidAssembly& assembly) {
+  return {assembly.column_begin, assembly.block_row};
+}
+
+// With little fill: approximate minimum degree (P. R. Amestoy, T. A. Davis & I. S. Duff, SIAM Journal on Matrix Analysis and
+// Applications 17 (1996) 886).
+std::vector<std::int32_t> elimination_order(const sparse::BlockGraph& graph) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int c = 0; c < graph.columns(); ++c)
+    for (const int r : graph.rows_of(c)) entries.emplace_back(r, c, 1);
+  Eigen::SparseMatrix<double> pattern(graph.columns(), graph.columns());
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::AMDOrdering<int>()(pattern, order);
+  std::vector<std::int32_t> position(static_cast<std::size_t>(graph.columns()));
+  for (int i = 0; i < graph.columns(); ++i) entry(position, order.indices()[i]) = i;
+  return position;
 }
 
 // Blocks of a column are in ascending order of rows, the diagonal one first: so are its values.
-template <class Matrix, class Real>
-void fill_values(const SolidAssembly& assembly, std::span<const Real> blocks, Matrix& k) {
-  auto* value = k.valuePtr();
+template <class Real>
+std::vector<Real> values_of(const SolidAssembly& assembly, std::span<const Real> blocks) {
+  std::vector<Real> values;
   const Real* column = blocks.data();  // [blocks of the column, 3, 3]
   for (int c = 0; c < assembly.columns(); ++c) {
     const auto rows = assembly.rows_of(c);
     for (int j = 0; j < 3; ++j) {
       const Real* block = column;
       for (const int r : rows) {
-        for (int i = r == c ? j : 0; i < 3; ++i) *value++ = block[3 * i + j];
+        for (int i = r == c ? j : 0; i < 3; ++i) values.push_back(block[3 * i + j]);
         block += 9;
       }
     }
     column += 9 * rows.size();
   }
+  return values;
 }
 
-// For a large solid this takes minutes. If interrupted, the solid is left without factors.
+// For a large solid this takes a minute. If interrupted, the solid is left without factors.
 template <class Real>
-void factorise_stiffness(SolidFactors<Real>& solid, bool first) {
-  using Factors = typename SolidFactors<Real>::Factors;
-  auto factors = first ? std::make_unique<Factors>() : std::move(solid.factors);
-  std::tie(solid.stiffness, solid.factors) = interruptible(
-      [stiffness = std::move(solid.stiffness), factors = std::move(factors), first]() mutable {
-        if (first) factors->analyzePattern(stiffness);
-        factors->factorize(stiffness);
-        return std::pair(std::move(stiffness), std::move(factors));
+bool factorise_stiffness(SolidFactors<Real>& solid) {
+  bool succeeded = false;
+  std::tie(solid.stiffness, solid.factors, succeeded) = interruptible(
+      [stiffness = std::move(solid.stiffness), factors = std::move(solid.factors)]() mutable {
+        const bool found = factors->factorise(stiffness);
+        return std::tuple(std::move(stiffness), std::move(factors), found);
       });
+  return succeeded;
 }
 
 template <class Real>
 void refactorise(SolidFactors<Real>& solid, const std::vector<double>& values) {
   constexpr std::size_t parts = std::is_same_v<Real, double> ? 1 : 2;
-  const auto size = static_cast<std::size_t>(solid.stiffness.nonZeros());
+  const std::size_t size = solid.stiffness.size();
   if (solid.factors == nullptr || values.size() != parts * size)
     throw BadState("the stiffness of the solid does not fit its mesh");
   for (std::size_t i = 0; i < size; ++i) {
-    Real& k = solid.stiffness.valuePtr()[i];
-    k = values[i];
-    if (parts == 2) k += values[size + i];
+    solid.stiffness[i] = values[i];
+    if (parts == 2) solid.stiffness[i] += values[size + i];
   }
-  factorise_stiffness(solid, false);
+  factorise_stiffness(solid);
 }
 
 // Force balance of every free node, and the magnitudes it is compared with.
@@ -134,44 +137,15 @@ struct Balance {
 
 template <class Real>
 void SolidFactors<Real>::factorise(const SolidAssembly& assembly, std::span<const Real> blocks) {
-  const bool first = factors == nullptr;
-  if (first) make_pattern(assembly, stiffness);
-  fill_values(assembly, blocks, stiffness);
-  factorise_stiffness(*this, first);
-  if (factors->info() != Eigen::Success || !factors->vectorD().allFinite())
+  const sparse::BlockGraph graph = graph_of(assembly);
+  if (factors == nullptr)
+    factors = std::make_unique<sparse::Factors<Real>>(graph, elimination_order(graph));
+  stiffness = values_of(assembly, blocks);
+  if (!factorise_stiffness(*this))
     throw RunFailure(
         fmt::format("factorise: the stiffness of the solid is singular ({} equations): a part is "
                     "not supported or has collapsed",
-                    stiffness.rows()));
-}
-
-// L D L^T x = P b, then P^T x. Columns of L store the part below the diagonal, which is 1.
-template <class Real>
-typename SolidFactors<Real>::Three SolidFactors<Real>::solve_three(const Three& forces) const {
-  Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor> x = factors->permutationP() * forces;
-  const auto l = factors->matrixL();
-  const auto* begin = l.nestedExpression().outerIndexPtr();
-  const auto* row = l.nestedExpression().innerIndexPtr();
-  const Real* value = l.nestedExpression().valuePtr();
-  const Eigen::Matrix<Real, Eigen::Dynamic, 1> d = factors->vectorD();
-  for (Eigen::Index c = 0; c < x.rows(); ++c) {
-    const Real a0 = x(c, 0), a1 = x(c, 1), a2 = x(c, 2);
-    if (a0 == 0 && a1 == 0 && a2 == 0) continue;
-    for (auto i = begin[c]; i < begin[c + 1]; ++i) {
-      Real* at = x.data() + 3 * row[i];
-      at[0] -= a0 * value[i], at[1] -= a1 * value[i], at[2] -= a2 * value[i];
-    }
-  }
-  for (Eigen::Index c = 0; c < x.rows(); ++c) x.row(c) *= 1 / d[c];
-  for (Eigen::Index c = x.rows(); c-- > 0;) {
-    Real a0 = x(c, 0), a1 = x(c, 1), a2 = x(c, 2);
-    for (auto i = begin[c]; i < begin[c + 1]; ++i) {
-      const Real* at = x.data() + 3 * row[i];
-      a0 -= value[i] * at[0], a1 -= value[i] * at[1], a2 -= value[i] * at[2];
-    }
-    x(c, 0) = a0, x(c, 1) = a1, x(c, 2) = a2;
-  }
-  return factors->permutationPinv() * x;
+                    3 * graph.columns()));
 }
 
 template struct SolidFactors<double>;
@@ -179,10 +153,8 @@ template struct SolidFactors<long double>;
 
 std::vector<double> SolidEquations::factorised() const {
   if (!has_factors()) return {};
-  if (!in_extended)
-    return {plain.stiffness.valuePtr(), plain.stiffness.valuePtr() + plain.stiffness.nonZeros()};
-  const std::span<const long double> k(extended.stiffness.valuePtr(),
-                                       static_cast<std::size_t>(extended.stiffness.nonZeros()));
+  if (!in_extended) return plain.stiffness;
+  const std::vector<long double>& k = extended.stiffness;
   std::vector<double> values(k.begin(), k.end());
   for (const long double v : k) values.push_back(static_cast<double>(v - static_cast<double>(v)));
   return values;

@@ -2,14 +2,14 @@
 // residual, and the Newton direction. Used by systems only.
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 #include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "components/solid.hpp"
+#include "systems/sparse/factors.hpp"
 
 namespace pulvis {
 
@@ -17,20 +17,22 @@ namespace pulvis {
 // it is lost in double, and 1e-19 (L/t)^4 in long double.
 template <class Real>
 struct SolidFactors {
-  using Matrix = Eigen::SparseMatrix<Real, Eigen::ColMajor, int>;
-  using Factors = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
+  std::vector<Real> stiffness;  // N/m, of the lower triangle, as sparse::Factors takes it
+  std::unique_ptr<sparse::Factors<Real>> factors;
 
-  Matrix stiffness;  // lower triangle, [3 unknowns]^2, N/m
-  std::unique_ptr<Factors> factors;
-
-  // Factorises, and builds the pattern the first time; throws RunFailure if there is no factorisation.
+  // Factorises, and finds the pattern the first time; throws RunFailure if there is no factorisation.
   void factorise(const SolidAssembly& assembly, std::span<const Real> blocks);  // [blocks, 3, 3]
-  // K^-1 times three forces. Solved one after the other, every operation would wait for the one before it; side by side they
-  // take a third of the time, and each is bitwise equal to its separate solution.
-  using Three = Eigen::Matrix<Real, Eigen::Dynamic, 3>;
-  Three solve_three(const Three& forces) const;
+  // K^-1 times forces: [3 unknowns, n].
+  template <class Forces>
+  Forces solve(Forces forces) const {
+    factors->solve({forces.data(), static_cast<std::size_t>(forces.size())});
+    return forces;
+  }
   // True for a stable solid; round-off can destroy it.
-  bool positive() const { return factors != nullptr && (factors->vectorD().array() > 0).all(); }
+  bool positive() const {
+    return factors != nullptr &&
+           std::ranges::all_of(factors->pivots(), [](Real d) { return d > 0; });
+  }
 };
 
 struct SolidEquations {
@@ -67,15 +69,11 @@ struct SolidEquations {
 
   bool has_factors() const { return plain.factors != nullptr || extended.factors != nullptr; }
   bool positive() const { return in_extended ? extended.positive() : plain.positive(); }
-  Eigen::VectorXd solve(const Eigen::VectorXd& forces) const {  // [3 unknowns] N
-    if (!in_extended) return plain.factors->solve(forces);
-    using Wide = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-    const Wide wide = forces.cast<long double>();
-    return Wide(extended.factors->solve(wide)).cast<double>();
-  }
-  SolidFactors<double>::Three solve_three(const SolidFactors<double>::Three& forces) const {
-    if (!in_extended) return plain.solve_three(forces);
-    return extended.solve_three(forces.cast<long double>()).cast<double>();
+  // K^-1 times forces: [3 unknowns, n] N. Several of them take less time together.
+  template <class Forces>
+  Forces solve(const Forces& forces) const {
+    if (!in_extended) return plain.solve(forces);
+    return extended.solve(forces.template cast<long double>().eval()).template cast<double>();
   }
 
   // Factors may be older than the current stiffness of the solid; the values they were made from are enough to

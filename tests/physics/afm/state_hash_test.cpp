@@ -77,7 +77,7 @@ TEST_F(SolidStateHashOf, SeesEveryBitOfWhatTheNextIncrementStartsFrom) {
   EXPECT_TRUE(sees(world().resource<Target>().travel[1]));
   EXPECT_TRUE(sees(world().resource<Target>().set_point));
   // Of the factors, which may serve the next increment again.
-  EXPECT_TRUE(sees(*world().resource<SolidEquations>().plain.stiffness.valuePtr()));
+  EXPECT_TRUE(sees(world().resource<SolidEquations>().plain.stiffness.front()));
   EXPECT_TRUE(flowed());
 }
 
