@@ -14,6 +14,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "components/solid.hpp"
 
@@ -78,19 +79,28 @@ struct HexKernel {
     return sum;
   }
 
-  static Matrix3 jacobian_of(const Corners& X, const ShapeGradient& d) {
+  static Matrix3 gradients_of(const Corners& values,
+                              const ShapeGradient& d) {  // of X: the Jacobian
     Matrix3 j;
-    for (int i = 0; i < 3; ++i) j.col(i) = gradient_of(X, d, i);
+    for (int i = 0; i < 3; ++i) j.col(i) = gradient_of(values, d, i);
     return j;
   }
 
+  // Covariant base vectors at one point, and their changes.
+  struct Bases {
+    Matrix3 reference, change;
+
+    Bases(const Corners& X, const Corners& u, const ShapeGradient& d)
+        : reference(gradients_of(X, d)), change(gradients_of(u, d)) {}
+  };
+
   // Covariant strains e and their derivative b by the corner displacements, at one point. Written
   // in u, not in current positions, so that tiny displacements keep all their digits.
-  static void covariant_strain(const Corners& X, const Corners& u, const ShapeGradient& d, int row,
-                               Voigt& e, StrainRows& b) {
+  static void covariant_strain(const Bases& bases, const ShapeGradient& d, int row, Voigt& e,
+                               StrainRows& b) {
     const auto [i, j] = entry(voigt_pair, row);
-    const Vector3 Gi = gradient_of(X, d, i), Gj = gradient_of(X, d, j);
-    const Vector3 Ui = gradient_of(u, d, i), Uj = gradient_of(u, d, j);
+    const Vector3 Gi = bases.reference.col(i), Gj = bases.reference.col(j);
+    const Vector3 Ui = bases.change.col(i), Uj = bases.change.col(j);
     const Real twice = Gi.dot(Uj) + Gj.dot(Ui) + Ui.dot(Uj);
     const Real share = i == j ? 0.5 : 1.0;
     e[row] = share * twice;
@@ -152,8 +162,14 @@ struct HexKernel {
     ThinShear(const Corners& X, const Corners& u) {
       for (int k = 0; k < 4; ++k) {
         gradient[k] = shape_gradient(vector_of(shear_points[k]));
-        covariant_strain(X, u, gradient[k], row(k), e[k], b[k]);
+        covariant_strain(Bases(X, u, gradient[k]), gradient[k], row(k), e[k], b[k]);
       }
+    }
+    // Only plates have it.
+    static std::optional<ThinShear> of(const Corners& X, const Corners& u,
+                                       HexFormulation formulation) {
+      return formulation == HexFormulation::plate ? std::optional<ThinShear>(std::in_place, X, u)
+                                                  : std::nullopt;
     }
     static constexpr int row(int k) { return k < 2 ? 5 : 4; }
     static Real weight(int k, const Vector3& xi) {
@@ -166,57 +182,61 @@ struct HexKernel {
   struct Point {
     Real volume = 0;  // m^3, det J times the Gauss weight
     Voigt strain;     // from the displacements alone
-    StrainRows b;     // its derivative
+    StrainRows b;     // derivative of the covariant strains
     Modes modes;
     Voigt6 transformation;
     ShapeGradient gradient;
     Vector3 xi;
+
+    StrainRows strain_derivative() const { return transformation.lazyProduct(b); }
+    // Of a Cartesian stress; its components are contravariant, times the volume.
+    Voigt pushed(const Voigt& stress) const {
+      return volume * (transformation.transpose() * stress);
+    }
   };
 
   static Point hex_point(const Corners& X, const Corners& u, const Vector3& xi,
                          const Voigt6& central, Real central_determinant,
-                         HexFormulation formulation, const ThinShear* shear) {
+                         HexFormulation formulation, const std::optional<ThinShear>& shear) {
     Point p;
     p.xi = xi;
     p.gradient = shape_gradient(xi);
-    const Matrix3 jacobian = jacobian_of(X, p.gradient);
-    p.volume = jacobian.determinant();
-    p.transformation = strain_transformation(jacobian.inverse());
+    const Bases bases(X, u, p.gradient);
+    p.volume = bases.reference.determinant();
+    p.transformation = strain_transformation(bases.reference.inverse());
     Voigt e = Voigt::Zero();
-    StrainRows b = StrainRows::Zero();
-    for (int row = 0; row < (shear != nullptr ? 4 : 6); ++row)
-      covariant_strain(X, u, p.gradient, row, e, b);
-    for (int k = 0; shear != nullptr && k < 4; ++k) {
+    p.b.setZero();
+    for (int row = 0; row < (shear ? 4 : 6); ++row)
+      covariant_strain(bases, p.gradient, row, e, p.b);
+    for (int k = 0; shear && k < 4; ++k) {
       const int row = ThinShear::row(k);
       const Real w = ThinShear::weight(k, xi);
       e[row] += w * shear->e[k][row];
-      b.row(row) += w * shear->b[k].row(row);
+      p.b.row(row) += w * shear->b[k].row(row);
     }
     p.strain = p.transformation * e;
-    p.b.noalias() = p.transformation.lazyProduct(b);
     p.modes.noalias() =
         (central_determinant / p.volume) * central.lazyProduct(natural_modes(xi, formulation));
     return p;
   }
 
-  // Adds volume * s^ij dN_a/dxi_i dN_b/dxi_j, the geometric stiffness.
-  static void add_geometric(const Point& p, const Voigt& s, const ThinShear* shear,
+  // Adds s^ij dN_a/dxi_i dN_b/dxi_j, the geometric stiffness of a pushed stress.
+  static void add_geometric(const Point& p, const Voigt& s, const std::optional<ThinShear>& shear,
                             GeometricMatrix& g) {
     const auto add = [&](const ShapeGradient& d, int row, Real stress) {
       const auto [i, j] = entry(voigt_pair, row);
       const Real share = i == j ? 0.5 : 1.0;
       g += (share * stress) * (d.col(i) * d.col(j).transpose() + d.col(j) * d.col(i).transpose());
     };
-    for (int row = 0; row < (shear != nullptr ? 4 : 6); ++row)
-      add(p.gradient, row, p.volume * s[row]);
-    for (int k = 0; shear != nullptr && k < 4; ++k)
-      add(shear->gradient[k], ThinShear::row(k),
-          p.volume * ThinShear::weight(k, p.xi) * s[ThinShear::row(k)]);
+    for (int row = 0; row < (shear ? 4 : 6); ++row) add(p.gradient, row, s[row]);
+    for (int k = 0; shear && k < 4; ++k)
+      add(shear->gradient[k], ThinShear::row(k), ThinShear::weight(k, p.xi) * s[ThinShear::row(k)]);
   }
 
   static std::array<Point, 8> points_of(const Corners& X, const Corners& u,
-                                        HexFormulation formulation, const ThinShear* shear) {
-    const Matrix3 middle = jacobian_of(X, shape_gradient(Vector3::Zero()));
+                                        HexFormulation formulation,
+                                        const std::optional<ThinShear>& shear) {
+    const Matrix3 middle = gradients_of(X, shape_gradient(Vector3::Zero()));
     const Voigt6 central = strain_transformation(middle.inverse());
     std::array<Point, 8> points;
     for (std::size_t g = 0; g < 8; ++g)
@@ -237,13 +257,11 @@ struct HexKernel {
     return minimum;
   }
 
-  // Adds a point's stress and its derivative c to the tangent, without the modes.
-  static void add_tangent(const Point& p, const Voigt& stress, const Voigt6& c,
-                          const ThinShear* shear, NodalMatrix& tangent,
-                          GeometricMatrix& geometric) {
-    const StrainRows cb = p.volume * c.lazyProduct(p.b);
-    tangent.noalias() += p.b.transpose().lazyProduct(cb);
-    add_geometric(p, p.transformation.transpose() * stress, shear, geometric);
+  // Adds the derivative c of a point's stress, with that of its strain, to the tangent, without the modes.
+  static void add_tangent(const Point& p, const Voigt6& c, const StrainRows& derivative,
+                          NodalMatrix& tangent) {
+    const StrainRows cb = p.volume * c.lazyProduct(derivative);
+    tangent.noalias() += derivative.transpose().lazyProduct(cb);
   }
 
   // Condenses out the modes, with h the tangent of their equations; adds the geometric part to the diagonals.
@@ -264,8 +282,7 @@ struct HexKernel {
 
   static Response response(const Corners& X, const Corners& u, Real lambda, Real mu,
                            HexFormulation formulation, bool with_tangent = true) {
-    const ThinShear sampled(X, u);
-    const ThinShear* shear = formulation == HexFormulation::plate ? &sampled : nullptr;
+    const auto shear = ThinShear::of(X, u, formulation);
     const Voigt6 c = elasticity(lambda, mu);
     Response r;
     const std::array<Point, 8> points = points_of(X, u, formulation, shear);
@@ -277,7 +294,11 @@ struct HexKernel {
     for (const Point& p : points) {
       const Eigen::Matrix<Real, 9, 6> mc = p.volume * p.modes.transpose().lazyProduct(c);
       h.noalias() += mc.lazyProduct(p.modes);
-      if (with_tangent) l.noalias() += mc.lazyProduct(p.b);
+      if (with_tangent) {
+        const StrainRows derivative = p.strain_derivative();
+        l.noalias() += mc.lazyProduct(derivative);
+        add_tangent(p, c, derivative, r.tangent);
+      }
       q.noalias() += mc.lazyProduct(p.strain);
     }
     const Eigen::LLT<ModeMatrix> h_factor(h);
@@ -288,8 +309,9 @@ struct HexKernel {
       const Voigt strain = p.strain + p.modes * alpha;
       const Voigt stress = c * strain;
       r.energy += 0.5 * p.volume * strain.dot(stress);
-      r.force.noalias() += p.volume * p.b.transpose().lazyProduct(stress);
-      if (with_tangent) add_tangent(p, stress, c, shear, r.tangent, geometric);
+      const Voigt pushed = p.pushed(stress);
+      r.force.noalias() += p.b.transpose().lazyProduct(pushed);
+      if (with_tangent) add_geometric(p, pushed, shear, geometric);
     }
     if (with_tangent) finish_tangent(l, h_factor, geometric, r.tangent);
     return r;

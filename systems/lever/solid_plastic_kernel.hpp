@@ -170,8 +170,7 @@ inline ModeBalance balance_modes(const std::array<HexPoint, 8>& points, const Pl
 inline HexResponse plastic_response(const Corners& X, const Corners& u, const PlasticMaterial& m,
                                     HexFormulation formulation, const HexMemory& before,
                                     bool with_tangent, HexMemory* after = nullptr) {
-  const ThinShear sampled(X, u);
-  const ThinShear* shear = formulation == HexFormulation::plate ? &sampled : nullptr;
+  const auto shear = ThinShear::of(X, u, formulation);
   const Voigt6 elastic = Hex::elasticity(m.lambda, m.mu);
   const std::array<HexPoint, 8> points = Hex::points_of(X, u, formulation, shear);
   const ModeBalance b = balance_modes(points, m, elastic, formulation, before);
@@ -185,10 +184,14 @@ inline HexResponse plastic_response(const Corners& X, const Corners& u, const Pl
     const PlasticStress& s = b.points[g];
     const Voigt elastic_strain = p.strain + p.modes * b.alpha - s.memory.strain;
     r.energy += 0.5 * p.volume * elastic_strain.dot(s.stress);
-    r.force.noalias() += p.volume * p.b.transpose().lazyProduct(s.stress);
+    const Voigt pushed = p.pushed(s.stress);
+    r.force.noalias() += p.b.transpose().lazyProduct(pushed);
     if (with_tangent) {
-      Hex::add_tangent(p, s.stress, s.tangent, shear, r.tangent, geometric);
-      coupling.noalias() += p.volume * p.modes.transpose().lazyProduct(s.tangent).lazyProduct(p.b);
+      const Hex::StrainRows derivative = p.strain_derivative();
+      Hex::add_tangent(p, s.tangent, derivative, r.tangent);
+      Hex::add_geometric(p, pushed, shear, geometric);
+      coupling.noalias() +=
+          p.volume * p.modes.transpose().lazyProduct(s.tangent).lazyProduct(derivative);
     }
     if (after != nullptr) (*after)[g] = s.memory;
   }
