@@ -142,6 +142,15 @@ def test_what_was_not_recorded_is_said(loop, compact, tmp_path):
         pulvis.open(compact).plot.cracks()
     with pytest.raises(pulvis.RunError, match="nothing recorded of forces"):
         pulvis.open(loop).plot.forces()
+    with pytest.raises(pulvis.RunError, match="no contacts in frame 0, at 0 s"):
+        pulvis.open(compact).plot.network(frame=0)
+    with pytest.raises(pulvis.RunError, match="no contacts between particles in frame 0"):
+        pulvis.open(compact).plot.rose(frame=0)
+    with pytest.raises(pulvis.RunError, match="frame 'a': there are 0 to 4"):
+        pulvis.open(compact).frame("a")
+    for draw in (pulvis.open(compact).plot.forces, lambda ax: pulvis.open(compact).plot.animate("pressure", tmp_path / "film.gif", ax)):
+        with pytest.raises(pulvis.RunError, match="ax = 3: allowed: axes of matplotlib"):
+            draw(ax=3)
     with pytest.raises(TypeError, match="allowed: cmap, dpi"):
         pulvis.open(compact).plot.forces(colour="red")
 

@@ -108,6 +108,7 @@ def test_density_along_z_is_that_of_the_block_in_its_room(blocks):
     assert z[-1] == pytest.approx(2.2 * SIZE)
     figure, axes = run.plot.density_profile()
     assert axes.get_ylabel() == "$z$ / mm" and len(axes.lines) == 3
+    assert "Relative density along z in the box around the powder" in axes.get_title("left")  # there are only two walls
 
 
 def test_density_along_z_has_the_exact_volume_of_each_slice():
@@ -227,6 +228,20 @@ def test_a_die_that_does_not_stand_along_z_has_no_density_along_z(ejected, tmp_p
     pulvis.open(folder).plot.density_profile()
 
 
+def test_frames_without_powder_between_the_tools_have_no_curve(blocks, tmp_path):
+    folder = tmp_path / "run"
+    shutil.copytree(blocks, folder)
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for k, frame in enumerate(file["frames"].values()):
+            write(frame, "density_profile", np.array([0.25, 0.75]) if k < 2 else np.full(2, np.nan))
+            write(frame, "density_grid/z", SIZE * np.array([0.0, 1, 2]))
+    run = pulvis.open(folder)
+    _, axes = run.plot.density_profile()
+    assert len(axes.lines) == len(axes.get_legend().get_texts()) == 2
+    with pytest.raises(PulvisError, match="no powder between the tools"):
+        run.plot.density_profile(frame=2)
+
+
 def test_edges_between_coplanar_triangles_of_an_stl_tool_are_not_drawn(blocks, tmp_path):
     """Two squares that meet in a ridge, each of two triangles that have their own corners."""
     folder = tmp_path / "run"
@@ -301,6 +316,38 @@ def test_the_section_shows_cells_and_tools(blocks):
         run.plot.section(across="w")
 
 
+def test_the_place_of_a_section_is_a_length_with_its_unit_or_in_metres(blocks):
+    run = pulvis.open(blocks)
+    for draw in (run.plot.section, run.plot.density):
+        with pytest.raises(PulvisError, match="at 2: allowed: a length with its unit"):
+            draw(at="2")
+    tables = [run.plot.section(across="z", at=at)[0].table for at in ("0.3mm", 0.3e-3, np.float64(0.3e-3))]
+    for table in tables[1:]:
+        np.testing.assert_allclose(table[1][2], tables[0][1][2], rtol=1e-12)
+
+
+def test_a_minus_sign_in_a_title_is_one(blocks, tmp_path):
+    folder = tmp_path / "run"
+    shutil.copytree(blocks, folder)
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for frame in file["frames"].values():
+            frame["position"][...] -= [0, 2 * SIZE, 0]
+    _, axes = pulvis.open(folder).plot.section(at="-1.3mm")
+    assert "$y$ = −1.3 mm" in axes.get_title("left")
+
+
+def test_the_command_draws_one_section(blocks, tmp_path):
+    """--across or --at with one field and a file: not the view from a corner, which has other columns."""
+    for words, axes in ((("--across", "z"), "xy"), (("--at", "0.3mm"), "xz"), (("--across", "x", "--at", "0.3mm"), "yz")):
+        path = tmp_path / f"{''.join(words)}.csv"
+        call("figure", blocks, "-o", path, "--field", "effective_stress", *words)
+        head = path.read_text(encoding="utf-8").splitlines()[0]
+        assert [name[0] for name in head.split(",")[:-1]] == list(axes)
+    for words in (("--series", "time"), ("--animate", tmp_path / "film.gif")):
+        says = call("figure", blocks, "--across", "z", *words, code=2, cwd=tmp_path)
+        assert "--across and --at are for sections: use them without --series and --animate" in says
+
+
 def test_sections_are_of_three_dimensions(compact):
     with pytest.raises(PulvisError, match="sections, which only 3D runs have"):
         pulvis.open(compact).plot.section()
@@ -338,6 +385,22 @@ def test_the_network_has_three_axes(observed):
     assert axes.child_axes[0].get_ylabel().startswith("Normal force")
     with pytest.raises(PulvisError, match="two dimensions"):
         run.plot.rose()
+
+
+def test_a_frame_without_contacts_says_so(observed, tmp_path):
+    folder = tmp_path / "run"
+    shutil.copytree(observed, folder)
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for group in ("contacts", "tool_contacts"):
+            for name, values in file["frames/000000"][group].items():
+                attributes, shape = dict(values.attrs), (0, *values.shape[1:])
+                del file["frames/000000"][group][name]
+                write(file, f"frames/000000/{group}/{name}", np.empty(shape, values.dtype), **attributes)
+    run = pulvis.open(folder)
+    with pytest.raises(PulvisError, match="^no contacts in frame 0, at 0 s$"):
+        run.plot.network(frame=0)
+    run.plot.network()
+    assert "no contact_network.png: no contacts in frame 0, at 0 s" in call("figure", folder, "-o", tmp_path / "all", "--frame", "0")
 
 
 def test_densities_are_indexed_by_the_axes(observed):

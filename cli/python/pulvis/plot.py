@@ -18,18 +18,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 
 from pulvis.errors import RunError
 from pulvis.figures import afm, bonds, curves, densities, fields, network, space, space_bonds, space_density
 from pulvis.figures.animation import animate
 from pulvis.figures.look import Options
 from pulvis.figures.names import capital, name_of
-from pulvis.figures.quantities import inches, with_unit
+from pulvis.figures.quantities import inches, length, with_unit
 
 if TYPE_CHECKING:
     import os
 
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from pulvis.results import Run
@@ -39,13 +39,13 @@ NEEDS = {"network": "output.contacts = true", "density": "output.density_cells",
 DPI = 150
 
 
-def options_of(given: dict[str, Any], **more: Any) -> Options:
+def options_of(given: dict[str, Any], at: float | str | None = None, **more: Any) -> Options:
     """Options from keyword arguments."""
     known = {"width", "height", "title", "cmap", "limits", "dpi"}
     if wrong := set(given) - known:
         raise TypeError(f"unknown: {', '.join(sorted(wrong))}; allowed: {', '.join(sorted(known))}")
     sizes = {side: inches(side, given[side]) for side in ("width", "height") if side in given}
-    values: dict[str, Any] = {"dpi": DPI, **given, **sizes, **more}
+    values: dict[str, Any] = {"dpi": DPI, **given, **sizes, "at": length("at", at), **more}
     return Options(**values)
 
 
@@ -58,7 +58,13 @@ class Plot:
     def __repr__(self):
         return f"<pictures of {self._run!r}: {', '.join(name for name in dir(self) if not name.startswith('_'))}>"
 
+    def _own(self, ax):
+        if ax is not None and not isinstance(ax, Axes):
+            raise RunError(f"ax = {ax!r}: allowed: axes of matplotlib, or None for a new figure", self._run.folder, key="ax")
+        return ax
+
     def _drawn(self, draw, what, options, ax=None, **more):
+        self._own(ax)
         with plt.rc_context(options.context(ax)):
             figure = draw(self._run, options, *(() if ax is None else (ax,)), **more)
         if figure is None:
@@ -92,9 +98,9 @@ class Plot:
         draw = space.space_picture if self._run.in_space else fields.field_picture
         return self._drawn(draw, "frames", options_of(look, field=name, frame=frame), ax)
 
-    def section(self, name: str = fields.DEFAULT_FIELD, frame: int = -1, across: str = "y", at: float | None = None,
+    def section(self, name: str = fields.DEFAULT_FIELD, frame: int = -1, across: str = "y", at: float | str | None = None,
                 ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """3D only: the elements cut by a plane normal to an axis, near the middle or `at` a coordinate (m)."""
+        """3D only: the elements cut by a plane normal to an axis, near the middle or `at` a coordinate ("2mm", or m)."""
         if across not in ("x", "y", "z"):
             raise RunError(f"across {across}: allowed: x, y, z", self._run.folder, key="across")
         draw = space.section_picture if self._run.in_space else lambda *_: None
@@ -110,10 +116,10 @@ class Plot:
         draw = (lambda *_: None) if self._run.in_space else network.rose
         return self._drawn(draw, "network in two dimensions" if self._run.in_space else "network", options_of(look, frame=frame))
 
-    def density(self, frame: int | None = -1, across: str = "y", at: float | None = None, ax: Axes | None = None,
-                **look: Any) -> tuple[Figure, Axes]:
+    def density(self, frame: int | None = -1, across: str = "y", at: float | str | None = None,
+                ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Local relative densities in a frame; frame=None shows several frames from first to last. In three dimensions, one
-        layer of cells normal to an axis, in the middle or `at` a coordinate (m)."""
+        layer of cells normal to an axis, in the middle or `at` a coordinate ("2mm", or m)."""
         if not self._run.in_space:
             return self._drawn(densities.local_density, "density", options_of(look, frame=frame), ax)
         if across not in ("x", "y", "z"):
@@ -146,7 +152,7 @@ class Plot:
         Lever displacements too small to be seen are magnified; the title gives the factor.
         """
         options = options_of(look, field=name)
-        with plt.rc_context(options.context(ax)):
+        with plt.rc_context(options.context(self._own(ax))):
             return animate(self._run, path, options, ax, per_second)
 
     def solid(self, frame: int = -1, **look: Any) -> tuple[Figure, Axes]:

@@ -377,9 +377,9 @@ class Run:
         """A frame by number, counted from 0; negative numbers count from the end. Default: the last."""
         count = len(self.frames)
         number = -1 if number is None else number
-        if not -count <= number < count:
+        if not isinstance(number, (int, np.integer)) or not -count <= number < count:
             there = f"there are 0 to {count - 1}" if count else "there is none"
-            raise RunError(f"frame {number}: {there}", self.folder)
+            raise RunError(f"frame {number!r}: {there}", self.folder)
         return self.frames[number]
 
     def density(self, frame: int = -1) -> Densities:

@@ -128,6 +128,8 @@ def save_run(run, asked, options, place):
     file = asked.output if asked.output and asked.output.suffix in FORMATS else None
     if not run.in_space and (asked.across or asked.at):
         raise PulvisError("--across and --at are for sections, which only 3D runs have")
+    if (asked.across or asked.at) and (options.series or asked.animate):
+        raise PulvisError("--across and --at are for sections: use them without --series and --animate")
     if asked.at and run.frames:
         asked_place(run.frame(options.frame), options)
     if options.level != "none" and "images" not in run.file:
@@ -150,7 +152,8 @@ def save_run(run, asked, options, place):
         return
     if run.is_solid and not options.series:
         raise PulvisError("a single figure of a lever shows one of its series: give --series")
-    figure = chosen_series(run, options) if options.series else picture_for(run)(run, options)
+    draw_field = section_picture if asked.across or asked.at else picture_for(run)
+    figure = chosen_series(run, options) if options.series else draw_field(run, options)
     if figure is None:
         raise PulvisError(f"no frame with {options.field or DEFAULT_FIELD}")
     place.save(figure, file or Path(f"{'-'.join(options.series).replace('/', '_')}.{asked.format}"))

@@ -94,6 +94,11 @@ def sheet(options, size, axes=None, beside=0.0):
     return plt.subplots(figsize=options.size(*size, beside), constrained_layout=True)
 
 
+def printed(value, unit):
+    """A quantity in a title, with a minus sign as on the axes."""
+    return with_unit(value, unit).replace("-", "−")
+
+
 def moment(frame):
     """The time of a frame, in words."""
     return with_unit(frame.attrs["time"], "s")

@@ -6,8 +6,13 @@ from matplotlib.ticker import MaxNLocator
 
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.tools import draw_tools, outlines
+
+
+def need_contacts(run, frame):
+    if len(frame["contacts/ids"]) + len(frame["tool_contacts/ids"]) == 0:
+        raise NotDrawn(f"no contacts in frame {frame.number}, at {moment(frame)}", run.folder)
 
 
 def network_lines(frame, cell):
@@ -25,8 +30,9 @@ def network_lines(frame, cell):
 def contact_network(run, options=None, into=None):
     options = options or Options()
     frame = recorded(run, options, "contacts")
-    if frame is None or len(frame["contacts/ids"]) + len(frame["tool_contacts/ids"]) == 0:
+    if frame is None:
         return None
+    need_contacts(run, frame)
     cell, quads = Cell(run, frame), run.mesh.cells
     position, limits = cell.position, 1e3 * cell.limits()
     lines, force = network_lines(frame, cell)
@@ -61,8 +67,10 @@ def contact_network(run, options=None, into=None):
 def rose(run, options=None):
     options = options or Options()
     frame = recorded(run, options, "rose")
-    if frame is None or not np.any(frame["rose/number"][()]):
+    if frame is None:
         return None
+    if not np.any(frame["rose/number"][()]):
+        raise NotDrawn(f"no contacts between particles in frame {frame.number}, at {moment(frame)}", run.folder)
     number, force = frame["rose/number"][()], frame["rose/force"][()]
     middle = np.arange(2 * len(number)) * np.pi / len(number)
     figure, axes = plt.subplots(figsize=options.size(5, 5.2), subplot_kw={"projection": "polar"},

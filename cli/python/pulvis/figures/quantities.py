@@ -54,9 +54,11 @@ def inches(option, given):
 
 
 def length(option, given):
-    """A coordinate in the powder, m: "2mm", "-35 µm"."""
+    """A coordinate in the powder, m: "2mm", "-35 µm", or from Python a number of metres."""
     if given is None:
         return None
+    if isinstance(given, Real):
+        return float(given)
     match = re.fullmatch(rf"\s*({NUMBER})\s*(\S*)\s*", str(given))
     factor = factor_of(match[2], "m") if match and match[2] else None
     if factor is None:

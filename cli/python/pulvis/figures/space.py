@@ -8,8 +8,9 @@ from pulvis.errors import PulvisError
 from pulvis.figures.colours import colour_map, colours_of
 from pulvis.figures.densities import draw_profiles, profile_table
 from pulvis.figures.fields import DEFAULT_FIELD, OUTLINE, field_of
-from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, printed, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.names import capital, name_of
+from pulvis.figures.network import need_contacts
 from pulvis.figures.quantities import with_unit
 from pulvis.figures.space_mesh import density_along_z, outer_sides, section
 from pulvis.figures.space_tools import cross_section, cut, normals, pieces, rims
@@ -140,8 +141,9 @@ def space_network(run, options=None, axes=None):
     """Normal contact forces as lines between centres, seen from a corner; particles in force chains are shaded."""
     options = options or Options()
     frame = recorded(run, options, "contacts")
-    if frame is None or len(frame["contacts/ids"]) + len(frame["tool_contacts/ids"]) == 0:
+    if frame is None:
         return None
+    need_contacts(run, frame)
     rows, limits, (lines, force) = isometric(), limits_of(run, [frame]), network_lines(frame)
     size, beside = shape_of(limits)
     figure, place = sheet(options, size, axes, beside)
@@ -219,7 +221,7 @@ def section_picture(run, options=None, axes=None):
     place.add_collection(faces)
     place.add_collection(LineCollection(1e3 * lines, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
     set_axes(place, limits, others)
-    options.head(place, f"{title_of(field)} in the plane ${options.across}$ = {with_unit(at, 'm')} at {moment(frame)}", run)
+    options.head(place, f"{title_of(field)} in the plane ${options.across}$ = {printed(at, 'm')} at {moment(frame)}", run)
     colours.key(figure, place)
     close_up(figure, options, axes)
     middle = np.array([polygon.mean(axis=0) for polygon in polygons]).reshape(-1, 2)
@@ -247,13 +249,13 @@ def space_profile(run, options=None, axes=None):
     for frame in (run.frame(int(number)) for number in numbers):
         room = cross_section(run, frame, frame["position"][()])
         profile = profile_of(run, frame, room)
-        if profile is not None:
+        if profile is not None and np.isfinite(profile[0]).any():
             profiles.append((moment(frame), *profile))
     if not profiles:
-        return None
+        raise NotDrawn("no powder between the tools", run.folder)
     figure, place = sheet(options, (6.4, 4.2), axes)
     draw_profiles(place, "z", profiles)
-    options.head(place, " ".join(filter(None, ["Relative density along z", room.inside if room else "in the die"])), run)
+    options.head(place, f"Relative density along z {room.inside if room else 'in the die'}", run)
     figure.table = profile_table("z", profiles)
     return figure
 

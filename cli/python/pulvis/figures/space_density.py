@@ -3,9 +3,8 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, set_axes, shape_of, sheet
+from pulvis.figures.look import Options, bar_beside, close_up, moment, printed, recorded, set_axes, shape_of, sheet
 from pulvis.figures.names import label
-from pulvis.figures.quantities import with_unit
 from pulvis.figures.space import asked_place
 from pulvis.figures.space_tools import cut, pieces
 from pulvis.figures.tools import TOOL_EDGE
@@ -51,7 +50,7 @@ def density_slice(run, options=None, axes=None):
     place.add_collection(LineCollection(1e3 * walls, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
     names = ["xyz"[k] for k in others]
     set_axes(place, limits, names)
-    ends = " to ".join(with_unit(lines[axis][layer + k], "m") for k in (0, 1))
+    ends = " to ".join(printed(lines[axis][layer + k], "m") for k in (0, 1))
     options.head(place, f"Local relative density, ${options.across}$ from {ends}, at {moment(frame)}", run)
     bar_beside(figure, place, drawn, label("local_density", ""))
     close_up(figure, options, axes)

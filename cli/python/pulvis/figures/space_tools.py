@@ -61,7 +61,7 @@ class CrossSection(NamedTuple):
     """Of the space of the powder, normal to z."""
 
     area: float  # m^2
-    inside: str = ""  # of a die, in words
+    inside: str = ""  # of what, in words
     low: float = -np.inf  # m, the part of z in which the space has this cross-section: a die ends at its mouth
     high: float = np.inf
     bottom: float | None = None  # m, z of level planes below and above the powder, in a die also of punches
@@ -102,8 +102,10 @@ def area_between(corners, kinds, normal, position):
         ends = {"high": die[:, 2].max()} if mouth[:, 2].mean() > die[:, 2].mean() else {"low": die[:, 2].min()}
         return CrossSection(area, "in the die, below its mouth", **ends)
     low, high = position[:, :2].min(axis=0), position[:, :2].max(axis=0)
+    walls = set()
     for piece, across in zip(corners[upright & (kinds == "plane")], normal[upright & (kinds == "plane")]):
         k = int(np.abs(across[:2]).argmax())
         if abs(across[1 - k]) < UPRIGHT:
             (low if across[k] > 0 else high)[k] = piece[0, k]
-    return CrossSection(np.prod(high - low))
+            walls.add((k, across[k] > 0))
+    return CrossSection(np.prod(high - low), "between the walls" if len(walls) == 4 else "in the box around the powder")
