@@ -35,7 +35,8 @@ CHOSEN = ["afm/calibration-beam", "afm/colloid-316l", "afm/force-curve", "afm/in
           "bonds/double-cantilever", "bonds/green-strength", "bonds/sheared-blocks", "brittle/salt-and-copper",
           "compaction/ejection-25", "compaction/random-100", "compaction-3d/tablet-adhesion",
           "extreme/friction-20-cycles", "extreme/one-particle-free", "extreme/size-metres",
-          "extreme/size-micrometres", "periodic/cap-die", "periodic/shear", "shear/grooves-16", "shear/stick-slip"]
+          "extreme/size-micrometres", "extreme/space-taylor-rod",
+          "basic/flow-laws", "basic/spinning-disc", "periodic/cap-die", "periodic/shear", "shear/grooves-16", "shear/stick-slip"]
 # Two cylinders, glued end to end, above a floor.
 GLUED = """
 family = "compaction"
@@ -91,7 +92,8 @@ def kinds_of(setup):
         surface = setup["surface"] or {"shape": "calibration"}
         return {f"lever {setup['lever']['shape']}", f"tip {setup['tip']['shape']}", f"surface {surface['shape']}",
                 *(f"action {action['kind']}" for action in setup["actions"])}
-    kinds = {f"tool {tool['shape']}" for tool in setup["tools"]} | {f"stage {stage['kind']}" for stage in setup["stages"]}
+    kinds = {name for name in ("velocity", "angular_velocity") if any(name in one for one in setup["particles"])}
+    kinds |= {f"tool {tool['shape']}" for tool in setup["tools"]} | {f"stage {stage['kind']}" for stage in setup["stages"]}
     for name in ("moves", "servos", "until", "cell"):
         if any(stage.get(name) for stage in setup["stages"]):
             kinds.add(f"stage with {name}")
@@ -107,8 +109,6 @@ def kinds_of(setup):
         kinds.add("classes")
     if any(len(one["loops"]) > 1 for one in setup["particles"]):
         kinds.add("hole")
-    if any("velocity" in one for one in setup["particles"]):
-        kinds.add("velocity")
     return kinds | {name for name in ("cell", "die", "density_cells") if setup.get(name)}
 
 
@@ -116,8 +116,8 @@ MUST_COVER = {"lever beam", "lever v", "lever mesh", "tip none", "tip block", "t
               "surface map", "surface bump", "surface calibration", "action press", "action retract", "action scan",
               "action raster", "tool plane", "tool polyline", "tool constraint", "stage compact", "stage eject",
               "stage shear", "stage hold", "stage with moves", "stage with servos", "stage with cell",
-              "grains", "bonds", "classes", "velocity", "cell", "die",
-              "space tool plane", "space stage with moves", "space laws of bonds"}
+              "grains", "bonds", "classes", "velocity", "angular_velocity", "cell", "die",
+              "space velocity", "space tool plane", "space stage with moves", "space laws of bonds"}
 
 
 def drawn_count(svg):
@@ -227,6 +227,44 @@ class PreviewTest(unittest.TestCase):
             self.assertIn(line, written)
         self.assertEqual(list(overlaps(figure)), [])  # a tall scene: its views from the sides take the whole height
         plt.close(figure)
+
+    def arrows_of(self, axes):
+        """(straight, curved) arrows: ends of each, points of each."""
+        straight = [(mark.xyann, mark.xy) for mark in axes.texts if mark.get_gid() == "velocity"]
+        return straight, [line.get_xydata() for line in axes.lines if line.get_gid() == "spin-arc"]
+
+    def moving(self, scene, **motion):
+        """The figure of a set-up whose first particle has other motions, and what is written in it."""
+        setup, _ = self.setup_of(scene)
+        setup["particles"][0].update(motion)
+        figure = draw(setup)
+        self.addCleanup(plt.close, figure)
+        self.assertEqual(list(overlaps(figure)), [])
+        return figure, " ".join(text.get_text() for text in texts_of(figure))
+
+    def test_velocities_and_spins_have_arrows_and_their_largest_in_the_key(self):
+        figure, written = self.moving(SCENES / "extreme" / "space-taylor-rod.toml", angular_velocity=[0, 0, 1500.0])
+        self.assertIn("initial velocity, up to 227 m/s", written)
+        self.assertIn("initial spin, up to 1,500 rad/s", written)
+        self.assertIn("rod: cylinder, diameter 6.4 mm, height 32.4 mm", written)
+        for axes in figure.axes:  # from a corner, along y, along x
+            [(begin, end)], [arc] = self.arrows_of(axes)
+            self.assertAlmostEqual(begin[0], end[0], 9)
+            self.assertLess(end[1], begin[1])
+            self.assertEqual(axes is figure.axes[0], float(max(arc[:, 1]) - min(arc[:, 1])) > 1e-9)  # seen from its side elsewhere
+        for spin, sign in ((4e4, 1), (-4e4, -1)):
+            figure, written = self.moving(SCENES / "basic" / "spinning-disc.toml", angular_velocity=spin)
+            self.assertIn("initial spin, up to 40,000 rad/s", written)
+            straight, [arc] = self.arrows_of(figure.axes[0])
+            self.assertEqual(straight, [])
+            turn = arc[:-1, 0] * arc[1:, 1] - arc[:-1, 1] * arc[1:, 0]
+            self.assertTrue((sign * turn > 0).all())
+
+    def test_the_program_writes_the_spin_of_a_particle_in_space(self):
+        setup, _ = self.setup_of(SOURCE / "tests" / "keys" / "scenes-3d" / "shapes.toml")
+        self.assertEqual([one["angular_velocity"] for one in setup["particles"] if "angular_velocity" in one], [[10.0, 0.0, 0.0]])
+        rod = next(one for one in setup["classes"] if one["name"] == "rod")
+        self.assertEqual((rod["width"], rod["height"]), ([6e-3, 6e-3], [12e-3, 12e-3]))
 
     def test_numbers_are_read_as_an_engineer_writes_them(self):
         for value, unit, text in ((50e-3, "m", "50 mm"), (5.0000001e-4, "m", "500 µm"), (2, "m", "2 m"), (3e3, "m", "3,000 m"),

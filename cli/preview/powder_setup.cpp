@@ -73,12 +73,6 @@ struct ClassOf {
   std::map<int, int> sizes;  // particle -> count
 };
 
-void widen(json& range, double value) {
-  if (range.is_null()) range = {value, value};
-  range[0] = std::min(range[0].get<double>(), value);
-  range[1] = std::max(range[1].get<double>(), value);
-}
-
 json class_setup(const Scene& scene, int base, const ClassOf& found) {
   const ParticleSpec& spec = scene.particles[static_cast<std::size_t>(base)];
   json out{{"name", spec.name},
@@ -216,6 +210,12 @@ json bonds_setup(const Scene& scene, const World& world) {
 }
 
 }  // namespace
+
+void widen(json& range, double value) {
+  if (range.is_null()) range = {value, value};
+  range[0] = std::min(range[0].get<double>(), value);
+  range[1] = std::max(range[1].get<double>(), value);
+}
 
 json bond_laws(const Scene& scene) {
   json laws = json::array();

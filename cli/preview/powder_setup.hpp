@@ -18,5 +18,6 @@ nlohmann::json materials_setup(const Scene& scene);
 nlohmann::json pairs_setup(
     const Scene& scene);  // friction between particles, for every pair of materials
 nlohmann::json bond_laws(const Scene& scene);
+void widen(nlohmann::json& range, double value);  // [lowest, highest], null before the first
 
 }  // namespace pulvis

@@ -62,12 +62,13 @@ json particles_in_space(const Scene& scene, const std::vector<space::BodySpec>& 
     one["elements"] = shape.elements();
     one["volume"] = shape.true_volume;
     if (body.velocity.norm() > 0) one["velocity"] = triple(body.velocity);
+    if (body.angular_velocity.norm() > 0) one["angular_velocity"] = triple(body.angular_velocity);
     out.push_back(std::move(one));
   });
   return out;
 }
 
-// Diameters of spheres of the same volume.
+// Diameters are those of spheres of the same volume; cylinders have their own as width.
 json classes_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
                       const json& particles) {
   json out = json::array();
@@ -79,13 +80,16 @@ json classes_in_space(const Scene& scene, const std::vector<space::BodySpec>& bo
       out.push_back({{"name", spec.name},
                      {"material", particles[i]["material"]},
                      {"shape", shape_names[spec.shape.index()]},
-                     {"count", 0},
-                     {"diameter", {diameter, diameter}}});
+                     {"count", 0}});
       one = out.end() - 1;
     }
     (*one)["count"] = (*one)["count"].get<int>() + 1;
-    (*one)["diameter"][0] = std::min((*one)["diameter"][0].get<double>(), diameter);
-    (*one)["diameter"][1] = std::max((*one)["diameter"][1].get<double>(), diameter);
+    widen((*one)["diameter"], diameter);
+    const auto& sized = scene.space->particles[static_cast<std::size_t>(bodies[i].particle)].shape;
+    if (const auto* cylinder = std::get_if<space::CylinderShape>(&sized)) {
+      widen((*one)["width"], cylinder->diameter);
+      widen((*one)["height"], cylinder->height);
+    }
   }
   return out;
 }

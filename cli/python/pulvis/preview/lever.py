@@ -12,6 +12,7 @@ from pulvis.preview.sheet import (FAINT, INK, MARGIN, MATERIAL_COLOURS, SIDE, WI
 PARTS = ("glue", "tip", "coating", "lever")
 CLAMP, SAMPLE, LASER = "#8d97a2", "#d9d2c3", "#d7263d"
 LEAST_THICKNESS = 0.022  # minimum drawn thickness in the side view, as a fraction of the lever's length
+BELOW = 0.75  # inches below a view: its axis, and the heading of the next view
 DRAWING = WIDTH - 2 * MARGIN - SIDE - 0.35 - 0.55  # inches
 
 
@@ -76,21 +77,20 @@ class LeverDrawing:
             self.plan_height = 4.2
         surface = self.setup["surface"]
         self.detail_height = 0 if not surface else 3.6 if surface["shape"] == "map" else 2.6
-        self.height = self.plan_height + self.side_height + self.detail_height + 0.55 * (3 if self.detail_height else 2)
+        self.height = self.plan_height + self.side_height + self.detail_height + 2 * BELOW + 0.15
 
     def pressed(self):
         """The index of the first action that presses to a given force."""
         return next((i for i, action in enumerate(self.setup["actions"]) if "force" in action), None)
 
     def draw(self, sheet, left, top):
-        axes = sheet.axes(left + 0.55, top + 0.15, DRAWING, self.plan_height)
-        self.draw_plan(axes)
-        top += self.plan_height + 0.6
-        axes = sheet.axes(left + 0.55, top + 0.1, DRAWING, self.side_height)
-        self.draw_side(axes)
-        top += self.side_height + 0.55
+        top += 0.15
+        self.draw_plan(sheet.axes(left + 0.55, top, DRAWING, self.plan_height))
+        top += self.plan_height + BELOW
+        self.draw_side(sheet.axes(left + 0.55, top, DRAWING, self.side_height))
+        top += self.side_height + BELOW
         if self.setup["surface"]:
-            self.draw_surface(sheet, left + 0.55, top + 0.15)
+            self.draw_surface(sheet, left + 0.55, top)
 
     def prepare(self, axes, x, y, names, title):
         axes.set(xlim=self.factor * x, ylim=self.factor * y, xlabel=f"{names[0]} [{self.unit}]",
@@ -249,7 +249,7 @@ class LeverDrawing:
         factor, unit = words.prefix_for(surface["spacing"] * (columns - 1), "m")
         up, high_unit = words.prefix_for(np.ptp(heights), "m")
         half = 0.5 * factor * surface["spacing"] * np.array([columns - 1, rows - 1])
-        axes = sheet.axes(left, top + 0.1, min(size * columns / rows, 4.6), size)
+        axes = sheet.axes(left, top, min(size * columns / rows, 4.6), size)
         picture = axes.imshow(up * (heights - heights.min()), origin="lower", cmap="Greys_r", gid="map",
                               extent=(-half[0], half[0], -half[1], half[1]), interpolation="nearest")
         axes.set(xlabel=f"along x [{unit}]", ylabel=f"across y [{unit}]")
@@ -292,7 +292,7 @@ class LeverDrawing:
         rise = np.ptp(np.append(inside[:, 1], np.interp([-reach, reach], *profile.T)))
         factor, unit = words.prefix_for(reach, "m")
         width, height = DRAWING, self.detail_height - 0.45
-        axes = sheet.axes(left, top + 0.1, width, height)
+        axes = sheet.axes(left, top, width, height)
         flat = 2 * reach * height / width  # m, height of the drawing if to scale
         higher = round_factor(0.12 * flat / rise) if rise > 1e-6 * reach else 1
         tip = tip - [0, self.clearance(tip, profile)]

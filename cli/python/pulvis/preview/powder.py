@@ -7,6 +7,7 @@ from matplotlib.path import Path
 
 from pulvis.preview import tools as drawn_tools
 from pulvis.preview import words
+from pulvis.preview.motion import Motion
 from pulvis.preview.sheet import (INK, MARGIN, MATERIAL_COLOURS, SIDE, WIDTH, Column, Labels, Programme,
                                   dimension)
 
@@ -39,12 +40,21 @@ class PowderDrawing:
         self.colour = {material["name"]: MATERIAL_COLOURS[i % len(MATERIAL_COLOURS)]
                        for i, material in enumerate(setup["materials"])}
         self.points = self.outer_points()
+        self.motion = Motion(self.bodies())
         self.column = self.written()
         self.programme = self.stages()
         self.layout()
 
     def outer_points(self):
         return np.vstack([np.reshape(one["loops"][0], (-1, 2)) for one in self.setup["particles"]])
+
+    def bodies(self):
+        """(points, entry) of every particle, of all of its grains."""
+        grains = {}
+        for one in self.setup["particles"]:
+            grains.setdefault(one["particle"], []).append(one)
+        for parts in grains.values():
+            yield np.vstack([np.reshape(one["loops"][0], (-1, 2)) for one in parts]), parts[0]
 
     # ---- layout ------------------------------------------------------------------------------------
     def layout(self):
@@ -78,7 +88,8 @@ class PowderDrawing:
         if self.setup["cell"]:
             self.cell(axes, labels)
         self.tools.draw(axes, labels, self.factor)
-        self.velocities(axes, labels)
+        self.motion.draw(axes, self.span, self.factor * np.eye(3)[:, :2])
+        self.name_speed(labels)
         self.die(axes, labels)
         self.tools.name(labels, self.factor)
 
@@ -127,20 +138,10 @@ class PowderDrawing:
             drawn.set_gid("bonds")
             axes.add_collection(drawn)
 
-    def velocities(self, axes, labels):
-        moving = [one for one in self.setup["particles"] if "velocity" in one]
-        if not moving:
-            return
-        speeds = np.array([one["velocity"] for one in moving])
-        middles = np.array([np.reshape(one["loops"][0], (-1, 2)).mean(axis=0) for one in moving])
-        largest = np.hypot(*speeds.T).max()
-        ends = middles + 0.16 * self.span * speeds / largest
-        for begin, end in list(zip(middles, ends))[:200]:
-            axes.annotate("", self.factor * end, self.factor * begin, zorder=7,
-                          arrowprops={"arrowstyle": "-|>", "color": INK, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0})
-        fastest = int(np.argmax(np.hypot(*speeds.T)))
-        labels.put(words.quantity(largest, "m/s"), self.factor * (middles + ends)[fastest] / 2, reach=6,
-                   steps=labels.AROUND[1:])
+    def name_speed(self, labels):
+        for begin, end in self.motion.straight(self.span)[:1]:
+            labels.put(words.quantity(self.motion.fastest["velocity"], "m/s"), self.factor * (begin + end)[:2] / 2, reach=6,
+                       steps=labels.AROUND[1:])
 
     # ---- the die ------------------------------------------------------------------------------------
     def die(self, axes, labels):
@@ -177,6 +178,7 @@ class PowderDrawing:
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         if setup["count"] > 1:
             column.line(self.extent_text(low, high))
+        self.motion.write(column)
         if "initial_state" in setup:
             column.line(f"As kept in {setup['initial_state']}")
         self.write_materials(column)

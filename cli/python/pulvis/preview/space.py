@@ -10,7 +10,7 @@ from pulvis.preview.sheet import INK, MARGIN, SIDE, WIDTH, number_mark, stage_co
 TURN, TILT = -np.pi / 4, np.arctan(np.sqrt(0.5))
 LIGHT = np.array([-0.35, 0.5, -0.8]) / np.linalg.norm([-0.35, 0.5, -0.8])
 GAP = 0.35  # inches between the views
-BELOW = 0.6  # inches below a view from a side: its axis, and the heading of the next view
+BELOW = 0.7  # inches below a view from a side: its axis, and the heading of the next view
 
 
 def view_from(turn, tilt):
@@ -41,11 +41,15 @@ class SpaceDrawing(PowderDrawing):
     def outer_points(self):
         return self.faces.reshape(-1, 3)
 
+    def bodies(self):
+        for one in self.setup["particles"]:
+            yield np.reshape(one["nodes"], (-1, 3)), one
+
     def layout(self):
         every = np.concatenate([self.outer_points(), *(piece.reshape(-1, 3) for piece in self.pieces)])
         self.span = np.ptp(every, axis=0).max()
         self.factor, self.unit = words.prefix_for(self.span, "m")
-        self.middle, self.ends = (every.min(axis=0) + every.max(axis=0)) / 2, every
+        self.middle, self.ends = (every.min(axis=0) + every.max(axis=0)) / 2, np.vstack([every, *(end for arrow in self.motion.straight(self.span) for end in arrow)])
         room = WIDTH - 2 * MARGIN - SIDE - 0.35
         self.large = 0.6 * room - GAP / 2
         self.small = 0.4 * room - GAP / 2 - 0.45
@@ -75,6 +79,7 @@ class SpaceDrawing(PowderDrawing):
         self.draw_tools(axes, rows)
         self.draw_particles(axes, rows)
         self.draw_moves(axes, rows)
+        self.motion.draw(axes, self.span, self.factor * rows[:2].T)
         if not with_axes:
             axes.axis("off")
             return
@@ -129,6 +134,8 @@ class SpaceDrawing(PowderDrawing):
         return "All of them: " + " × ".join(words.quantity(float(f"{length:.3g}"), "m") for length in high - low)
 
     def size_text(self, one):
+        if "height" in one:
+            return f"{one['shape']}, diameter {words.span(*one['width'], 'm')}, height {words.span(*one['height'], 'm')}"
         size = words.span(*one["diameter"], "m")
         return f"sphere, diameter {size}" if one["shape"] == "sphere" else f"{one['shape']}, volume of a ball of {size}"
 

@@ -113,7 +113,7 @@ def stage_text(stage):
         parts.append(until_text(stage["until"]))
     if stage.get("keep_state"):
         parts.append("saves its final state")
-    return "; ".join(parts) or "no motion"
+    return "; ".join(parts) or "no tool moves"
 
 
 SIDEWAYS = {"lateral": "across the lever (y)", "along": "along the lever (x)"}
