@@ -135,6 +135,10 @@ class Tools:
                 high = np.maximum(high, nodes.max(axis=0) + 1.3 * self.arrow)
         pad = 0.03 * self.size
         self.low, self.high = low - pad, high + pad
+        if self.held:  # room for their names beside a tall row of particles
+            wide, tall = self.high - self.low
+            self.low[0] -= max(0, tall / 2 - wide) / 2
+            self.high[0] += max(0, tall / 2 - wide) / 2
 
     def dimension_places(self):
         """x of the height dimension line, y of the width dimension line."""
@@ -274,5 +278,7 @@ class Tools:
             labels.put(body.name, factor * self.place_of_name(body), steps=[(0, 0), (0, 1), (0, -1)], reach=6,
                        fontweight="bold", rotation=90 if body.upright else 0)
         for tool in self.held:
-            labels.put(tool["name"], factor * np.mean(tool["nodes"], axis=0), reach=10, fontweight="bold",
-                       steps=labels.AROUND[1:], leader=True)
+            middle = np.mean(tool["nodes"], axis=0)
+            out = 1 if middle[0] > self.middle[0] else -1  # away from the particles
+            labels.put(tool["name"], factor * middle, reach=10, fontweight="bold", leader=True,
+                       steps=[(out, 0), (out, 1), (out, -1), *labels.AROUND[1:]])
