@@ -266,6 +266,14 @@ class PreviewTest(unittest.TestCase):
         rod = next(one for one in setup["classes"] if one["name"] == "rod")
         self.assertEqual((rod["width"], rod["height"]), ([6e-3, 6e-3], [12e-3, 12e-3]))
 
+    def test_numbers_of_scans_leave_their_lengths_free(self):
+        setup, _ = self.setup_of(SCENES / "afm" / "loop-v-0.toml")
+        setup["actions"] += setup["actions"]
+        figure = draw(setup)
+        self.assertEqual(sum("and back" in text.get_text() for text in texts_of(figure)), 4)  # in the drawing and in the list
+        self.assertEqual(list(overlaps(figure)), [])
+        plt.close(figure)
+
     def test_numbers_are_read_as_an_engineer_writes_them(self):
         for value, unit, text in ((50e-3, "m", "50 mm"), (5.0000001e-4, "m", "500 µm"), (2, "m", "2 m"), (3e3, "m", "3,000 m"),
                                   (-40e6, "Pa", "−40 MPa"), (1e13, "Pa", "10 TPa"), (0, "N", "0 N"), (20e-9, "N", "20 nN"),

@@ -32,7 +32,7 @@ def make_room(axes, ends):
     wide, tall = axes.get_position(original=True).size * axes.figure.get_size_inches()
     for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max()):
         axis.set_major_locator(MaxNLocator(5 if share > 0.5 else 1 if share < 0.15 else 2))
-        axis.labelpad = 14 if share == 1 else 3
+        axis.labelpad = 14 if share > 0.5 else 3
     axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(1.0, 0.82 * wide / tall)))
 
 
@@ -168,7 +168,10 @@ def draw_motions(run, motions, keys, title, options, axes, reversed_as=None):
                   else LINES[k], linestyle="--" if k % 2 else "-")
     axes.set(xlabel=label(x_key, x_unit), ylabel=over(reversed_as, unit) if reversed_as else label(y_key, unit))
     options.head(axes, title, run)
-    axes.legend()
+    if len(motions) > 2:  # several loops fill the axes
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
+    else:
+        axes.legend()
     y_name = reversed_as.lower() if reversed_as else y_key
     figure.table = [column for words, rows in motions for column in
                     ((f"{x_key}, {words}", run.unit(x_key), x[rows]), (f"{y_name}, {words}", run.unit(y_key), y[rows]))]

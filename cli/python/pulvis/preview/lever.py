@@ -308,13 +308,15 @@ class LeverDrawing:
                        fontsize=9, fontweight="bold", color=INK, pad=4)
         labels = Labels(axes)
         self.draw_tip(axes, labels, (factor, higher), tip, np.interp(0, *profile.T))
+        texts = []
         for k, (i, begin, end) in enumerate([one for one in scans if abs(one[2] - one[1])[axis] > 0][:4]):
             at = -factor * flat * (0.1 + 0.06 * k)
             self.arrow(axes, (factor * begin[axis], at), (factor * end[axis], at), i, 1.6)
             labels.keep_free(labels.extent(number_mark(axes, (factor * begin[axis], at), i)))
-            labels.put(words.quantity(abs((end - begin)[axis]), "m")
-                       + (" and back" if self.setup["actions"][i]["retrace"] else ""),
-                       (factor * (begin + end)[axis] / 2, at), steps=[(0, -1)], reach=3, color=stage_colour(i))
+            texts.append((i, words.quantity(abs((end - begin)[axis]), "m")
+                          + (" and back" if self.setup["actions"][i]["retrace"] else ""), (factor * (begin + end)[axis] / 2, at)))
+        for i, text, place in texts:  # after all numbers have been placed
+            labels.put(text, place, steps=[(0, -1), (1, 0), (-1, 0)], reach=6, color=stage_colour(i))
         labels.put(self.surface_text(), (-0.97 * factor * reach, -0.31 * factor * flat), steps=[(0, 0)], ha="left")
 
     def profile_reach(self, scans, axis, profile, tip):
