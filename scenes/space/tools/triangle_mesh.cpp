@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/portable_math.hpp"
+#include "scenes/space/tools/flat_triangles.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -89,7 +90,7 @@ void add_node(TriangleMesh& mesh, std::int32_t first, std::int32_t last) {
 TriangleMesh triangle_mesh(const std::vector<std::array<Vec3, 3>>& triangles) {
   TriangleMesh mesh;
   SharedNormals shared;
-  for (const std::array<Vec3, 3>& corners : triangles) {
+  for (const std::array<Vec3, 3>& corners : without_flat_triangles(triangles)) {
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     if (!(normal.norm() > 0)) continue;
     Triangle t{};

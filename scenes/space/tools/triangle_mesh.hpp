@@ -9,7 +9,8 @@
 
 namespace pulvis::space {
 
-// Corners that coincide exactly are merged. Triangles with zero area are dropped.
+// Corners that coincide exactly are merged. Triangles with zero area are left out, and their neighbours divided at their
+// corners (flat_triangles.hpp).
 TriangleMesh triangle_mesh(const std::vector<std::array<Vec3, 3>>& triangles);
 
 }  // namespace pulvis::space

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "scenes/space/tools/tool_shapes.hpp"
@@ -162,6 +163,66 @@ TEST(SpaceTools, AMeshIsTheSignedDistanceToItsTriangles) {
     const double moved = outside_cube(q, 1) - outside_cube(p, 1);
     EXPECT_NEAR(normal_of(s).dot(q - p), moved, 1e-9);
   }
+}
+
+// A wedge along y whose edge, in which its sides meet at `angle`, is at the origin. Extra corners divide the edge of one side
+// only: a fan of flat triangles from its corner `apex` joins them to the whole edge of the other.
+std::vector<std::array<Vec3, 3>> wedge(double angle, const std::vector<double>& extra,
+                                       std::size_t apex) {
+  const double x = std::sin(angle / 2), z = -std::cos(angle / 2);
+  const Vec3 back(0, 1, 0), front(0, -1, 0), left_back(-x, 1, z), left_front(-x, -1, z),
+      right_back(x, 1, z), right_front(x, -1, z);
+  std::vector<std::array<Vec3, 3>> triangles{{front, left_front, right_front},
+                                             {back, right_back, left_back},
+                                             {left_front, left_back, right_back},
+                                             {left_front, right_back, right_front},
+                                             {front, back, left_back},
+                                             {front, left_back, left_front},
+                                             {right_front, right_back, back}};
+  std::vector<Vec3> edge{front};
+  for (const double y : extra) edge.emplace_back(0, y, 0);
+  edge.push_back(back);
+  for (std::size_t i = 0; i + 1 < edge.size(); ++i)
+    triangles.push_back({edge[i], right_front, edge[i + 1]});
+  for (std::size_t i = 1; i + 1 < edge.size(); ++i) {
+    const auto corner = [&](std::size_t k) { return edge[(apex + k) % edge.size()]; };
+    triangles.push_back({corner(0), corner(i), corner(i + 1)});
+  }
+  return triangles;
+}
+
+Standing on_closed_mesh(const TriangleMesh& mesh, const Vec3& p) {
+  std::vector<std::int32_t> near;
+  const Point at{p.x(), p.y(), p.z()};
+  triangles_near(mesh, Box{at, at}, 4, near);
+  return on_mesh(mesh, near, everywhere_at(p), 4);
+}
+
+// At any orientation and size: rounding brings corners off the line.
+TEST(SpaceTools, FlatTrianglesDoNotChangeTheDistance) {
+  RandomPoints points;
+  const Eigen::Matrix3d turn =
+      1e-3 * Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (const Eigen::Matrix3d& placed : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turn})
+    for (const double degrees : {40.0, 90.0, 140.0})
+      for (const std::size_t apex : {0, 1, 2, 3, 4}) {
+        const double size = placed.col(0).norm();
+        const auto mesh_of = [&](const std::vector<double>& corners) {
+          auto triangles = wedge(degrees * std::numbers::pi / 180, corners, apex);
+          for (auto& triangle : triangles)
+            for (Vec3& p : triangle) p = placed * p;
+          return triangle_mesh(triangles);
+        };
+        const TriangleMesh plain = mesh_of({}), divided = mesh_of({-0.4, 0.1, 0.5});
+        ASSERT_EQ(divided.triangles.size(), 14U);
+        EXPECT_LT(on_closed_mesh(plain, placed * Vec3(0, 0, 0.5)).gap[0], -0.4 * size);
+        for (int i = 0; i < 500; ++i) {
+          const Vec3 p = placed * points(i % 2 == 0 ? 1.3 : 0.1);
+          const Standing a = on_closed_mesh(plain, p), b = on_closed_mesh(divided, p);
+          ASSERT_NEAR(b.gap[0], a.gap[0], 1e-12 * size) << degrees << " deg, " << apex;
+          ASSERT_LT((normal_of(b) - normal_of(a)).norm(), 1e-9);
+        }
+      }
 }
 
 TEST(SpaceTools, TrianglesNearABoxAreAllThatAre) {
