@@ -9,6 +9,7 @@
 #include "engine/portable_math.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/space/meshes/stl.hpp"
+#include "scenes/space/stl_bodies.hpp"
 #include "scenes/spec/space_scene.hpp"
 
 namespace pulvis::space {
@@ -29,6 +30,7 @@ std::optional<Triangles> triangles_in(const Scene& scene, const std::string& fil
   }
   try {
     Triangles triangles = read_stl((scene.file.parent_path() / file).string());
+    refuse_touching_bodies(triangles);
     for (auto& triangle : triangles)
       for (Vec3& corner : triangle) corner *= metre;
     return triangles;

@@ -94,7 +94,8 @@ std::vector<Key<ToolSpec>> keys_of_form() {
             .only_for = "stl",
             .doc = "STL file (ASCII or binary) of a closed surface, as a path relative to the "
                    "folder of the scene. Triangles must be counter-clockwise as seen from the "
-                   "powder."},
+                   "powder. Several bodies need gaps between them: parts that touch or overlap "
+                   "must be one body, without faces inside. Cavities are allowed."},
            to(&ToolSpec::file)},
           {{.name = "unit",
             .kind = Kind::text,
