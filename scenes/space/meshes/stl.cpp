@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -31,12 +32,26 @@ void refuse_count(std::size_t count) {
     throw BadStl(fmt::format("{} triangles, allowed: at most {}", count, most_triangles));
 }
 
-// Many binary files start with "solid" too: their length reveals them, or that no "vertex" occurs.
+constexpr std::string_view space = " \t\r\n";
+
+bool is_word(std::string_view text, std::string_view lower) {  // in small or capital letters
+  return std::ranges::equal(text, lower, {}, [](unsigned char c) { return std::tolower(c); });
+}
+
+std::string_view without_mark_and_space(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8
+  if (text.starts_with(mark)) text.remove_prefix(mark.size());
+  return text.substr(std::min(text.find_first_not_of(space), text.size()));
+}
+
+// Many binary files start with "solid" too: their length reveals them, or bytes that no text has.
 bool is_binary(const std::string& bytes) {
-  if (bytes.size() < header) return false;
-  const std::uint64_t count = little_endian(&bytes[header - 4]);
-  return bytes.size() == header + record * count || !bytes.starts_with("solid") ||
-         bytes.find("vertex") == std::string::npos;
+  const bool is_text = std::ranges::none_of(bytes, [](unsigned char c) {
+    return c < ' ' && space.find(static_cast<char>(c)) == std::string_view::npos;
+  });
+  if (is_text && !is_word(without_mark_and_space(bytes).substr(0, 5), "solid"))
+    throw BadStl("it is neither a binary file nor a text that begins with 'solid'");
+  return !is_text && bytes.size() >= header;
 }
 
 std::vector<Triangle> binary_triangles(const std::string& bytes) {
@@ -59,12 +74,12 @@ class Words {
  public:
   explicit Words(std::string_view text) : left_(text) {}
   std::string_view next() {
-    constexpr std::string_view space = " \t\r\n";
     left_.remove_prefix(std::min(left_.find_first_not_of(space), left_.size()));
     const std::string_view word = left_.substr(0, left_.find_first_of(space));
     left_.remove_prefix(word.size());
     return word;
   }
+  void skip_line() { left_.remove_prefix(std::min(left_.find('\n'), left_.size())); }
   double number() {
     std::string_view word = next();
     if (word.starts_with('+')) word.remove_prefix(1);
@@ -83,9 +98,10 @@ class Words {
 std::vector<Triangle> text_triangles(const std::string& text) {
   std::vector<Triangle> triangles;
   std::size_t corners = 0;
-  Words words(text);
+  Words words(without_mark_and_space(text));
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-    if (word != "vertex") continue;
+    if (is_word(word, "solid")) words.skip_line();  // its name may have any words
+    if (!is_word(word, "vertex")) continue;
     if (corners % 3 == 0) triangles.emplace_back();
     for (Eigen::Index i = 0; i < 3; ++i) triangles.back()[corners % 3][i] = words.number();
     ++corners;

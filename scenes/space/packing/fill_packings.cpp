@@ -127,8 +127,9 @@ class RandomPacking {
   // Some overlapped, however high the die.
   void refuse_die() {
     const std::string key = order_.container.round() ? ".diameter" : ".width";
-    problems_.add(origin(key), path_ + key,
-                  "the particles cannot be placed in this die without overlap, allowed: a wider one");
+    problems_.add(
+        origin(key), path_ + key,
+        "the particles cannot be placed in this die without overlap, allowed: a wider one");
   }
 
   void refuse_density(double wanted, double reached) {
@@ -194,8 +195,16 @@ void read_file(Scene& scene, PackingSpec& packing) {
   packing.top = filed.top ? *filed.top : highest_point(space, packing.placed);
 }
 
-// m, highest point on the face of a downward-facing punch, above its point: it rests on the packing.
+double lowest_place(const std::vector<std::array<Vec3, 3>>& triangles) {
+  double lowest = std::numeric_limits<double>::max();
+  for (const auto& triangle : triangles)
+    for (const Vec3& corner : triangle) lowest = std::min(lowest, corner.z());
+  return lowest;
+}
+
+// m, how far below its point a tool that rests on the packing reaches.
 double foremost_place(const ToolSpec& tool) {
+  if (!tool.triangles.empty()) return -lowest_place(tool.triangles);
   if (tool.shape != ToolSpec::Shape::punch || tool.profile.empty() || !(tool.normal.z() < 0))
     return 0;
   return std::ranges::max(tool.profile, {}, [](const Vec2& place) { return place.y(); }).y();

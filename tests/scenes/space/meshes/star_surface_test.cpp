@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -165,8 +166,21 @@ TEST(Stl, WhatIsNoClosedSurfaceIsRefused) {
   EXPECT_THAT(problem_of(as_binary(ball).substr(0, 500)), HasSubstr("truncated"));
   EXPECT_THAT(problem_of("solid x\nvertex 1 2\n"), HasSubstr("where a coordinate is expected"));
   EXPECT_THAT(problem_of("solid x\nvertex 1 2 3\n"), HasSubstr("truncated"));
-  EXPECT_THAT(problem_of("hello"), HasSubstr("no triangle"));
+  EXPECT_THAT(problem_of("hello"), HasSubstr("neither"));
+  EXPECT_THAT(problem_of("solid x\nendsolid x\n"), HasSubstr("no triangle"));
   EXPECT_EQ(problem_of(as_text(ball)), "");
+}
+
+// As other programs write them: in capitals, with a mark of UTF-8, after a blank line, and with any name.
+TEST(Stl, TextFilesMayBeginInDifferentWays) {
+  const std::string text = as_text(bumpy_ball(4, {1, 2, 3}));
+  const auto volume = [](const std::string& bytes) { return volume_of(stl_triangles(bytes)); };
+  std::string capitals = text;
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_EQ(volume(capitals), volume(text));
+  EXPECT_EQ(volume("\xEF\xBB\xBF" + text), volume(text));
+  EXPECT_EQ(volume(" \r\n" + text), volume(text));
+  EXPECT_EQ(volume("solid my vertex part\n" + text.substr(text.find('\n') + 1)), volume(text));
 }
 
 TEST(Stl, ASurfaceThatItsCentreDoesNotSeeIsRefused) {
