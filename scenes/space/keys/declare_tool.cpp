@@ -53,61 +53,60 @@ std::vector<Key<ToolSpec>> keys_of_place() {
 }
 
 std::vector<Key<ToolSpec>> keys_of_form() {
-  return {
-      {{.name = "diameter",
-        .kind = Kind::quantity,
-        .unit = "m",
-        .range = within(smallest_size, largest_size),
-        .required = true,
-        .only_for = {"die", "punch"},
-        .doc = "Diameter of the hole or punch."},
-       to(&ToolSpec::diameter)},
-      {{.name = "height",
-        .kind = Kind::quantity,
-        .unit = "m",
-        .range = within(smallest_size, largest_size),
-        .only_for = "die",
-        .doc = "Height of the mouth of the hole above `point`, along the normal. There the die "
-               "ends in a flat face, and an ejected compact is free.",
-        .fallback_doc = "none: the hole has no end"},
-       to(&ToolSpec::height)},
-      {{.name = "rounding",
-        .kind = Kind::quantity,
-        .unit = "m",
-        .range = within(0, largest_size),
-        .only_for = "die",
-        .needs = "height",
-        .doc = "Radius of the edge of the mouth. It should be at least half the width of a "
-               "face of the particles: sharper edges catch between their Gauss points.",
-        .fallback_doc = "`\"0 m\"`: a sharp edge"},
-       to(&ToolSpec::rounding)},
-      {{.name = "profile",
-        .kind = Kind::points,
-        .unit = "m",
-        .range = within(-largest_size, largest_size),
-        .only_for = "punch",
-        .doc = "Profile of the face: distance from the axis and height along the normal, from "
-               "[0, ..] outwards, linearly interpolated.",
-        .fallback_doc = "a flat face"},
-       [](ToolSpec& spec, const Decoded& value) { spec.profile = value.points; }},
-      {{.name = "file",
-        .kind = Kind::file,
-        .required = true,
-        .only_for = "stl",
-        .doc =
-            "STL file (ASCII or binary) of a closed surface, as a path relative to the "
-            "folder of the scene. Triangles must be counter-clockwise as seen from the "
-            "powder. Several bodies need gaps between them: parts that touch or overlap "
-            "must be one body, without faces inside. Cavities are allowed. Walls must be thicker "
-            "than twice the penetration of the particles: through a thinner plate, which a "
-            "run does not notice, they pass."},
-       to(&ToolSpec::file)},
-      {{.name = "unit",
-        .kind = Kind::text,
-        .required = true,
-        .only_for = "stl",
-        .doc = "Length unit of the file: \"mm\"."},
-       to(&ToolSpec::unit)}};
+  return {{{.name = "diameter",
+            .kind = Kind::quantity,
+            .unit = "m",
+            .range = within(smallest_size, largest_size),
+            .required = true,
+            .only_for = {"die", "punch"},
+            .doc = "Diameter of the hole or punch."},
+           to(&ToolSpec::diameter)},
+          {{.name = "height",
+            .kind = Kind::quantity,
+            .unit = "m",
+            .range = within(smallest_size, largest_size),
+            .only_for = "die",
+            .doc = "Height of the mouth of the hole above `point`, along the normal. There the die "
+                   "ends in a flat face, and an ejected compact is free.",
+            .fallback_doc = "none: the hole has no end"},
+           to(&ToolSpec::height)},
+          {{.name = "rounding",
+            .kind = Kind::quantity,
+            .unit = "m",
+            .range = within(0, largest_size),
+            .only_for = "die",
+            .needs = "height",
+            .doc = "Radius of the edge of the mouth. It should be at least half the width of a "
+                   "face of the particles: sharper edges catch between their Gauss points.",
+            .fallback_doc = "`\"0 m\"`: a sharp edge"},
+           to(&ToolSpec::rounding)},
+          {{.name = "profile",
+            .kind = Kind::points,
+            .unit = "m",
+            .range = within(-largest_size, largest_size),
+            .only_for = "punch",
+            .doc = "Profile of the face: distance from the axis and height along the normal, from "
+                   "[0, ..] outwards, linearly interpolated.",
+            .fallback_doc = "a flat face"},
+           [](ToolSpec& spec, const Decoded& value) { spec.profile = value.points; }},
+          {{.name = "file",
+            .kind = Kind::file,
+            .required = true,
+            .only_for = "stl",
+            .doc = "STL file (ASCII or binary) of a closed surface, as a path relative to the "
+                   "folder of the scene. Triangles must be counter-clockwise as seen from the "
+                   "powder. Several bodies need gaps between them: parts that touch or overlap "
+                   "must be one body, without faces inside. Cavities are allowed. Walls must be "
+                   "thicker than twice the penetration of the particles, which pass through a "
+                   "thinner plate: `pulvis check` warns of walls below a fifth of the smallest "
+                   "face."},
+           to(&ToolSpec::file)},
+          {{.name = "unit",
+            .kind = Kind::text,
+            .required = true,
+            .only_for = "stl",
+            .doc = "Length unit of the file: \"mm\"."},
+           to(&ToolSpec::unit)}};
 }
 
 TableDeclaration<ToolSpec> declared_tool() {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/space/meshes/stl.hpp"
+#include "scenes/space/thin_walls.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -53,6 +54,21 @@ TEST(StlBodies, ApartOrWithCavitiesAreAccepted) {
              hull = box_between({-2, -2, -2}, {3, 3, 3});
   EXPECT_EQ(problem_of({hull, cavity}), "");
   EXPECT_EQ(problem_of({box, hull, cavity}), "");  // a body in the cavity
+}
+
+TEST(StlBodies, TheThinnestWallIsFound) {
+  // A plate, and a box with a cavity that leaves a wall of a tenth on one side.
+  const auto plate = box_between({-5, -5, 0}, {5, 5, 0.01});
+  const auto wall = thinnest_wall(plate, 0.5);
+  ASSERT_TRUE(wall);
+  EXPECT_NEAR(wall->thickness, 0.01, 1e-14);
+  EXPECT_FALSE(thinnest_wall(plate, 0.009));
+  std::vector<Triangle> hollow = box_between({0, 0, 0}, {3, 3, 3});
+  for (const Triangle& t : inwards(box_between({1, 1, 1}, {2.9, 2, 2}))) hollow.push_back(t);
+  const auto side = thinnest_wall(hollow, 0.5);
+  ASSERT_TRUE(side);
+  EXPECT_NEAR(side->thickness, 0.1, 1e-14);
+  EXPECT_GT(side->at.x(), 2.8);
 }
 
 TEST(StlBodies, ThatTouchOrOverlapAreRefused) {

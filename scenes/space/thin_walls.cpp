@@ -1,0 +1,113 @@
+#include "scenes/space/thin_walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "engine/entry.hpp"
+#include "scenes/space/class_shape.hpp"
+#include "scenes/space/tools/triangle_mesh.hpp"
+#include "systems/space/contact/tool_search.hpp"
+
+namespace pulvis::space {
+namespace {
+
+using Triangle = TriangleMesh::Triangle;
+
+// Penetrations reach a tenth of a face in dense compacts; half of the wall must be more.
+constexpr double thin = 0.2;  // of the smallest face
+
+Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
+
+// Where the ray leaves through the triangle, as a distance from `from`; nothing if it does not (T. Moeller & B. Trumbore, Journal
+// of Graphics Tools 2 (1997) 21).
+std::optional<double> exit_through(const Triangle& triangle, const Vec3& from,
+                                   const Vec3& direction) {
+  if (direction.dot(vector_of(triangle.normal)) <= 0) return {};
+  const Vec3 a = vector_of(triangle.corner[0]), u = vector_of(triangle.corner[1]) - a,
+             v = vector_of(triangle.corner[2]) - a;
+  const Vec3 across = direction.cross(v);
+  const double all = u.dot(across);
+  if (all == 0) return {};
+  const Vec3 offset = from - a, turned = offset.cross(u);
+  const double s = offset.dot(across) / all, t = direction.dot(turned) / all;
+  const double distance = v.dot(turned) / all;
+  if (s < 0 || t < 0 || s + t > 1 || distance < 0) return {};
+  return distance;
+}
+
+class Walls {
+ public:
+  Walls(const TriangleMesh& mesh, double below) : mesh_(mesh), wall_{below, {}}, below_(below) {}
+
+  std::optional<ThinWall> thinnest() {
+    for (const Triangle& triangle : mesh_.triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        // The middle of the triangle, and points near its corners.
+        const Vec3 middle = middle_of(triangle);
+        if (k == 0) look_from(middle, triangle);
+        look_from(0.25 * middle + 0.75 * vector_of(triangle.corner[k]), triangle);
+      }
+    return wall_.thickness < below_ ? std::optional(wall_) : std::nullopt;
+  }
+
+ private:
+  static Vec3 middle_of(const Triangle& t) {
+    return (vector_of(t.corner[0]) + vector_of(t.corner[1]) + vector_of(t.corner[2])) / 3;
+  }
+
+  void look_from(const Vec3& from, const Triangle& triangle) {
+    const Vec3 inwards = -vector_of(triangle.normal), end = from + wall_.thickness * inwards;
+    Box box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      std::tie(box.low[k], box.high[k]) = std::minmax(from[i], end[i]);
+    }
+    near_.clear();
+    triangles_near(mesh_, box, 0, near_);
+    for (const std::int32_t t : near_)
+      if (const auto distance = exit_through(entry(mesh_.triangles, t), from, inwards);
+          distance && *distance < wall_.thickness)
+        wall_ = {*distance, from};
+  }
+
+  const TriangleMesh& mesh_;
+  ThinWall wall_;
+  double below_;
+  std::vector<std::int32_t> near_;
+};
+
+double smallest_face(const Scene& scene) {
+  double smallest = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < scene.space->particles.size(); ++i)
+    for (const Shape::Face& face : class_shape(scene, i).faces)
+      smallest = std::min(smallest, face.size);
+  return smallest;
+}
+
+}  // namespace
+
+std::optional<ThinWall> thinnest_wall(const std::vector<std::array<Vec3, 3>>& triangles,
+                                      double below) {
+  return Walls(triangle_mesh(triangles), below).thinnest();
+}
+
+std::vector<std::string> thin_wall_warnings(const Scene& scene) {
+  std::vector<std::string> lines;
+  double below = 0;
+  for (const ToolSpec& tool : scene.space->tools) {
+    if (tool.triangles.empty()) continue;
+    if (below == 0) below = thin * smallest_face(scene);
+    if (const auto wall = thinnest_wall(tool.triangles, below))
+      lines.push_back(fmt::format(
+          "tool '{}' is only {:.3g} m thick at ({:.4g}, {:.4g}, {:.4g}) m of its file: a particle "
+          "that penetrates it by half of that passes through, which the run does not notice; use a "
+          "wall of more than {:.3g} m, {:g} of the smallest face",
+          tool.name, wall->thickness, wall->at.x(), wall->at.y(), wall->at.z(), below, thin));
+  }
+  return lines;
+}
+
+}  // namespace pulvis::space
