@@ -156,6 +156,8 @@ bool end_without_mpirun(const fs::path& folder) {
 
 ExitCode end_of(int status, bool asked, const fs::path& folder, const Written& before) {
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  // The first rank tells it too, unless another one failed.
+  if (code == static_cast<int>(ExitCode::machine)) tell_how_to_go_on(folder, before);
   if (is_own(code)) return static_cast<ExitCode>(code);
   // SIGTERM to mpirun as well: it ends with another code than the ranks, which have told where they stopped.
   if (asked && end_without_mpirun(folder))

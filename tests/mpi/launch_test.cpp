@@ -94,11 +94,14 @@ TEST_F(Launch, ExitCodesAreThoseOfTheRanks) {
 
 TEST_F(Launch, TheMachinesFailureIsToldWithHowToGoOn) {
   EXPECT_EQ(code_of("exit 4"), 4);
-  EXPECT_THAT(err, HasSubstr("there is no checkpoint to continue from"));
+  EXPECT_THAT(err, HasSubstr("nothing was written"));
   fs::create_directories(place / "results");
-  std::ofstream(place / "results" / "checkpoint-000000000007.h5") << "some";
-  EXPECT_EQ(code_of("exit 4"), 4);
+  EXPECT_EQ(code_of("echo some >results/run.h5; exit 4"), 4);
+  EXPECT_THAT(err, HasSubstr("there is no checkpoint to continue from"));
+  EXPECT_EQ(code_of("echo some >results/checkpoint-000000000007.h5; exit 4"), 4);
   EXPECT_THAT(err, HasSubstr("continue with: pulvis resume " + (place / "results").string()));
+  EXPECT_EQ(code_of("exit 4"), 4);
+  EXPECT_THAT(err, HasSubstr("nothing was written"));
 }
 
 TEST_F(Launch, AKilledRankEndsAllAndIsTold) {
