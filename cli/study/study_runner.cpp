@@ -13,6 +13,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/report/report.hpp"
+#include "cli/shell_word.hpp"
 #include "cli/study/study_jobs.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/output_error.hpp"
