@@ -43,13 +43,12 @@ class Walls {
   Walls(const TriangleMesh& mesh, double below) : mesh_(mesh), wall_{below, {}}, below_(below) {}
 
   std::optional<ThinWall> thinnest() {
-    for (const Triangle& triangle : mesh_.triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        // The middle of the triangle, and points near its corners.
-        const Vec3 middle = middle_of(triangle);
-        if (k == 0) look_from(middle, triangle);
-        look_from(0.25 * middle + 0.75 * vector_of(triangle.corner[k]), triangle);
-      }
+    for (const Triangle& triangle : mesh_.triangles) {
+      const Vec3 middle = middle_of(triangle);
+      look_from(middle, triangle);
+      for (const Point& corner : triangle.corner)
+        look_from(0.25 * middle + 0.75 * vector_of(corner), triangle);
+    }
     return wall_.thickness < below_ ? std::optional(wall_) : std::nullopt;
   }
 
@@ -79,11 +78,18 @@ class Walls {
   std::vector<std::int32_t> near_;
 };
 
+// A mesh is made once for all sizes of a class.
 double smallest_face(const Scene& scene) {
+  const std::vector<ParticleSpec>& particles = scene.space->particles;
+  std::vector<double> scale(particles.size(), 1);  // of the smallest particle of a class
+  for (const ParticleSpec& spec : particles)
+    if (spec.class_of >= 0)
+      entry(scale, spec.class_of) = std::min(entry(scale, spec.class_of), spec.scale);
   double smallest = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < scene.space->particles.size(); ++i)
-    for (const Shape::Face& face : class_shape(scene, i).faces)
-      smallest = std::min(smallest, face.size);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (particles[i].class_of < 0)
+      for (const Shape::Face& face : class_shape(scene, i).faces)
+        smallest = std::min(smallest, scale[i] * face.size);
   return smallest;
 }
 

@@ -79,8 +79,8 @@ struct HexKernel {
     return sum;
   }
 
-  static Matrix3 gradients_of(const Corners& values,
-                              const ShapeGradient& d) {  // of X: the Jacobian
+  // Derivatives by all three coordinates; of X: the Jacobian.
+  static Matrix3 gradients_of(const Corners& values, const ShapeGradient& d) {
     Matrix3 j;
     for (int i = 0; i < 3; ++i) j.col(i) = gradient_of(values, d, i);
     return j;
