@@ -90,9 +90,7 @@ bool Simulation::goes_on(bool stops) {
   return next != Crew::Next::stop;
 }
 
-std::vector<SystemCost> Simulation::costs() const {
-  return added(costs_before_, step_->costs());
-}
+std::vector<SystemCost> Simulation::costs() const { return added(costs_before_, step_->costs()); }
 
 void Simulation::observe() {
   if (!crew_) return workers_.run([&] { step_->observe(); });
@@ -145,19 +143,51 @@ std::string Simulation::state_hash() {
   }));
 }
 
-ColumnVisit Simulation::visit() {
+void Simulation::write_from_root() {
+  if (crew_) crew_->write_from_root();
+}
+
+void Simulation::order_write(Order order) {
+  crew_->tell(order);
+  crew_->write(order);
+}
+
+FieldWriters Simulation::field_writers(const std::filesystem::path& folder) {
   if (!crew_) return {};
-  return {[this](const ColumnBase& column) {
-            if (is_by_chunk(column) || is_of_contacts(column))
-              tell({Order::Kind::fetch, 0, {crew_->number_of(column)}});
+  return {[this, folder](std::size_t field) { return crew_->writes_field_in(folder, field); },
+          [this](std::size_t field, const FieldRoom& room) {
+            Order order{Order::Kind::write_field};
+            order.field = field;
+            order.room = room;
+            order_write(order);
           },
-          [this](const ColumnBase& column) { crew_->drop(column); }};
+          [this] { order_write({Order::Kind::flush}); }};
+}
+
+ColumnVisit Simulation::visit(const std::filesystem::path& folder) {
+  if (!crew_) return {};
+  ColumnVisit visit;
+  visit.write = [this, folder](const ColumnBase& column, const ColumnVisit::MakeRoom& make_room) {
+    const std::optional<std::uint64_t> bytes = crew_->bytes_written_in(folder, column);
+    if (!bytes) return false;
+    Order order{Order::Kind::write_column, 0, {crew_->number_of(column)}};
+    order.room.at = make_room(*bytes);
+    order_write(order);
+    return true;
+  };
+  visit.flush = [this] { order_write({Order::Kind::flush}); };
+  visit.fetch = [this](const ColumnBase& column) {
+    if (is_by_chunk(column) || is_of_contacts(column))
+      tell({Order::Kind::fetch, 0, {crew_->number_of(column)}});
+  };
+  visit.leave = [this](const ColumnBase& column) { crew_->drop(column); };
+  return visit;
 }
 
 void Simulation::restore(const Checkpoint& checkpoint) {
   if (!crew_) return checkpoint.restore(*world_);
-  crew_->tell({Order::Kind::restore, 0, {}, false,
-               std::filesystem::absolute(checkpoint.file()).string()});
+  crew_->tell(
+      {Order::Kind::restore, 0, {}, false, std::filesystem::absolute(checkpoint.file()).string()});
   restore_share(checkpoint, *world_);
   crew_->restore_findings(checkpoint);
 }
@@ -167,13 +197,31 @@ void Simulation::follow() {
     const Order order = crew_->listen();
     try {
       switch (order.kind) {
-        case Order::Kind::run: do_run(order.time, {}); break;
-        case Order::Kind::observe: do_observe(order); break;
-        case Order::Kind::move: workers_.run([&] { step_->move(); }); break;
-        case Order::Kind::fetch: crew_->fetch(order); break;
-        case Order::Kind::particles: crew_->visit_particles(order); break;
-        case Order::Kind::restore: restore_share(Checkpoint(order.file), *world_); break;
-        case Order::Kind::leave: return;
+        case Order::Kind::run:
+          do_run(order.time, {});
+          break;
+        case Order::Kind::observe:
+          do_observe(order);
+          break;
+        case Order::Kind::move:
+          workers_.run([&] { step_->move(); });
+          break;
+        case Order::Kind::fetch:
+          crew_->fetch(order);
+          break;
+        case Order::Kind::particles:
+          crew_->visit_particles(order);
+          break;
+        case Order::Kind::write_field:
+        case Order::Kind::write_column:
+        case Order::Kind::flush:
+          crew_->write(order);
+          break;
+        case Order::Kind::restore:
+          restore_share(Checkpoint::verified(order.file), *world_);
+          break;
+        case Order::Kind::leave:
+          return;
       }
     } catch (const RunFailure&) {  // the root has the same failure and reports it
     }

@@ -44,7 +44,11 @@ class Simulation {
   // ---- with several ranks; a single process does nothing
   // Gathers contact rows, or a column of a checkpoint; call leave() when they are no longer needed.
   void fetch_rows();
-  ColumnVisit visit();
+  // For a checkpoint and for frames in this folder: the ranks write their parts, where its file system permits that.
+  ColumnVisit visit(const std::filesystem::path& folder);
+  FieldWriters field_writers(const std::filesystem::path& folder);
+  // From now on the root writes everything, as it does where the file system does not permit the other.
+  void write_from_root();
   std::vector<double> rank_memory() const {
     return crew_ ? crew_->memory() : std::vector<double>();
   }
@@ -63,6 +67,7 @@ class Simulation {
  private:
   double end() const;  // s, of the run
   void tell(Order order);
+  void order_write(Order order);
   void do_run(double time, const std::function<bool()>& stop);
   bool goes_on(bool stops);
   void do_observe(const Order& order);

@@ -15,6 +15,7 @@
 #include "cli/ranks/mpi_plugin.hpp"
 #include "cli/shell_word.hpp"
 #include "engine/instruction_set.hpp"
+#include "engine/ranks/machine_name.hpp"
 
 namespace pulvis {
 namespace {
@@ -62,19 +63,6 @@ std::string own_words() {  // of the command line, without the program's path
   std::getline(file, word, '\0');
   while (std::getline(file, word, '\0')) words += ' ' + shell_word(word);
   return words;
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
-
-// The kernel's boot ID: containers on one machine share it.
-std::string machine_name() {
-  std::string name;
-  std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), name);
-  return name.empty() ? host_name() : name;
 }
 
 struct Place {

@@ -91,6 +91,7 @@ void Session::begin() {
         RunAttributes{program_version(), program_commit(), loaded_.scene.title,
                       fmt::format("{:016x}", loaded_.hash), loaded_.scene.seed, options_.threads},
         results_.mesh(), results_.series(), results_.fields(), simulated_time, results_.tables());
+    recorder_->share(simulation_->field_writers(options_.folder));
     checkpoints_.of_run(recorder_->run_id());
   }
   if (options_.talks) {
@@ -120,6 +121,7 @@ void Session::go_on_from(const Checkpoint& checkpoint) {
   recorder_ =
       std::make_unique<Recorder>(options_.folder, mesh, results_.series(), results_.fields(),
                                  position, simulated_time, results_.tables());
+  recorder_->share(simulation_->field_writers(options_.folder));
   checkpoints_.of_run(recorder_->run_id());
   told_step_ = clock().step;
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks,
@@ -141,7 +143,8 @@ void Session::write_checkpoint() {
     parts.emplace("driven", words.bytes());
   }
   simulation_->fetch_rows();
-  checkpoints_.write(clock().step, clock().time, simulation_->whole(), parts, simulation_->visit());
+  checkpoints_.write(clock().step, clock().time, simulation_->whole(), parts,
+                     simulation_->visit(options_.folder));
   simulation_->leave();
 }
 
@@ -187,7 +190,7 @@ void Session::keep_states() {
     if (stage.keep_state && reached_its_end(stages_over_)) {
       simulation_->fetch_rows();
       checkpoints_.keep_state(stage.name, clock().step, clock().time, simulation_->whole(),
-                              simulation_->visit());
+                              simulation_->visit(options_.folder));
       simulation_->leave();
     }
   }
@@ -276,6 +279,7 @@ void Session::reopen() {
   recorder_ =
       std::make_unique<Recorder>(options_.folder, results_.mesh(), results_.series(),
                                  results_.fields(), closed_at_, simulated_time, results_.tables());
+  recorder_->share(simulation_->field_writers(options_.folder));
 }
 
 RunQuality Session::quality() const {

@@ -71,6 +71,14 @@ void sign(const fs::path& path) {
   if (fsync(file.get()) != 0) fail(path, "flush the checkpoint to disk");
 }
 
+hdf5::File opened_unverified(const fs::path& path) {
+  try {
+    return hdf5::File::open(path);
+  } catch (const OutputError& error) {
+    throw DamagedCheckpoint(error.reason());
+  }
+}
+
 hdf5::File verified(const fs::path& path) {
   const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file) throw DamagedCheckpoint(std::string("cannot be opened: ") + std::strerror(errno));
@@ -84,22 +92,21 @@ hdf5::File verified(const fs::path& path) {
     throw DamagedCheckpoint(
         fmt::format("its {} bytes are not those that were written: the checksum differs",
                     head_bytes + content.bytes));
-  try {
-    return hdf5::File::open(path);
-  } catch (const OutputError& error) {
-    throw DamagedCheckpoint(error.reason());
-  }
+  return opened_unverified(path);
 }
 
 std::string column_name(const ColumnBase& column) {
   return "/columns/" + column.entity + "/" + column.info.name;
 }
 
-// Calls take(name, bytes) for everything in a world that must be saved.
-template <class Take>
-void for_each_part(const World& world, const Take& take, const ColumnVisit& visit = {}) {
+// Calls take(name, bytes) for everything in a world that must be saved, or room(name, bytes) if others write it.
+template <class Take, class Room>
+void for_each_part(const World& world, const Take& take, const Room& room,
+                   const ColumnVisit& visit) {
   for (const ColumnBase* column : world.columns()) {
     if (column->declared_transient) continue;
+    const auto make_room = [&](std::uint64_t bytes) { return room(column_name(*column), bytes); };
+    if (visit.write && visit.write(*column, make_room)) continue;
     if (visit.fetch) visit.fetch(*column);
     take(column_name(*column), std::span<const std::byte>(column->data(), column->bytes()));
     if (visit.leave) visit.leave(*column);
@@ -108,8 +115,8 @@ void for_each_part(const World& world, const Take& take, const ColumnVisit& visi
     take("/resources/" + resource.name, std::span<const std::byte>(resource.state()));
 }
 
-template <class Take>
-void for_each_part(const StateParts& parts, const Take& take, const ColumnVisit&) {
+template <class Take, class Room>
+void for_each_part(const StateParts& parts, const Take& take, const Room&, const ColumnVisit&) {
   for (const auto& [name, bytes] : parts) take(name, std::span<const std::byte>(bytes));
 }
 
@@ -128,9 +135,14 @@ void write_content(const fs::path& path, const CheckpointInfo& info, const State
   for_each_part(
       world,
       [&](const std::string& name, std::span<const std::byte> bytes) { file.write(name, bytes); },
+      [&](const std::string& name, std::uint64_t bytes) {
+        return FileRoom{fs::absolute(path).string(),
+                        *file.make_room(name, hdf5::Number::byte, {bytes})};
+      },
       visit);
   for (const auto& [name, bytes] : run) file.write("/run/" + name, bytes);
   file.close();
+  if (visit.flush) visit.flush();
 }
 
 template <class State>
@@ -164,9 +176,12 @@ void write_next(const fs::path& folder, const CheckpointInfo& info, const State&
 
 StateParts state_of(const World& world) {
   StateParts parts;
-  for_each_part(world, [&](const std::string& name, std::span<const std::byte> bytes) {
-    parts[name].assign(bytes.begin(), bytes.end());
-  });
+  for_each_part(
+      world,
+      [&](const std::string& name, std::span<const std::byte> bytes) {
+        parts[name].assign(bytes.begin(), bytes.end());
+      },
+      [](const std::string&, std::uint64_t) { return FileRoom(); }, {});
   return parts;
 }
 
@@ -205,7 +220,12 @@ void remove_unfinished_checkpoints(const fs::path& folder) {
   for (const fs::path& file : checkpoints_in(folder, ".h5.new")) remove_own(file, role::run);
 }
 
-Checkpoint::Checkpoint(const fs::path& file) : file_(verified(file)) {
+Checkpoint::Checkpoint(const fs::path& file) : Checkpoint(pulvis::verified(file)) {}
+Checkpoint Checkpoint::verified(const fs::path& file) {
+  return Checkpoint(opened_unverified(file));
+}
+
+Checkpoint::Checkpoint(hdf5::File file) : file_(std::move(file)) {
   try {
     info_.version = file_.text_attribute("/", "version");
     info_.commit = file_.text_attribute("/", "commit");
@@ -247,6 +267,13 @@ void Checkpoint::restore(World& world, const std::set<std::string>& left_alone) 
 
 std::vector<std::byte> Checkpoint::column(const std::string& name) const {
   return file_.read_bytes("/columns/" + name);
+}
+std::uint64_t Checkpoint::column_bytes(const std::string& name) const {
+  return file_.shape("/columns/" + name).front();
+}
+std::vector<std::byte> Checkpoint::column(const std::string& name, std::uint64_t first,
+                                          std::uint64_t bytes) const {
+  return file_.read_bytes("/columns/" + name, first, bytes);
 }
 std::vector<std::byte> Checkpoint::resource(const std::string& name) const {
   return file_.read_bytes("/resources/" + name);

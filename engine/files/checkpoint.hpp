@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "engine/files/hdf5.hpp"
+#include "engine/files/shared_file.hpp"
 #include "engine/world.hpp"
 
 namespace pulvis {
@@ -39,8 +40,13 @@ using StateParts = std::map<std::string, std::vector<std::byte>>;
 StateParts state_of(const World& world);
 
 // Afterwards the folder holds this checkpoint and the previous one, but no older ones of this run.
-// `fetch` is called for every column before it is written, and `leave` after it: for a world that holds one at a time.
+// For a world whose columns are elsewhere. `write` is called first for every column: it returns false if it has not written
+// the column, into the room made for its bytes; else `flush` is called at the end. Otherwise `fetch` is called before the
+// column is written, and `leave` after it.
 struct ColumnVisit {
+  using MakeRoom = std::function<FileRoom(std::uint64_t bytes)>;
+  std::function<bool(const ColumnBase&, const MakeRoom&)> write;
+  std::function<void()> flush;
   std::function<void(const ColumnBase&)> fetch, leave;
 };
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
@@ -74,6 +80,8 @@ class OtherFormat : public DamagedCheckpoint {
 class Checkpoint {
  public:
   explicit Checkpoint(const std::filesystem::path& file);  // throws DamagedCheckpoint
+  // Another process has just read it as a Checkpoint: its checksum is not computed again.
+  static Checkpoint verified(const std::filesystem::path& file);
 
   const CheckpointInfo& info() const { return info_; }
   const std::filesystem::path& file() const { return file_.path(); }
@@ -83,6 +91,9 @@ class Checkpoint {
   // Bytes of one column or resource by its name in the file: "node/position", "clock".
   bool has_column(const std::string& name) const { return file_.contains("/columns/" + name); }
   std::vector<std::byte> column(const std::string& name) const;
+  std::uint64_t column_bytes(const std::string& name) const;
+  std::vector<std::byte> column(const std::string& name, std::uint64_t first,
+                                std::uint64_t bytes) const;
   std::vector<std::byte> resource(const std::string& name) const;
   // Throws BadState if `world` has other columns or resources, apart from the resources in `left_alone`.
   void require_same_parts(const World& world, const std::set<std::string>& left_alone = {}) const;
@@ -90,6 +101,7 @@ class Checkpoint {
   bool has_run(const std::string& name) const { return file_.contains("/run/" + name); }
 
  private:
+  explicit Checkpoint(hdf5::File file);
   hdf5::File file_;
   CheckpointInfo info_;
 };

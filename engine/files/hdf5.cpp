@@ -189,7 +189,9 @@ File File::open_to_change(const std::filesystem::path& path) {
   align_to_pages(access);
   const Id id = H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get());
   if (id < 0) throw OutputError(path, "open the file", reason());
-  return {path, Handle(id)};
+  File file(path, Handle(id));
+  file.committed_ = file.size_on_disk();
+  return file;
 }
 
 Id File::checked(Id result, std::string_view verb, const std::string& object) const {
@@ -199,11 +201,7 @@ Id File::checked(Id result, std::string_view verb, const std::string& object) co
 
 void File::flush() {
   checked(H5Fflush(handle_.get(), H5F_SCOPE_GLOBAL), "flush", "the file");
-  void* descriptor = nullptr;
-  checked(H5Fget_vfd_handle(handle_.get(), defaults, &descriptor), "find", "the file's descriptor");
-  if (fsync(*static_cast<int*>(descriptor)) != 0) {
-    throw OutputError(path_, "flush the file", std::strerror(errno));
-  }
+  if (fsync(descriptor()) != 0) throw OutputError(path_, "flush the file", std::strerror(errno));
 }
 
 void File::close() {
@@ -394,6 +392,20 @@ std::vector<std::int32_t> File::read_integers(const std::string& dataset) const 
 std::vector<std::byte> File::read_bytes(const std::string& dataset) const {
   std::vector<std::byte> bytes(size_of(dataset));
   if (!bytes.empty()) read_any(dataset, H5T_NATIVE_UINT8, bytes.data());
+  return bytes;
+}
+
+std::vector<std::byte> File::read_bytes(const std::string& dataset, std::uint64_t first,
+                                        std::uint64_t count) const {
+  std::vector<std::byte> bytes(count);
+  if (count == 0) return bytes;
+  const Handle found(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
+  const hsize_t size = count;
+  const Handle source = rows_of(found.get(), first, count),
+               target(H5Screate_simple(1, &size, nullptr));
+  checked(
+      H5Dread(found.get(), H5T_NATIVE_UINT8, target.get(), source.get(), defaults, bytes.data()),
+      "read", dataset);
   return bytes;
 }
 

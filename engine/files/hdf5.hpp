@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +40,8 @@ class Handle {
 };
 
 enum class Packing { none, shuffle_gzip };  // the latter for meshes: about a hundred times smaller
+
+enum class Number { real, byte };  // of a dataset that is filled later
 
 enum class Stored { real, whole };  // for numbers passed as doubles
 
@@ -72,6 +75,11 @@ class File {
   void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
              Packing packing = Packing::none);
   void write(const std::string& dataset, std::span<const std::byte> bytes);
+  // A dataset whose values other processes write straight to the file, and where they begin, in bytes from its start; 0 if
+  // it is empty. Nothing, and no dataset, if the only free space is within what was committed before: bytes there change only
+  // with a commit.
+  std::optional<std::uint64_t> make_room(const std::string& dataset, Number number,
+                                         const Shape& shape);
   // A 1-D series: the first `kept` rows of another one (none: 0 rows), then `values`.
   void write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
                     std::span<const double> values, Stored stored = Stored::real);
@@ -89,12 +97,14 @@ class File {
   // Reading.
   bool contains(const std::string& object) const;
   bool is_group(const std::string& object) const;
-  std::vector<std::string> children(const std::string& group) const;  // sorted by name
+  std::vector<std::string> children(const std::string& group) const;        // sorted by name
   std::vector<std::string> datasets_below(const std::string& group) const;  // "tool/top/force_y"
   Shape shape(const std::string& dataset) const;
   std::vector<double> read_doubles(const std::string& dataset) const;
   std::vector<std::int32_t> read_integers(const std::string& dataset) const;
   std::vector<std::byte> read_bytes(const std::string& dataset) const;
+  std::vector<std::byte> read_bytes(const std::string& dataset, std::uint64_t first,
+                                    std::uint64_t count) const;
   bool has_attribute(const std::string& object, const std::string& name) const;
   double number_attribute(const std::string& object, const std::string& name) const;
   std::uint64_t unsigned_attribute(const std::string& object, const std::string& name) const;
@@ -117,8 +127,13 @@ class File {
   std::uint64_t size_of(const std::string& dataset) const;
   Id checked(Id result, std::string_view verb, const std::string& object) const;
 
+  int descriptor() const;
+  std::uint64_t size_on_disk() const;
+
   std::filesystem::path path_;
   Handle handle_;
+  std::uint64_t committed_ =
+      0;  // end of what readers may see; known only with changes that are committed
 };
 
 }  // namespace pulvis::hdf5

@@ -21,16 +21,6 @@ void require_done(bool done, const char* what) {
   if (!done) throw std::system_error(errno, std::generic_category(), what);
 }
 
-void write_all(int file, std::uint64_t at, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t put = pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
-    if (put < 0 && errno == EINTR) continue;
-    require_done(put > 0, "write");
-    bytes = bytes.subspan(static_cast<std::size_t>(put));
-    at += static_cast<std::uint64_t>(put);
-  }
-}
-
 // Reads as many bytes as there are.
 std::size_t read_some(int file, std::uint64_t at, std::span<std::byte> bytes) {
   std::size_t done = 0;
@@ -105,14 +95,15 @@ void JournaledFile::write(std::uint64_t at, std::span<const std::byte> bytes) {
     bytes = bytes.subspan(count);
     at += count;
   }
-  write_all(file_.get(), at, bytes);
+  require_done(write_all(file_.get(), at, bytes), "write");
 }
 
 void JournaledFile::put_in_place(std::uint64_t index, const Page& page, std::uint64_t end) const {
   const std::uint64_t first = index * page_bytes;
   if (first >= end) return;
-  write_all(file_.get(), first,
-            std::span(page).first(std::min<std::size_t>(page_bytes, end - first)));
+  require_done(write_all(file_.get(), first,
+                         std::span(page).first(std::min<std::size_t>(page_bytes, end - first))),
+               "write");
 }
 
 void JournaledFile::write_journal() const {
@@ -130,8 +121,9 @@ void JournaledFile::write_journal() const {
   const FileDescriptor journal(
       ::open(journal_path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   require_done(static_cast<bool>(journal), "open the journal");
-  write_all(journal.get(), 0, bytes);
-  write_all(journal.get(), bytes.size(), std::as_bytes(std::span(&checksum, 1)));
+  require_done(write_all(journal.get(), 0, bytes), "write");
+  require_done(write_all(journal.get(), bytes.size(), std::as_bytes(std::span(&checksum, 1))),
+               "write");
   require_done(fsync(journal.get()) == 0, "flush the journal");
 }
 

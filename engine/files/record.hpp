@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/shared_file.hpp"
+
 namespace pulvis {
 
 struct SeriesInfo {     // one series of the history: one number per sample
@@ -44,6 +46,25 @@ struct FieldInfo {  // one field of the frames: `components` numbers per place
 
 // The values of a frame's fields, requested one after the other: the components of a place are contiguous.
 using FrameValues = std::function<std::vector<double>(std::size_t field)>;
+
+// Where a field's values are in a file: rows of `stored` numbers, of which the last ones are zero if there are more than
+// `components`.
+struct FieldRoom {
+  FileRoom at;
+  FieldPlace place = FieldPlace::cell;
+  int components = 1, stored = 1;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(at, place, components, stored);
+  }
+};
+// Fields of the mesh that several processes write: each writes the rows of its own particles into the file.
+struct FieldWriters {
+  std::function<bool(std::size_t field)> takes;
+  std::function<void(std::size_t field, const FieldRoom&)> write;
+  std::function<void()> flush;  // what was written, to disk
+};
 
 // A constant integer per particle: /particles/<name>. If the numbers are positions in a list
 // of names, its attribute `names` holds that list, one per line.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -72,20 +71,8 @@ const char* name_of(FieldPlace place) {
   return place == FieldPlace::cell ? "cell" : "particle";
 }
 
-std::vector<double> with_zero_third(const std::vector<double>& plane) {
-  std::vector<double> space(plane.size() / 2 * 3, 0.0);
-  for (std::size_t i = 0; i < plane.size() / 2; ++i) {
-    space[3 * i] = plane[2 * i];
-    space[3 * i + 1] = plane[2 * i + 1];
-  }
-  return space;
-}
-
-// Exceeding the file size limit would kill the program: turn it into an ordinary error.
-void survive_a_full_quota() {
-#ifdef SIGXFSZ
-  std::signal(SIGXFSZ, SIG_IGN);
-#endif
+hdf5::Shape shape_of(std::uint64_t rows, int columns) {
+  return columns == 1 ? hdf5::Shape{rows} : hdf5::Shape{rows, static_cast<std::uint64_t>(columns)};
 }
 
 }  // namespace
@@ -232,6 +219,7 @@ void Recorder::commit(Extent extent) {
     renewed.push_back(table.group());
   }
   const bool has_new_frames = has_new_frames_;
+  if (has_new_frames && writers_.flush) writers_.flush();
   replace(renewed);
   csv_.flush();
   if (has_new_frames) xdmf_.write();
@@ -366,6 +354,7 @@ void Recorder::write_frame(double time, std::int64_t step, const FrameValues& va
   file_.set_attribute(group, "time", time);
   file_.set_attribute(group, "step", step);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
+    if (is_written_by_others(group, i)) continue;
     const std::vector<double> of_field = values(i);
     check_length(fields_[i], of_field.size());
     write_field(group, fields_[i], of_field);
@@ -373,20 +362,41 @@ void Recorder::write_frame(double time, std::int64_t step, const FrameValues& va
   file_.set_attribute(group, "complete", std::int64_t{1});
 }
 
+bool Recorder::is_written_by_others(const std::string& group, std::size_t number) {
+  if (!writers_.takes || !writers_.takes(number)) return false;
+  const FieldInfo& field = fields_[number];
+  require(is_of_mesh(field) && !field.whole, "field " + field.name + " is not of the mesh");
+  const int stored = stored_components(field);
+  const std::string dataset = group + "/" + field.name;
+  const auto begin =
+      file_.make_room(dataset, hdf5::Number::real,
+                      shape_of(places_[static_cast<std::size_t>(field.place)], stored));
+  if (!begin) return false;
+  describe_field(dataset, field);
+  writers_.write(number, {{std::filesystem::absolute(file_.path()).string(), *begin},
+                          field.place,
+                          field.components,
+                          stored});
+  return true;
+}
+
 void Recorder::write_field(const std::string& group, const FieldInfo& field,
                            const std::vector<double>& values) {
-  const auto columns = static_cast<std::uint64_t>(field.components);
-  const std::uint64_t rows = values.size() / columns;
-  const auto stored = static_cast<std::uint64_t>(stored_components(field));
+  const int stored = stored_components(field);
   const std::string dataset = group + "/" + field.name;
-  const hdf5::Shape shape = stored == 1 ? hdf5::Shape{rows} : hdf5::Shape{rows, stored};
+  const hdf5::Shape shape =
+      shape_of(values.size() / static_cast<std::size_t>(field.components), stored);
   if (field.whole) {
     file_.write(dataset, std::vector<std::int32_t>(values.begin(), values.end()), shape);
-  } else if (stored == columns) {
+  } else if (stored == field.components) {
     file_.write(dataset, values, shape);
   } else {
     file_.write(dataset, with_zero_third(values), shape);
   }
+  describe_field(dataset, field);
+}
+
+void Recorder::describe_field(const std::string& dataset, const FieldInfo& field) {
   describe(dataset, field.unit, field.meaning);
   file_.set_attribute(dataset, "place", std::string_view(name_of(field.place)));
   file_.set_attribute(dataset, "components", std::int64_t{field.components});

@@ -32,6 +32,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/files/growing_table.hpp"
@@ -79,6 +80,8 @@ class Recorder {
   // One frame. If any field has a wrong length, nothing is kept.
   void frame(double time, std::int64_t step, const FrameValues& values);
   void frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
+  // From now on the fields that these take are not requested, but written by others.
+  void share(FieldWriters writers) { writers_ = std::move(writers); }
 
   // An image, row by row: [lines, pixels]. If its pixels have a physical size, it is stored as pixel_width, pixel_height (m).
   void image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
@@ -115,12 +118,15 @@ class Recorder {
   void cut(const RecorderPosition& position);
   void replace(const std::vector<std::string>& groups);
   void write_csv_again();
+  bool is_written_by_others(const std::string& group, std::size_t number);
   void write_field(const std::string& group, const FieldInfo& field,
                    const std::vector<double>& values);
+  void describe_field(const std::string& dataset, const FieldInfo& field);
   void describe(const std::string& object, const std::string& unit, const std::string& meaning);
 
   std::vector<SeriesInfo> series_;
   std::vector<FieldInfo> fields_;
+  FieldWriters writers_;
   hdf5::File file_;
   HistoryCsv csv_;
   Xdmf xdmf_;

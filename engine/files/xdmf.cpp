@@ -44,6 +44,15 @@ int stored_components(const FieldInfo& field) {
   return vector && is_of_mesh(field) ? 3 : field.components;
 }
 
+std::vector<double> with_zero_third(std::span<const double> plane) {
+  std::vector<double> space(plane.size() / 2 * 3, 0.0);
+  for (std::size_t i = 0; i < plane.size() / 2; ++i) {
+    space[3 * i] = plane[2 * i];
+    space[3 * i + 1] = plane[2 * i + 1];
+  }
+  return space;
+}
+
 Xdmf::Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
            const std::vector<FieldInfo>& fields)
     : path_(std::move(path)),

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,5 +52,6 @@ bool is_of_mesh(const FieldInfo& field);  // constant number of rows, and shown 
 
 // The components a field is stored with: plane vectors get a third one, as XDMF has only those.
 int stored_components(const FieldInfo& field);
+std::vector<double> with_zero_third(std::span<const double> plane);
 
 }  // namespace pulvis

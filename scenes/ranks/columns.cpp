@@ -3,9 +3,25 @@
 #include <algorithm>
 #include <numeric>
 
+#include "components/run_state.hpp"
+#include "components/shape.hpp"
 #include "engine/entry.hpp"
 
 namespace pulvis {
+
+std::vector<std::int32_t> row_begins_in(const World& world, const std::string& entity) {
+  const ContactIndex& index = world.resource<ContactIndex>();
+  std::vector<std::int32_t> begin = is_with_tools(entity) ? index.tool_begin : index.sampled_begin;
+  if (begin.empty()) begin.assign(world.resource<Bodies>().slots.size() + 1, 0);
+  return begin;
+}
+
+std::span<const std::byte> rows_of_chunk(const ColumnBase& column, int chunk,
+                                         const std::vector<std::int32_t>& begin) {
+  if (is_by_chunk(column)) return column.of_chunk(chunk);
+  return rows_of(column, static_cast<std::size_t>(entry(begin, chunk * lane_count)),
+                 static_cast<std::size_t>(entry(begin, (chunk + 1) * lane_count)));
+}
 
 std::span<const std::int32_t> keys_of(const World& world, const char* entity) {
   const std::string name = ContactPair<Contact>::info.name;

@@ -49,6 +49,12 @@ inline std::span<const std::byte> rows_of(const ColumnBase& column, std::size_t 
   return {column.data() + first * column.row_bytes, (last - first) * column.row_bytes};
 }
 
+// First contact row of every slot, of one kind of rows, in this process: [slots + 1].
+std::vector<std::int32_t> row_begins_in(const World& world, const std::string& entity);
+// The part of a column that belongs to a chunk. `begin`: first row of every slot, for contact rows.
+std::span<const std::byte> rows_of_chunk(const ColumnBase& column, int chunk,
+                                         const std::vector<std::int32_t>& begin);
+
 // Slot, edge or face, other of every row; empty if the world has no such rows.
 std::span<const std::int32_t> keys_of(const World& world, const char* entity);
 // Computes from them where the rows of every slot begin: [slots + 1].

@@ -11,6 +11,7 @@
 #include "components/ranks.hpp"
 #include "components/run_state.hpp"
 #include "components/space/contact.hpp"
+#include "components/space/tools.hpp"
 #include "engine/state_bytes.hpp"
 #include "scenes/language/problem.hpp"
 #include "systems/ranks/restore.hpp"
@@ -45,6 +46,7 @@ Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
       ranks_(*share.resource<RankLink>().ranks),
       values_(std::move(values)),
       balance_(share),
+      output_(share),
       needs_motion_(looks_at_motion(scene)) {}
 
 Crew::~Crew() {
@@ -93,6 +95,28 @@ void Crew::fetch(const Order& order) {
 
 void Crew::visit_particles(const Order& order, const ValueSink& take) {
   Gatherer(share_, whole_.get()).particles(values_.at(order.field), take);
+}
+
+void Crew::write(const Order& order) {
+  if (order.kind == Order::Kind::write_field)
+    output_.field(values_.at(order.field), order.room);
+  else if (order.kind == Order::Kind::write_column)
+    output_.column(static_cast<std::size_t>(order.columns.front()), order.room.at);
+  else
+    output_.flush();
+}
+
+// The ranges of triangles count from the start of each rank's own list.
+std::optional<std::uint64_t> Crew::bytes_written_in(const std::filesystem::path& folder,
+                                                    const ColumnBase& column) const {
+  const bool is_range =
+      whole_->has<space::TriangleLists>() && &column == &whole_->column<space::TriangleRange>();
+  if (is_range || !output_.can_write_in(folder)) return {};
+  if (is_by_chunk(column)) return column.owner().rows * column.row_bytes;
+  if (!is_of_contacts(column)) return {};
+  const ContactIndex& index = whole_->resource<ContactIndex>();
+  const auto& begin = is_with_tools(column.entity) ? index.tool_begin : index.sampled_begin;
+  return static_cast<std::uint64_t>(begin.back()) * column.row_bytes;
 }
 
 std::vector<std::uint64_t> Crew::numbers_of(const std::vector<std::string>& names) const {

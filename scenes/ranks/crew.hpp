@@ -3,7 +3,9 @@
 // fetched, and which uses memory only while results are written.
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "engine/world.hpp"
 #include "scenes/ranks/balance.hpp"
 #include "scenes/ranks/gather.hpp"
+#include "scenes/ranks/shared_output.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
@@ -22,8 +25,11 @@ struct Order {
     run,      // to a time
     observe,  // and fetch
     move,
-    fetch,      // columns, index of rows
-    particles,  // values of a field of the mesh or of the state
+    fetch,         // columns, index of rows
+    particles,     // values of a field of the mesh or of the state
+    write_field,   // of the mesh, into the run's file
+    write_column,  // into a checkpoint
+    flush,         // what was written, to disk
     restore,
     leave
   };
@@ -33,10 +39,11 @@ struct Order {
   bool rows = false;                     // their index
   std::string file{};                    // a checkpoint
   std::uint64_t field = 0;               // of mesh_values; one past them: the state
+  FieldRoom room{};                      // in a file, for what is written
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(kind, time, columns, rows, file, field);
+    bytes(kind, time, columns, rows, file, field, room);
   }
 };
 
@@ -60,6 +67,7 @@ class Crew {
   // A rank's part in a fetch.
   void fetch(const Order& order);
   void visit_particles(const Order& order, const ValueSink& take = {});
+  void write(const Order& order);
   // What this rank has sent in all; `ran` adds steps and the bytes sent in them.
   std::uint64_t bytes_sent() const { return ranks_.bytes_sent(); }
   void ran(std::int64_t steps, std::uint64_t bytes) {
@@ -75,6 +83,14 @@ class Crew {
   Order fetch_history() const;  // plus the data of touching rows that the state's hash needs
   Order state_of_all() const;
   Order fetch_start() const;
+  // Whether the ranks write a field of a frame into files in this folder.
+  bool writes_field_in(const std::filesystem::path& folder, std::size_t field) const {
+    return field + 1 < values_.size() && output_.can_write_in(folder);
+  }
+  void write_from_root() { output_.leave_to_root(); }
+  // Bytes of a column of the whole that the ranks write into a checkpoint in this folder; nothing: it must be fetched.
+  std::optional<std::uint64_t> bytes_written_in(const std::filesystem::path& folder,
+                                                const ColumnBase& column) const;
   // Restores what was last found in the whole, valid until the next search.
   void restore_findings(const Checkpoint& checkpoint);
   // Frees the memory of fetched data, except for small columns.
@@ -95,6 +111,7 @@ class Crew {
   Ranks& ranks_;
   std::vector<ParticleValues> values_;  // of fields, and last of the state
   Balance balance_;
+  SharedOutput output_;
   bool needs_motion_;  // results read nodes at every sample
   std::int64_t steps_ = 0, bytes_ = 0, bytes_of_all_ = 0;
   std::vector<double> memory_;

@@ -53,18 +53,6 @@ std::vector<std::byte> Gatherer::joined(std::span<const std::byte> own,
   return whole;
 }
 
-namespace {
-
-// The part of a column that belongs to a chunk. `begin`: first row of every slot, for contact rows.
-std::span<const std::byte> of_chunk(const ColumnBase& column, int chunk,
-                                    const std::vector<std::int32_t>& begin) {
-  if (is_by_chunk(column)) return column.of_chunk(chunk);
-  return rows_of(column, static_cast<std::size_t>(entry(begin, chunk * lane_count)),
-                 static_cast<std::size_t>(entry(begin, (chunk + 1) * lane_count)));
-}
-
-}  // namespace
-
 void Gatherer::column(std::size_t number) {
   const ColumnBase& own = *share_.columns()[number];
   const RowBegins begins = is_by_chunk(own) ? RowBegins{} : row_begins(own.entity);
@@ -89,7 +77,7 @@ void Gatherer::part_of_column(std::size_t number, const RowBegins& begins, int f
   std::vector<std::byte> bytes;
   for (int chunk = first; chunk < last; ++chunk) {
     if (entry(owner, chunk) != ranks_.rank()) continue;
-    const std::span<const std::byte> rows = of_chunk(own, chunk, begins.own);
+    const std::span<const std::byte> rows = rows_of_chunk(own, chunk, begins.own);
     bytes.insert(bytes.end(), rows.begin(), rows.end());
   }
   const std::vector<Ranks::Bytes> all = ranks_.gather(bytes);
@@ -98,7 +86,7 @@ void Gatherer::part_of_column(std::size_t number, const RowBegins& begins, int f
   std::vector<std::size_t> at(all.size());
   for (int chunk = first; chunk < last; ++chunk) {
     const auto rank = static_cast<std::size_t>(entry(owner, chunk));
-    const std::span<const std::byte> rows = of_chunk(column, chunk, begins.whole);
+    const std::span<const std::byte> rows = rows_of_chunk(column, chunk, begins.whole);
     if (rows.empty()) continue;
     std::memcpy(column.data() + (rows.data() - column.data()), all[rank].data() + at[rank],
                 rows.size());
@@ -141,10 +129,8 @@ void Gatherer::particles(const ParticleValues& values, const ValueSink& take) {
 
 // First row of every slot: here, and on the root of the whole.
 Gatherer::RowBegins Gatherer::row_begins(const std::string& entity) {
-  const ContactIndex& index = share_.resource<ContactIndex>();
   const Bodies& bodies = share_.resource<Bodies>();
-  RowBegins begins{is_with_tools(entity) ? index.tool_begin : index.sampled_begin, {}};
-  if (begins.own.empty()) begins.own.assign(bodies.slots.size() + 1, 0);
+  RowBegins begins{row_begins_in(share_, entity), {}};
   std::vector<std::int32_t> counts;
   bodies.for_own_lanes(
       [&](int slot) { counts.push_back(entry(begins.own, slot + 1) - entry(begins.own, slot)); });
@@ -285,14 +271,16 @@ void take_rows(const Checkpoint& checkpoint, World& share, const char* entity) {
   const std::vector<std::int32_t> kept = rows_to_keep(bodies, keys, is_with_tools(entity));
   for (const ColumnBase* column : share.columns()) {
     if (!is_of_rows(*column, entity) || column->declared_transient) continue;
-    const std::vector<std::byte> all = checkpoint.column(entity + std::string("/") +
-                                                         column->info.name);
     std::vector<std::byte> own;
     own.reserve(kept.size() * column->row_bytes);
-    for (const std::int32_t r : kept) {
-      const auto first = all.begin() + static_cast<std::ptrdiff_t>(r) *
-                                           static_cast<std::ptrdiff_t>(column->row_bytes);
-      own.insert(own.end(), first, first + static_cast<std::ptrdiff_t>(column->row_bytes));
+    for (std::size_t first = 0, last = 0; first < kept.size(); first = last) {
+      while (last < kept.size() && kept[last] - kept[first] == static_cast<int>(last - first))
+        ++last;
+      const std::vector<std::byte> rows = checkpoint.column(
+          entity + std::string("/") + column->info.name,
+          static_cast<std::uint64_t>(kept[first]) * column->row_bytes,
+          (last - first) * column->row_bytes);
+      own.insert(own.end(), rows.begin(), rows.end());
     }
     share.set_column(*column, own);
   }
@@ -314,19 +302,18 @@ void restore_share(const Checkpoint& checkpoint, World& share, std::set<std::str
     const ColumnBase& column = *share.columns()[i];
     if (column.declared_transient) continue;
     if (is_of_contacts(column)) continue;
-    const std::vector<std::byte> all =
-        checkpoint.column(column.entity + "/" + column.info.name);
+    const std::string name = column.entity + "/" + column.info.name;
     if (!is_by_chunk(column)) {
-      share.set_column(column, all);
+      share.set_column(column, checkpoint.column(name));
       continue;
     }
-    if (all.size() != column.bytes())
-      throw BadState("the rows of " + column.entity + "/" + column.info.name +
-                     " do not fit the scene");
+    if (checkpoint.column_bytes(name) != column.bytes())
+      throw BadState("the rows of " + name + " do not fit the scene");
     for (const int chunk : share.resource<Bodies>().own_chunks) {
       const std::span<const std::byte> rows = column.of_chunk(chunk);
-      const auto at = rows.data() - column.data();
-      std::memcpy(same_column(share, i).data() + at, all.data() + at, rows.size());
+      const auto at = static_cast<std::size_t>(rows.data() - column.data());
+      const std::vector<std::byte> saved = checkpoint.column(name, at, rows.size());
+      std::ranges::copy(saved, same_column(share, i).data() + at);
     }
   }
   for (const char* entity : row_entities) take_rows(checkpoint, share, entity);

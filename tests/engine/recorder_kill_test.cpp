@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -231,6 +232,29 @@ TEST_F(RecorderKill, AFrameIsThereOrNot) {
   Recorder recorder(folder, {}, square(), series(), fields());
   watch();
   go_on(recorder, 0, 60);
+  recorder.finish();
+  committed();
+  expect_commits_and_nothing_between();
+}
+
+// Whatever an other process has written of it, nobody reads it before the commit.
+TEST_F(RecorderKill, AFrameThatOthersWriteIsThereOrNot) {
+  Recorder recorder(folder, {}, square(), series(), fields());
+  std::optional<SharedFile> part;
+  int written = 0;
+  recorder.share({[](std::size_t field) { return field == 0; },
+                  [&](std::size_t, const FieldRoom& room) {
+                    const std::vector<double> position(8, ++written);
+                    if (!part) part.emplace(room.at.file);
+                    part->write(room.at.begin, std::as_bytes(std::span(position)));
+                  },
+                  [&] {
+                    if (part) part->flush();
+                    part.reset();
+                  }});
+  watch();
+  go_on(recorder, 0, 60);
+  EXPECT_GT(written, 0);
   recorder.finish();
   committed();
   expect_commits_and_nothing_between();

@@ -3,7 +3,7 @@
 //   mpirun -np N rebalanced_run EVERY run SCENE FOLDER STOP THREADS [KEY=VALUE...]
 //   mpirun -np N rebalanced_run EVERY resume FOLDER STOP
 //
-// Every so many steps each chunk costs another number of 1 to 7, which the step and the chunk alone say.
+// Until it is resumed, the root writes all files, as it does on NFS. Every so many steps each chunk costs another number of 1 to 7, which the step and the chunk alone say.
 #include <cstdlib>
 #include <exception>
 #include <string>
@@ -36,6 +36,7 @@ ExitCode run(const std::vector<std::string>& words) {
   options.checkpoints.stop_after = std::stoll(words.at(folder + 1));
   options.threads = begins ? std::stoi(words.at(5)) : 1;
   options.before_steps = [&](Simulation& simulation) {
+    if (begins) simulation.write_from_root();
     if (simulation.balance() != nullptr)
       simulation.balance()->follow(std::stoll(words.at(0)), shaken_costs);
   };

@@ -6,6 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "components/shape.hpp"
+#include "components/space/shape.hpp"
+#include "engine/files/record.hpp"
 #include "engine/world.hpp"
 
 namespace pulvis {
@@ -13,6 +16,19 @@ namespace pulvis {
 // Appends the values of the particle in `slot`.
 using ParticleValues = std::function<void(const World& world, int slot, std::vector<double>& out)>;
 using ValueSink = std::function<void(std::span<const double>)>;
+
+// Number of nodes or cells of the particle in `slot`; also of one that this process does not hold.
+inline std::size_t places_in(const World& world, int slot, FieldPlace place) {
+  const Bodies& bodies = world.resource<Bodies>();
+  const bool nodes = place == FieldPlace::node;
+  if (world.has<space::Shapes>()) {
+    const space::Shape& shape =
+        entry(world.resource<space::Shapes>().list, entry(bodies.slots, slot).shape);
+    return nodes ? shape.nodes.size() : shape.hexahedra.size();
+  }
+  const Shape& shape = bodies.shape_of_slot(slot);
+  return nodes ? shape.nodes.size() : shape.quads.size();
+}
 
 // The first row of column C that belongs to the particle in `slot`; its values are `lane_count` apart.
 template <class C>
