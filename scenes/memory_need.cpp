@@ -72,7 +72,7 @@ std::vector<std::uint64_t> particles_of_classes(const Scene& scene) {
   return count;
 }
 
-// Of so many ranks, with the root among them.
+// Of so many ranks.
 MemoryNeed of_ranks(MemoryNeed need, int count, int all) {
   const auto some = static_cast<std::uint64_t>(count);
   need.columns = need.columns * some / static_cast<std::uint64_t>(all);
@@ -125,17 +125,26 @@ MemoryNeed memory_need(const Scene& scene) {
   return need;
 }
 
-MemoryNeed require_memory(const Scene& scene, const RanksHere& ranks) {
+MemoryNeed require_memory(const Scene& scene, const std::vector<MachineMemory>& machines) {
   const MemoryNeed need = memory_need(scene);
-  const auto require = [&](int count, std::uint64_t there) {
-    const std::uint64_t needed = of_ranks(need, count, ranks.all).total();
-    if (needed > there)
-      throw OutputError(scene.file, "run it",
-                        fmt::format("it needs about {} of memory, but only {} are available",
-                                    bytes_text(needed), bytes_text(there)));
+  int all = 0;
+  for (const MachineMemory& machine : machines) all += machine.ranks;
+  MemoryNeed of_all = need;
+  const auto require = [&](const MachineMemory& machine, int count, std::uint64_t left) {
+    const std::uint64_t needed = of_ranks(of_all, count, all).total();
+    if (needed <= left) return;
+    const std::string where = machine.name.empty() ? ""
+                                                   : fmt::format(" on {} for {} of its {} ranks",
+                                                                 machine.name, count, all);
+    throw OutputError(scene.file, "run it",
+                      fmt::format("it needs about {} of memory{}, but only {} are available",
+                                  bytes_text(needed), where, bytes_text(left)));
   };
-  require(ranks.here, left_by_machine());
-  require(1, left_by_shell());
+  for (const MachineMemory& machine : machines) {
+    require(machine, machine.ranks, machine.left);
+    require(machine, 1, machine.left_to_each);
+    of_all.results = 0;  // on the first machine only
+  }
   return need;
 }
 

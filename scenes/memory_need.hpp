@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
+#include "engine/machine_memory.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
@@ -18,13 +21,17 @@ struct MemoryNeed {
 // For scenes of particles; their packings must be filled.
 MemoryNeed memory_need(const Scene& scene);
 
-// Of the ranks of a run, those on this machine.
-struct RanksHere {
-  int here = 1, all = 1;
+// One of the machines of a run, and how much memory it has left.
+struct MachineMemory {
+  std::string name{};  // empty: this machine, the only one
+  int ranks = 1;
+  std::uint64_t left = left_by_machine();        // bytes, for its ranks together
+  std::uint64_t left_to_each = left_by_shell();  // bytes
 };
 
-// Their need: particles and contacts are shared by all ranks, results are gathered by the root, taken to be here. Throws
-// OutputError where this machine does not have that much free memory.
-MemoryNeed require_memory(const Scene& scene, const RanksHere& ranks = {});
+// Particles and contacts are shared by all ranks; results are gathered by the root, which is on the first machine. Throws
+// OutputError where a machine does not have that much free memory.
+MemoryNeed require_memory(const Scene& scene,
+                          const std::vector<MachineMemory>& machines = {MachineMemory()});
 
 }  // namespace pulvis

@@ -15,7 +15,9 @@
 #include "cli/ranks/mpi_plugin.hpp"
 #include "cli/shell_word.hpp"
 #include "engine/instruction_set.hpp"
+#include "engine/machine_memory.hpp"
 #include "engine/ranks/machine_name.hpp"
+#include "engine/state_bytes.hpp"
 
 namespace pulvis {
 namespace {
@@ -65,25 +67,54 @@ std::string own_words() {  // of the command line, without the program's path
   return words;
 }
 
+// Where a rank runs.
 struct Place {
-  std::string machine;
-  cpu_set_t processors;
+  std::string machine = machine_name(), host = host_name();
+  std::uint64_t left_by_machine = pulvis::left_by_machine(),
+                left_by_shell = pulvis::left_by_shell();
+  std::vector<std::uint8_t> processors;  // [CPU_SETSIZE], those that it may use
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(machine, host, left_by_machine, left_by_shell, processors);
+  }
 };
 
-Place place_of(const Ranks::Bytes& bytes) {
+Place own_place() {
+  cpu_set_t own;
+  CPU_ZERO(&own);
+  if (sched_getaffinity(0, sizeof own, &own) != 0) CPU_SET(0, &own);
   Place place;
-  std::memcpy(&place.processors, bytes.data(), sizeof place.processors);
-  place.machine = text_of({bytes.begin() + sizeof place.processors, bytes.end()});
+  for (std::size_t i = 0; i < CPU_SETSIZE; ++i)
+    place.processors.push_back(CPU_ISSET(i, &own) ? 1 : 0);
   return place;
+}
+
+std::vector<MachineMemory> machines_of(const std::vector<Place>& places) {
+  std::vector<MachineMemory> machines;
+  std::vector<std::string> names;
+  for (const Place& place : places) {
+    const auto at =
+        static_cast<std::size_t>(std::ranges::find(names, place.machine) - names.begin());
+    if (at == names.size()) {
+      names.push_back(place.machine);
+      machines.push_back({place.host, 0, place.left_by_machine, place.left_by_shell});
+    }
+    MachineMemory& machine = machines[at];
+    machine.ranks += 1;
+    machine.left = std::min(machine.left, place.left_by_machine);
+    machine.left_to_each = std::min(machine.left_to_each, place.left_by_shell);
+  }
+  return machines;
 }
 
 // Of one rank, among all places.
 int threads_at(const Place& own, const std::vector<Place>& places) {
   double share = 0;
   for (std::size_t i = 0; i < CPU_SETSIZE; ++i) {
-    if (!CPU_ISSET(i, &own.processors)) continue;
+    if (own.processors[i] == 0) continue;
     const auto sharing = std::ranges::count_if(places, [&](const Place& other) {
-      return other.machine == own.machine && CPU_ISSET(i, &other.processors);
+      return other.machine == own.machine && other.processors[i] != 0;
     });
     share += 1 / static_cast<double>(sharing);
   }
@@ -150,27 +181,18 @@ std::unique_ptr<Ranks> join_ranks() {
 }
 
 MachineShare machine_share_of(Ranks& ranks) {
-  cpu_set_t own;
-  CPU_ZERO(&own);
-  if (sched_getaffinity(0, sizeof own, &own) != 0) CPU_SET(0, &own);
-  Ranks::Bytes place(sizeof own);
-  std::memcpy(place.data(), &own, sizeof own);
-  const Ranks::Bytes machine = bytes_of(machine_name());
-  place.insert(place.end(), machine.begin(), machine.end());
-
+  StateWriter writer;
+  own_place().state(writer);
   std::vector<Place> places;
-  for (const Ranks::Bytes& bytes : ranks.gather(place)) places.push_back(place_of(bytes));
-  std::vector<MachineShare> shares(static_cast<std::size_t>(ranks.count()));
-  if (ranks.is_root())
-    std::ranges::transform(places, shares.begin(), [&](const Place& one) {
-      const auto here = std::ranges::count(places, one.machine, &Place::machine);
-      return MachineShare{threads_at(one, places), static_cast<int>(here)};
-    });
-  Ranks::Bytes bytes(shares.size() * sizeof(MachineShare));
-  std::memcpy(bytes.data(), shares.data(), bytes.size());
-  ranks.broadcast(bytes);
-  std::memcpy(shares.data(), bytes.data(), bytes.size());
-  return shares[static_cast<std::size_t>(ranks.rank())];
+  for (const Ranks::Bytes& bytes : ranks.gather(writer.bytes())) {
+    StateReader reader(bytes);
+    places.emplace_back().state(reader);
+  }
+  std::vector<std::int64_t> threads(static_cast<std::size_t>(ranks.count()));
+  std::ranges::transform(places, threads.begin(),
+                         [&](const Place& one) { return threads_at(one, places); });
+  ranks.sum(threads);  // only the root has any
+  return {static_cast<int>(threads[static_cast<std::size_t>(ranks.rank())]), machines_of(places)};
 }
 
 }  // namespace pulvis

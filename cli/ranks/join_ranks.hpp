@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/ranks/ranks.hpp"
+#include "scenes/memory_need.hpp"
 
 namespace pulvis {
 
@@ -39,7 +40,7 @@ void require_alike(Ranks& ranks, const std::string& own, const std::string& rule
 
 struct MachineShare {
   int threads = 1;  // processors for this rank; each is shared evenly by the ranks that may use it
-  int ranks = 1;    // on this rank's machine
+  std::vector<MachineMemory> machines{};  // of all ranks, that of the root first; only on the root
 };
 // Collective.
 MachineShare machine_share_of(Ranks& ranks);

@@ -25,7 +25,7 @@ void require_free_folder(const LoadedScene& loaded, const std::filesystem::path&
 OpenSession open_session(const LoadedScene& loaded, const Session::Options& options, bool overwrite,
                          const std::function<void()>& before_writing) {
   if (!options.folder.empty()) require_free_folder(loaded, options.folder);
-  require_memory(loaded.scene, options.ranks != nullptr ? options.ranks->here() : RanksHere{});
+  require_memory(loaded.scene, machines_of(options.ranks));
   Ranks* ranks = options.ranks != nullptr ? &options.ranks->tell(loaded) : nullptr;
   auto simulation = std::make_unique<Simulation>(loaded.scene, options.threads, ranks);
   if (before_writing) before_writing();

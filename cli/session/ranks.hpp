@@ -20,8 +20,8 @@ ExitCode follow_root(Ranks& ranks, int threads);
 // The root's control of the other ranks. If it leaves before it has sent them a scene, nobody waits for it.
 class LedRanks {
  public:
-  // `here`: how many of them are on the root's machine.
-  LedRanks(Ranks& ranks, int here) : ranks_(ranks), here_{here, ranks.count()} {}
+  LedRanks(Ranks& ranks, std::vector<MachineMemory> machines)
+      : ranks_(ranks), machines_(std::move(machines)) {}
   ~LedRanks() {
     if (!told_) tell_nothing(ranks_);
   }
@@ -35,12 +35,17 @@ class LedRanks {
     return ranks_;
   }
 
-  const RanksHere& here() const { return here_; }
+  const std::vector<MachineMemory>& machines() const { return machines_; }
 
  private:
   Ranks& ranks_;
-  RanksHere here_;
+  std::vector<MachineMemory> machines_;
   bool told_ = false;
 };
+
+// Of a run; `ranks`: null for one process.
+inline std::vector<MachineMemory> machines_of(const LedRanks* ranks) {
+  return ranks != nullptr ? ranks->machines() : std::vector{MachineMemory()};
+}
 
 }  // namespace pulvis

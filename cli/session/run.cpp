@@ -129,7 +129,7 @@ class RankOfRun {
  public:
   explicit RankOfRun(const RunOptions& options)
       : ranks_(join_ranks()), share_(share_of(options, ranks_.get())) {
-    if (ranks_ && ranks_->is_root()) led_.emplace(*ranks_, share_.ranks);
+    if (ranks_ && ranks_->is_root()) led_.emplace(*ranks_, share_.machines);
   }
   int threads() const { return share_.threads; }
   bool follows() const { return ranks_ && !led_; }
@@ -180,7 +180,7 @@ ExitCode resume_run(const RunOptions& options) {
     tell("resumed at step {}, t = {:.6g} s\n", checkpoint.info().step, checkpoint.info().time);
   const int threads = rank.threads();
   if (loaded.scene.afm) return resume_afm(loaded, options, checkpoint, threads);
-  require_memory(loaded.scene, rank.led() != nullptr ? rank.led()->here() : RanksHere{});
+  require_memory(loaded.scene, machines_of(rank.led()));
   Ranks* ranks = rank.led() != nullptr ? &rank.led()->tell(loaded) : nullptr;
   Session run(loaded, {options.folder, threads, options.talks(), options.checkpoints, rank.led()},
               std::make_unique<Simulation>(loaded.scene, threads, ranks));

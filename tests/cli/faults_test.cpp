@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "engine/files/hdf5.hpp"
+#include "engine/files/output_error.hpp"
 #include "scenes/memory_need.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/paths.hpp"
@@ -137,6 +138,28 @@ TEST_F(Faults, AFolderThatVanishesIsNamed) {
   EXPECT_THAT(end.err,
               ContainsRegex("run/[a-z.0-9-]+: cannot .*: (No such file or directory|it is no "
                             "longer there)"));
+}
+
+// The root's machine holds the results, too; the others only their ranks' shares.
+TEST_F(Faults, EveryMachineOfARunNeedsTheMemoryOfItsRanks) {
+  const Scene large = read_scene(scene("compaction/hexagonal-1683.toml"));
+  const MemoryNeed need = memory_need(large);
+  const std::uint64_t shared = need.columns + need.contacts, plenty = 100 * need.total();
+  const auto told = [&](std::uint64_t first, std::uint64_t second, std::uint64_t each) {
+    try {
+      require_memory(large, {{"node1", 1, first, plenty}, {"node2", 3, second, each}});
+      return std::string();
+    } catch (const OutputError& error) {
+      return error.reason();
+    }
+  };
+  const std::uint64_t first = shared / 4 + need.program + need.results,
+                      second = shared * 3 / 4 + 3 * need.program;
+  EXPECT_EQ(told(first + 2, second + 2, second), "");
+  EXPECT_THAT(told(first - 1000, second + 2, second),
+              ContainsRegex("it needs about .* of memory on node1 for 1 of its 4 ranks, but only"));
+  EXPECT_THAT(told(first + 2, second - 1000, second), HasSubstr("on node2 for 3 of its 4 ranks"));
+  EXPECT_THAT(told(first + 2, second + 2, shared / 4), HasSubstr("on node2 for 1 of its 4 ranks"));
 }
 
 TEST_F(Faults, TooLittleMemoryIsRefusedBeforeTheFolderIsMade) {

@@ -236,7 +236,19 @@ TEST(Ranks, ThreadsShareTheProcessors) {
   std::vector<std::int64_t> threads{own};
   ranks->sum(threads);
   EXPECT_LE(threads[0], std::max(processors, ranks->count()));
-  EXPECT_EQ(machine_share_of(*ranks).ranks, ranks->count());  // this test has one machine
+}
+
+TEST(Ranks, TheRootKnowsTheMemoryOfEveryMachine) {
+  const std::vector<MachineMemory> machines = machine_share_of(*ranks).machines;
+  if (!ranks->is_root()) {
+    EXPECT_TRUE(machines.empty());
+    return;
+  }
+  ASSERT_EQ(machines.size(), 1U);  // this test has one machine
+  EXPECT_EQ(machines[0].ranks, ranks->count());
+  EXPECT_FALSE(machines[0].name.empty());
+  EXPECT_GT(machines[0].left, 0U);
+  EXPECT_LE(machines[0].left, left_by_machine() * 2);
 }
 
 // How a process may leave the others.
