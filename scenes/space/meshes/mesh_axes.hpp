@@ -18,6 +18,10 @@ class TurnedSurface final : public StarSurface {
   Vec3 normal(const Vec3& d) const override {
     return axes_.transpose() * surface_.normal(axes_ * d);
   }
+  Spot spot(const Vec3& d) const override {
+    const Spot own = surface_.spot(axes_ * d);
+    return {own.radius, axes_.transpose() * own.normal};
+  }
   Vec3 half_size() const override { return half_size_; }
   double volume() const override { return surface_.volume(); }
   double roundness() const override { return surface_.roundness(); }

@@ -61,12 +61,14 @@ class RoundedPolyhedron final : public StarSurface {
     }
     return t;
   }
-  Vec3 normal(const Vec3& d) const override {
+  Vec3 normal(const Vec3& d) const override { return spot(d).normal; }
+  Spot spot(const Vec3& d) const override {
     double t = 0;
     const Side& side = first_side(d, t);
-    if (rounding_ == 0) return side.plane.normal;
-    const Vec3 p = radius(d) * d;
-    return (p - closest(p)).normalized();
+    if (rounding_ == 0) return {t, side.plane.normal};
+    const double r = radius(d);
+    const Vec3 p = r * d;
+    return {r, (p - closest(p)).normalized()};
   }
   Vec3 half_size() const override { return half_size_; }
   double volume() const override { return volume_; }
@@ -142,8 +144,10 @@ class RoundedPolyhedron final : public StarSurface {
         high = high.cwiseMax(p);
       }
     }
-    for (Triangle& t : triangles_)
+    for (Triangle& t : triangles_) {
       for (Vec3& p : t) p -= centre_;
+      near_.emplace_back(t);
+    }
     half_size_ = (high - low) / 2 + Vec3::Constant(rounding_);
   }
 
@@ -163,9 +167,9 @@ class RoundedPolyhedron final : public StarSurface {
   Vec3 closest(const Vec3& p) const {
     Vec3 best = Vec3::Zero();
     double least = std::numeric_limits<double>::max();
-    for (const Triangle& t : triangles_) {
-      if (area_vector(t).dot(p - t[0]) < 0) continue;
-      const Vec3 near = closest_point(t, p);
+    for (const NearTriangle& t : near_) {
+      if (!t.is_before(p)) continue;
+      const Vec3 near = t.closest(p);
       if ((near - p).squaredNorm() >= least) continue;
       least = (near - p).squaredNorm();
       best = near;
@@ -176,6 +180,7 @@ class RoundedPolyhedron final : public StarSurface {
   double rounding_, volume_ = 0;
   std::vector<Side> sides_;
   std::vector<Triangle> triangles_;
+  std::vector<NearTriangle> near_;  // the same
   Vec3 half_size_ = Vec3::Zero(), centre_ = Vec3::Zero();
 };
 

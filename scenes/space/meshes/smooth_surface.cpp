@@ -70,7 +70,8 @@ Likeness likeness(const SurfaceNet& net, const std::vector<Vec3>& points,
       for (const double v : looked_at) {
         const PatchPoint patch = patch_at(points_of(net, f), points, u, v);
         const Vec3 direction = patch.at.normalized();
-        const Vec3 off = patch.at - surface.point(direction), normal = surface.normal(direction);
+        const auto [radius, normal] = surface.spot(direction);
+        const Vec3 off = patch.at - radius * direction;
         worst.distance = std::max(worst.distance, off.norm());
         worst.bulge = std::max(worst.bulge, off.dot(normal));
         const double area = patch.area().norm(), along = patch.area().dot(normal);
@@ -123,8 +124,8 @@ class Fit {
       const Combination& place = entry(frames_, j).place;
       if (place.empty()) continue;
       const Vec3 at = value_of(place, control), direction = at.normalized();
-      const Vec3 normal = surface_.normal(direction);
-      off[j] = normal.dot(surface_.point(direction) - at);
+      const auto [radius, normal] = surface_.spot(direction);
+      off[j] = normal.dot(radius * direction - at);
       for (const auto& [i, weight] : place)
         entries.emplace_back(j, i, -weight * normal.dot(entry(u_, i)));
     }
@@ -230,9 +231,12 @@ class Fit {
     return change;
   }
 
+  int neighbour(int node, int end) const { return net_.node(entry(entry(net_.fan, node), end), 1); }
+
   // Where a line leads to an irregular node, whose position follows from the derivative D along it at the regular node w:
   // D = a D_spline + b U_w in the tangent plane at w, and half of it reaches that at the irregular node.
   void turn_line(int w, int line, const std::vector<Vec3>& control, NodeFrame& frame) const {
+    if (net_.valence(neighbour(w, line)) != 3 && net_.valence(neighbour(w, line + 2)) != 3) return;
     const Vec3 at = value_of(frame.place, control), spline = value_of(frame.along[line], control);
     const Vec3 u = value_of(umbrella(net_, w), control);
     Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
@@ -243,15 +247,13 @@ class Fit {
       square += by * by.transpose();
       right += by * (wanted - by[0]);
     };
-    bool irregular = false;
     for (const int end : {line, line + 2}) {
-      const int v = net_.node(entry(entry(net_.fan, w), end), 1);
+      const int v = neighbour(w, end);
       if (net_.valence(v) != 3) continue;
-      irregular = true;
-      const Vec3 direction = entry(control, v).normalized(), normal = surface_.normal(direction);
-      demand(normal, end == line ? 0.5 : -0.5, normal.dot(surface_.point(direction) - at));
+      const Vec3 direction = entry(control, v).normalized();
+      const auto [radius, normal] = surface_.spot(direction);
+      demand(normal, end == line ? 0.5 : -0.5, normal.dot(radius * direction - at));
     }
-    if (!irregular) return;
     demand(surface_.normal(at.normalized()), 1, 0);
     square.diagonal().array() +=
         std::max(stay_turned * u.squaredNorm(), std::numeric_limits<double>::min());

@@ -13,6 +13,12 @@ class StarSurface {
   // `direction`: unit vector.
   virtual double radius(const Vec3& direction) const = 0;  // m
   virtual Vec3 normal(const Vec3& direction) const = 0;    // outward unit vector there
+  // Both: many surfaces need the radius for the normal.
+  struct Spot {
+    double radius;
+    Vec3 normal;
+  };
+  virtual Spot spot(const Vec3& direction) const { return {radius(direction), normal(direction)}; }
   // m, from the centre along x, y, z: of a box of roughly the same proportions.
   virtual Vec3 half_size() const = 0;
   virtual double volume() const = 0;  // m^3, exact

@@ -20,8 +20,9 @@ using std::numbers::pi;
 class TriangleFan {
  public:
   explicit TriangleFan(const std::vector<Triangle>& triangles) {
-    cells_ =
-        std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles.size()) / 6)), 1, 40);
+    // A smoothed surface sends a hundred rays for each of its points: cells with few triangles pay off.
+    cells_ = std::clamp(static_cast<int>(2 * std::sqrt(static_cast<double>(triangles.size()) / 6)),
+                        8, 40);
     in_cell_.resize(static_cast<std::size_t>(6 * cells_ * cells_));
     const std::vector<Vec3> middles = cell_middles();
     for (const Triangle& t : triangles) add(t, middles);
@@ -75,21 +76,28 @@ class TriangleFan {
     return (side * cells_ + along(axis + 1)) * cells_ + along(axis + 2);
   }
 
-  // To all cells whose cap around their centre intersects the triangle's.
+  // To all cells whose cap around their centre intersects the triangle's, and lies on the inner side of the planes through
+  // the centre and its sides, at least in part.
   void add(const Triangle& triangle, const std::vector<Vec3>& middles) {
     const int number = static_cast<int>(seen_.size());
     seen_.emplace_back(triangle);
     const Vec3 middle =
         (triangle[0].normalized() + triangle[1].normalized() + triangle[2].normalized())
             .normalized();
-    double reach = portable::atan(std::numbers::sqrt2 / cells_) + 1e-6;
+    const double of_cell = portable::atan(std::numbers::sqrt2 / cells_) + 1e-6,
+                 least_inside = -portable::sin(of_cell);
+    std::array<Vec3, 3> inwards = seen_.back().sides;
+    for (Vec3& side : inwards) side.normalize();
     double far = 0;
     for (const Vec3& p : triangle)
       far = std::max(far, portable::atan2(middle.cross(p).norm(), middle.dot(p)));
-    reach = std::min(reach + far, pi);
-    const double least = portable::cos(reach);
-    for (std::size_t c = 0; c < middles.size(); ++c)
-      if (middle.dot(middles[c]) >= least) in_cell_[c].push_back(number);
+    const double least = portable::cos(std::min(of_cell + far, pi));
+    for (std::size_t c = 0; c < middles.size(); ++c) {
+      if (middle.dot(middles[c]) < least) continue;
+      if (std::ranges::all_of(
+              inwards, [&](const Vec3& side) { return side.dot(middles[c]) >= least_inside; }))
+        in_cell_[c].push_back(number);
+    }
   }
 
   std::vector<Vec3> cell_middles() const {
@@ -173,14 +181,18 @@ class TriangleSurface final : public StarSurface {
     return scale_ * sum / weights;
   }
   // For the surface r(d) d: along d - grad r / r.
-  Vec3 normal(const Vec3& d) const override {
-    if (smoothing_ == 0) return fan_.along(d).normal.normalized();
+  Vec3 normal(const Vec3& d) const override { return spot(d).normal; }
+  Spot spot(const Vec3& d) const override {
+    if (smoothing_ == 0) {
+      const TriangleFan::Hit hit = fan_.along(d);
+      return {scale_ * hit.distance, hit.normal.normalized()};
+    }
     const double step = smoothing_ / 2, r = radius(d);
     Vec3 n = d;
     for (const Vec3& side : across(d))
       n -= (radius((d + step * side).normalized()) - radius((d - step * side).normalized())) /
            (2 * step * r) * side;
-    return n.normalized();
+    return {r, n.normalized()};
   }
   Vec3 half_size() const override { return half_size_; }
   double volume() const override { return volume_; }

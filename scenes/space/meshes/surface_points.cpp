@@ -144,8 +144,17 @@ class Points {
 
 }  // namespace
 
+double& Combination::weight_at(int number, std::size_t& at) {
+  while (at < terms_.size() && terms_[at].first < number) ++at;
+  if (at == terms_.size() || terms_[at].first != number)
+    terms_.insert(terms_.begin() + static_cast<std::ptrdiff_t>(at), {number, 0.0});
+  return terms_[at].second;
+}
+
 void add(Combination& to, const Combination& from, double factor) {
-  for (const auto& [number, weight] : from) to[number] += factor * weight;
+  if (to.empty()) to.terms_.reserve(2 * from.terms_.size());  // most grow once more
+  std::size_t at = 0;
+  for (const auto& [number, weight] : from) to.weight_at(number, at) += factor * weight;
 }
 
 std::vector<NodeFrame> spline_frames(const SurfaceNet& net) {

@@ -1,14 +1,40 @@
 // Bezier points of the smooth surface as combinations of its control net: see smooth_surface.hpp.
 #pragma once
 
-#include <map>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "scenes/space/meshes/surface_net.hpp"
 
 namespace pulvis::space {
 
-using Combination = std::map<int, double>;  // number -> weight
+// Weights of numbered points. In one piece of memory and sorted by number: a fit makes and adds up millions.
+class Combination {
+ public:
+  using Term = std::pair<int, double>;  // number, weight
+  Combination() = default;
+  Combination(std::initializer_list<Term> terms) {
+    terms_.reserve(terms.size());
+    for (const auto& [number, weight] : terms) (*this)[number] = weight;
+  }
+
+  double& operator[](int number) {
+    std::size_t at = 0;
+    return weight_at(number, at);
+  }
+  auto begin() const { return terms_.begin(); }
+  auto end() const { return terms_.end(); }
+  bool empty() const { return terms_.empty(); }
+
+  friend void add(Combination& to, const Combination& from, double factor);
+
+ private:
+  // `at`: not behind its term; becomes the position of the term.
+  double& weight_at(int number, std::size_t& at);
+
+  std::vector<Term> terms_;
+};
 void add(Combination& to, const Combination& from, double factor);
 
 // Numbers of Bezier points: at a node; on the side that starts at a corner, next to it; inside, next to it.

@@ -12,19 +12,23 @@ Vec3 closest_on_side(const Vec3& from, const Vec3& to, const Vec3& p) {
 
 }  // namespace
 
-Vec3 closest_point(const Triangle& t, const Vec3& p) {
-  const Vec3 normal = area_vector(t);
+NearTriangle::NearTriangle(const Triangle& t) : corners_(t), normal_(area_vector(t)) {
+  for (std::size_t k = 0; k < 3; ++k) inwards_[k] = normal_.cross(t[(k + 1) % 3] - t[k]);
+}
+
+Vec3 NearTriangle::closest(const Vec3& p) const {
+  const Triangle& t = corners_;
   Vec3 best = t[0];
   bool outside = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 &from = t[k], &to = t[(k + 1) % 3];
-    if (normal.cross(to - from).dot(p - from) > 0) continue;
+    if (inwards_[k].dot(p - from) > 0) continue;
     const Vec3 near = closest_on_side(from, to, p);
     if (!outside || (near - p).squaredNorm() < (best - p).squaredNorm()) best = near;
     outside = true;
   }
   if (outside) return best;
-  return p - (p - t[0]).dot(normal) / normal.squaredNorm() * normal;
+  return p - (p - t[0]).dot(normal_) / normal_.squaredNorm() * normal_;
 }
 
 }  // namespace pulvis::space
