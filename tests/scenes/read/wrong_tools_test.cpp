@@ -1,4 +1,5 @@
 // Wrong polylines and constraints are refused at their place, with the reason and what is allowed.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ struct WrongTool {
 void PrintTo(const WrongTool& wrong, std::ostream* stream) { *stream << wrong.name; }
 
 std::string scene_with(const std::string& tool) {
-  return std::string(right_scene) + "[[tool]]\nname = \"third\"\n" + tool + "\n";
+  return fmt::format("{}[[tool]]\nname = \"third\"\n{}\n", right_scene, tool);
 }
 
 const std::string constraint_in_block =
