@@ -29,6 +29,11 @@ struct StagePlan {
 struct SystemCost {
   std::string system;
   double seconds = 0;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(system, seconds);
+  }
 };
 // System by system; those of `one` come first.
 std::vector<SystemCost> added(std::vector<SystemCost> one, const std::vector<SystemCost>& other);

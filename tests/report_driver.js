@@ -127,6 +127,7 @@ function hasNames() {
 
 async function drive() {
   await until(() => document.body.dataset.ready);
+  told("unmeasured", withUnit(null, "Pa") === "–" && withUnit(undefined, "m") === "–" && withUnit(0, "m") === "0 m");
   told("hasCurves", document.querySelectorAll("path.curve").length > 0);
   told("axesApart", axesAreApart());
   told("whole", isWhole());

@@ -54,7 +54,7 @@ check StaysSmall "${particles[@]}" material
 check ShowsLocalDensitiesAndContactsOfEveryFrame "${particles[@]}" contacts
 check ShowsBondsCracksAndFragmentsOfEveryFrame "${particles[@]}" bonds
 check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
-check compaction "${particles[@]}" material contacts whole near-zero-off named
+check compaction "${particles[@]}" unmeasured material contacts whole near-zero-off named
 check cell "${particles[@]}" cell-first pulled
 check lever "${everything[@]}" named
 check ShowsTheCurvesOfARunWithoutFrames has-curves

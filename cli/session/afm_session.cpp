@@ -161,8 +161,14 @@ template <class State>
 void AfmSession::write_checkpoint(const State& state) {
   RecorderPosition results = recorder_->position();
   StateWriter writer;
-  writer(results, position_, history_);
+  double spent = seconds();
+  writer(results, position_, history_, spent);
   checkpoints_->write(increment(), history_.times.back(), state, {{"afm", writer.bytes()}});
+}
+
+double AfmSession::seconds() const {
+  return seconds_before_ +
+         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void AfmSession::write_kept_checkpoint() {
@@ -222,7 +228,7 @@ void AfmSession::open_recorder(const Checkpoint* from) {
     RecorderPosition results;
     const std::vector<std::byte> bytes = from->run("afm");
     StateReader reader(bytes);
-    reader(results, position_, history_);
+    reader(results, position_, history_, seconds_before_);
     checkpoints_->resumed(increment(), history_.times.back());
     recorder_ =
         std::make_unique<Recorder>(folder_, mesh_, afm_series(), fields(), results, actions_done);
@@ -298,8 +304,7 @@ void AfmSession::finish() {
       (curve.released ? report_.curves : report_.unreleased).push_back(curve);
   report_.wedge = calibrate_wedge(loaded_.scene, report_.loops);
   report_.increments = history_.rows.empty() ? 0 : history_.rows.size() - 1;
-  report_.wall_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  report_.wall_seconds = seconds();
   report_.outcome = end_.done              ? "done"
                     : end_.failure.empty() ? "interrupted"
                                            : "failed: " + end_.failure;

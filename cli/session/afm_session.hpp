@@ -73,6 +73,7 @@ class AfmSession {
   template <class State>
   void write_checkpoint(const State& state);
   void write_kept_checkpoint();
+  double seconds() const;  // wall time, also before the run was resumed
   void keep();
   bool yields();
   std::vector<FieldInfo> fields();
@@ -83,6 +84,7 @@ class AfmSession {
   std::filesystem::path folder_;
   AfmSimulation simulation_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double seconds_before_ = 0;
   AfmReport report_;
   AfmHistory history_;
   ProgrammeEnd end_;

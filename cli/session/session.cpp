@@ -103,17 +103,17 @@ void Session::begin() {
 
 // The part of the run's state that is not in the world.
 template <class Bytes>
-void Session::state(Bytes& bytes, RecorderPosition& position, double& seconds) {
-  bytes(position, seconds, results_, expectations_, compaction_, contacts_, samples_, frames_,
-        ended_, stages_over_);
+void Session::state(Bytes& bytes, RecorderPosition& position, Spent& spent) {
+  bytes(position, spent, results_, expectations_, compaction_, contacts_, samples_, frames_, ended_,
+        stages_over_);
 }
 
 void Session::go_on_from(const Checkpoint& checkpoint) {
   RecorderPosition position;
-  double seconds = 0;
+  Spent spent;
   const std::vector<std::byte> bytes = checkpoint.run("plane");
   StateReader reader(bytes);
-  state(reader, position, seconds);
+  state(reader, position, spent);
   const RunMesh mesh = results_.mesh();
   simulation_->restore(checkpoint);
   for (const std::string& what : driven_in(checkpoint)) driven_.insert(what);
@@ -123,18 +123,19 @@ void Session::go_on_from(const Checkpoint& checkpoint) {
                                  position, simulated_time, results_.tables());
   recorder_->share(simulation_->field_writers(options_.folder));
   checkpoints_.of_run(recorder_->run_id());
+  costs_before_ = spent.costs;
   told_step_ = clock().step;
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks,
-                                         Progress::Before{seconds, clock().step});
+                                         Progress::Before{spent.seconds, clock().step});
 }
 
 void Session::write_checkpoint() {
   if (!writes()) return;
   move();
   RecorderPosition position = recorder_->position();
-  double seconds = progress_->seconds();
+  Spent spent{progress_->seconds(), costs()};
   StateWriter writer;
-  state(writer, position, seconds);
+  state(writer, position, spent);
   StateParts parts{{"plane", writer.bytes()}};
   if (!driven_.empty()) {
     StateWriter words;
@@ -309,7 +310,7 @@ void Session::finish(const std::string& outcome) {
                options_.threads,
                fmt::format("{:016x}", loaded_.hash),
                outcome,
-               simulation_->costs()};
+               costs()};
   cost.state_hash = hash;
   if (const Balance* balance = simulation_->balance()) {
     cost.bytes_a_step = simulation_->bytes_a_step();

@@ -92,9 +92,20 @@ class Session {
   void end_progress() { progress_->finish(); }
 
  private:
+  struct Spent {
+    double seconds = 0;  // wall time
+    std::vector<SystemCost> costs;
+
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(seconds, costs);
+    }
+  };
   bool writes() const { return !options_.folder.empty(); }
   template <class Bytes>
-  void state(Bytes& bytes, RecorderPosition& position, double& seconds);
+  void state(Bytes& bytes, RecorderPosition& position, Spent& spent);
+  // Also before the run was resumed.
+  std::vector<SystemCost> costs() const { return added(costs_before_, simulation_->costs()); }
   void record_cracks();
   void record();
   void keep_states();
@@ -120,8 +131,9 @@ class Session {
   bool keeps_states_;
   std::size_t stages_over_ = 0;
   std::set<std::string> driven_;
-  RecorderPosition closed_at_;  // by finish
-  std::int64_t told_step_ = 0;  // last step at which hooks.every was called
+  RecorderPosition closed_at_;            // by finish
+  std::vector<SystemCost> costs_before_;  // it was resumed
+  std::int64_t told_step_ = 0;            // last step at which hooks.every was called
   std::chrono::steady_clock::time_point ticked_{};
   Checkpoints checkpoints_;
   std::unique_ptr<Recorder> recorder_;

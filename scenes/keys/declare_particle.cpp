@@ -1,5 +1,6 @@
 // Declarations of particle classes and their outlines.
 #include <concepts>
+#include <iterator>
 
 #include "scenes/keys/declare.hpp"
 
@@ -24,6 +25,7 @@ void choose_outline(ParticleSpec& particle, const Decoded& value) {
                                                 emplace_outline<PolygonOutline>,
                                                 emplace_outline<PointsOutline>,
                                                 emplace_outline<FourierOutline>};
+  static_assert(std::size(choices) == std::variant_size_v<Outline> - 1);  // grains have no word
   choices[value.index](particle);
 }
 

@@ -178,8 +178,19 @@ class SceneKeys : public ProgramTest, public ::testing::WithParamInterface<Case>
     expect_quiet({"check", (whole / "scene.toml").string()});
   }
 
+  // Of its systems: a resumed run counts its parts before, too.
+  double cost() const {
+    const auto summary = nlohmann::json::parse(text_of(place / moved / "summary.json"));
+    double seconds = 0;
+    if (summary.contains("cost"))
+      for (const auto& system : summary.at("cost")) seconds += system.at("seconds").get<double>();
+    return seconds;
+  }
+
   void run_in_parts(const std::vector<std::int64_t>& stops) const {
     Words words{"run", (sources / "case.toml").string(), "-o", "parts"};
+    constexpr double rounded_up = 1 + 1e-9;  // sums in another order
+    double before = 0;
     for (const std::int64_t step : stops) {
       Words part = words;
       part.insert(part.end(), {"--threads", "1", "--stop-after", std::to_string(step)});
@@ -190,8 +201,11 @@ class SceneKeys : public ProgramTest, public ::testing::WithParamInterface<Case>
         fs::remove_all(place / sources);
       }
       words = {"resume", moved.string()};
+      EXPECT_GE(rounded_up * cost(), before);
+      before = cost();
     }
     expect_quiet({"resume", moved.string(), "--quiet", "--threads", "1"});
+    EXPECT_GE(rounded_up * cost(), before);
   }
 };
 

@@ -7,7 +7,7 @@ function leadText(head) {
   const unmet = head.expectations.filter(one => !one.met).length;
   const parts = [`${counted(head.runs.length, "run")} of ` +
                  counted(new Set(head.runs.map(run => run.variation)).size, "variation"),
-                 bad ? `${bad} failed` : "all good"];
+                 bad ? `${bad} failed` : "all ran to their end"];
   if (head.expectations.length) {
     parts.push(unmet ? `${unmet} of ${counted(head.expectations.length, "expectation")} not met`
                      : `${head.expectations.length > 1 ? "all " : ""}${counted(head.expectations.length, "expectation")} met`);

@@ -46,7 +46,9 @@ function digits(value, count = 4) {
   return String(Number(value.toPrecision(Math.max(count, Math.ceil(Math.log10(size))))));
 }
 
+// What was not measured (null) is not 0.
 function withUnit(value, unit, count = 4) {
+  if (!Number.isFinite(value)) return digits(value);
   const shown = unitFor(unit, Math.abs(value));
   return digits(value * shown.factor, count) + (shown.label ? " " + shown.label : "");
 }

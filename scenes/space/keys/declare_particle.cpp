@@ -1,5 +1,6 @@
 // Declarations of the particle classes: their shapes and their meshes.
 #include <concepts>
+#include <iterator>
 
 #include "scenes/space/keys/declare.hpp"
 
@@ -17,6 +18,7 @@ void choose_shape(ParticleSpec& particle, const Decoded& value) {
       emplace_shape<SphereShape>,       emplace_shape<EllipsoidShape>,
       emplace_shape<SuperquadricShape>, emplace_shape<CylinderShape>,
       emplace_shape<PolyhedronShape>,   emplace_shape<StlShape>};
+  static_assert(std::size(choices) == std::variant_size_v<ParticleShape>);
   choices[value.index](particle);
 }
 
