@@ -78,14 +78,39 @@ Part contact_part(const CurveWindow& window, const Trace& trace) {
   return part;
 }
 
-Way way_of(const ForceCurve& curve, const CurveWindow& window, Trace& trace) {
-  Way way;
-  level(curve, window, trace, way);
-  const double noise = noise_about(way.free);
-  if (!(*std::ranges::max_element(trace.y) > 2 * clear_of_noise * noise) || curve.turn == 0)
+// Adhesion that holds the probe over the retract makes the line taken for zero force one of contact.
+bool is_held(const Way& approach, const Way& retract) {
+  constexpr double similar = 0.5;  // of the contact slope
+  const double excess = retract.free.slope - approach.free.slope;
+  const double sure = portable::hypot(lab::slope_error(approach.free, approach.free_inflation),
+                                      lab::slope_error(retract.free, retract.free_inflation));
+  return excess > similar * approach.contact.slope && excess > clear_of_noise * sure;
+}
+
+// `approach` of the same curve has a signal; none for the approach itself.
+void require_signal(const ForceCurve& curve, const Trace& trace, const Way& way,
+                    const Way* approach) {
+  const bool none =
+      !(*std::ranges::max_element(trace.y) > 2 * clear_of_noise * noise_about(way.free)) ||
+      curve.turn == 0;
+  if (approach && (none || is_held(*approach, way)))
+    wrong(curve,
+          fmt::format(
+              "the probe does not leave the surface before the range of force_curves.free "
+              "on retract: the volts change there by {:.3g} V/um, in contact on approach by "
+              "{:.3g} V/um, allowed: a longer retract",
+              way.free.slope * 1e-6, (approach->contact.slope + approach->free.slope) * 1e-6));
+  if (none)
     wrong(curve,
           "no contact signal above the noise, allowed: volts that increase where the probe is "
           "pressed on");
+}
+
+Way way_of(const ForceCurve& curve, const CurveWindow& window, Trace& trace,
+           const Way* approach = nullptr) {
+  Way way;
+  level(curve, window, trace, way);
+  require_signal(curve, trace, way, approach);
   const Part part = contact_part(window, trace);
   const std::size_t count = part.end - part.begin;
   if (count < fewest_in_line)
@@ -188,7 +213,7 @@ CurveFigures figures_of(const ForceCurve& curve, const CurveWindow& window) {
                              curve.displacement.size() - 1 - curve.turn));
   if (returns) {
     Trace back = trace_of(curve, true);
-    figures.retract = way_of(curve, window, back);
+    figures.retract = way_of(curve, window, back, &figures.approach);
     find_pull_off(curve, window, back, figures);
     figures.sensitivity = of_both(figures.sensitivity,
                                   {figures.retract->contact.slope, figures.retract->slope_error});

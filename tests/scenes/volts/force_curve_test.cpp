@@ -93,6 +93,25 @@ TEST(ForceCurve, TheMeanTakesTheScatterOfCurvesForItsError) {
   EXPECT_NEAR(mean.slope.error / mean.slope.value, 0.02 / std::sqrt(2.0), 1e-4);
 }
 
+// Adhesion holds the probe over the whole retract, or all of it but its last samples: the sign is right.
+TEST(ForceCurve, ARetractThatDoesNotComeFreeIsTooShort) {
+  for (const double pull : {2.7, 3.0}) {  // 12.5 mV/nm from 220 nm on: free at 4 nm, or never
+    CurveTruth truth;
+    truth.pull = pull;
+    const std::string told =
+        message_of<std::runtime_error>([&] { figures_of(truth.curve(0.004), window); });
+    EXPECT_THAT(told,
+                HasSubstr("does not leave the surface before the range of force_curves.free"));
+    EXPECT_THAT(told, HasSubstr("in contact on approach by 12.6 V/um, allowed: a longer retract"));
+  }
+  // The lines of zero force may differ by drift.
+  CurveTruth truth;
+  ForceCurve drifting = truth.curve(0.004);
+  for (std::size_t i = drifting.turn; i < drifting.normal.size(); ++i)
+    drifting.normal[i] += 0.2 * truth.slope * (drifting.displacement[i] - truth.end);
+  EXPECT_EQ(message_of<std::runtime_error>([&] { figures_of(drifting, window); }), "");
+}
+
 TEST(ForceCurve, WhatIsNoForceCurveIsRefused) {
   const auto message = [](const ForceCurve& curve, const CurveWindow& used = window) {
     return message_of<std::runtime_error>([&] { figures_of(curve, used); });
