@@ -103,6 +103,18 @@ Json misfit_json(const lab::CompressionMisfit& m) {
           {"rms_density", m.rms_density}};
 }
 
+std::vector<std::string> warnings_of(const Compressions& all) {
+  std::vector<std::string> told;
+  for (const auto& curve : all.curves)
+    for (const lab::LawFit& law : curve.laws)
+      for (const FitParameter& p : law.fit.parameters)
+        if (p.is_at_bound)
+          told.push_back(
+              fmt::format("{}: {} of {} is at the end of its range: its interval is not meaningful",
+                          curve.name, p.name, law.fit.law));
+  return told;
+}
+
 Json compressions_json(const Compressions& all) {
   Json json{{"kind", "compression"},
             {"confidence", all.confidence},
@@ -119,6 +131,7 @@ Json compressions_json(const Compressions& all) {
                                    {"half_width", *lab::half_width(over.sample, all.confidence)}});
   }
   for (const auto& misfit : all.misfits) json["misfits"].push_back(misfit_json(misfit));
+  json["warnings"] = warnings_of(all);
   return json;
 }
 
@@ -160,7 +173,7 @@ Json laws_table(const Compressions& all) {
         Json row{curve.name, law.fit.law, p.name, measured_cell(p, all.confidence)};
         for (const char* source : {"scatter", "height", "mass", "compliance"}) {
           const auto found = std::ranges::find(p.contributions, source, &lab::Contribution::source);
-          row.push_back(found == p.contributions.end()
+          row.push_back(found == p.contributions.end() || !std::isfinite(found->error)
                             ? Json(nullptr)
                             : Json{{"value", found->error}, {"unit", p.unit}});
         }
@@ -195,6 +208,12 @@ Json curves_table(const Compressions& all) {
                                                           : Json(nullptr));
     table["rows"].push_back(row);
   }
+  return table;
+}
+
+Json warnings_table(const std::vector<std::string>& warnings) {
+  Json table{{"title", "Warnings"}, {"head", Json::array()}, {"rows", Json::array()}};
+  for (const std::string& warning : warnings) table["rows"].push_back({warning});
   return table;
 }
 
@@ -239,6 +258,7 @@ std::string compressions_text(const Compressions& all) {
                                          m.rms_log_pressure, m.rms_density)
                                    : fmt::format("{} against {}: not compared: {}\n", m.simulation,
                                                  m.curve, m.not_compared);
+  for (const std::string& warning : warnings_of(all)) text += "warning: " + warning + "\n";
   return text;
 }
 
@@ -273,6 +293,8 @@ LabOutput compression_output(const lab::LoadedSettings& loaded,
   output.tables.push_back(curves_table(all));
   output.tables.push_back(laws_table(all));
   if (!all.misfits.empty()) output.tables.push_back(misfits_table(all));
+  if (const auto warnings = warnings_of(all); !warnings.empty())
+    output.tables.push_back(warnings_table(warnings));
   output.told = compressions_text(all);
   return output;
 }

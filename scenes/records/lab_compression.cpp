@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pulvis::lab {
 namespace {
@@ -51,8 +52,10 @@ FitRange range_of(const PressCurve& curve, const CurveSpec& spec, const Compress
                        c.fit_until.value_or(largest));
 }
 
-// If a law no longer fits the changed curve, or only with fewer terms, the whole value is uncertain.
+// If a law no longer fits the changed curve, or only with fewer terms, the whole value is uncertain. A value at its
+// bound stays there whatever it is worth.
 double change_of(const DensityFit& changed, const DensityFit& fit, std::size_t parameter) {
+  if (fit.parameters[parameter].is_at_bound) return std::numeric_limits<double>::infinity();
   const double value = fit.parameters[parameter].value;
   if (changed.parameters.size() != fit.parameters.size()) return std::abs(value);
   return std::abs(changed.parameters[parameter].value - value);
@@ -120,6 +123,7 @@ std::vector<OverCurves> over_curves(const std::vector<ReducedCurve>& curves) {
     std::vector<OverCurves> found;
     for (const ReducedCurve& curve : curves)
       for (const Measured& p : curve.laws[l].parameters) {
+        if (!p.has_interval()) continue;  // a bound is not a result
         const auto at = static_cast<std::size_t>(std::ranges::find(names, p.name) - names.begin());
         if (at == names.size()) {
           names.push_back(p.name);

@@ -17,6 +17,11 @@ constexpr double min_k =
     1e-4;  // as shares of the largest pressure: beyond these a term is constant,
 constexpr double max_k = 1e2;  // or zero, within the measured pressures
 
+bool is_at_bound(double k) {
+  constexpr double rounding = 1e-9;
+  return k <= min_k * (1 + rounding) || k >= max_k * (1 - rounding);
+}
+
 double k_of(double log_k) { return std::clamp(std::exp(log_k), min_k, max_k); }
 
 // exp(-k/P) of every sample. P and k are shares of the largest pressure here.
@@ -95,6 +100,7 @@ CooperEaton with_terms(const Candidate& best, const Vector& p, const Vector& y, 
     const auto term = static_cast<std::size_t>(found.terms);
     found.a[term] = a[i];
     found.k[term] = k[i] * scale;
+    found.is_k_at_bound[term] = is_at_bound(k[i]);
     found.terms += 1;
   }
   return found;

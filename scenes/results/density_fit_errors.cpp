@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenes/solve/least_squares.hpp"
 
@@ -88,7 +89,9 @@ FitErrors fit_errors(const DensityFit& fit, const FitRange& range) {
     // 1/K has the same relative uncertainty as K.
     const std::size_t of = p.name == "yield_pressure" ? 0 : k++;
     const auto at = static_cast<Eigen::Index>(of);
-    errors.standard.push_back(std::abs(p.value) * std::sqrt(std::max(0.0, covariance(at, at))));
+    errors.standard.push_back(p.is_at_bound ? std::numeric_limits<double>::infinity()
+                                            : std::abs(p.value) *
+                                                  std::sqrt(std::max(0.0, covariance(at, at))));
   }
   return errors;
 }

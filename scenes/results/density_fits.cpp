@@ -180,10 +180,10 @@ DensityFit fit_cooper_eaton(const FitRange& range) {
     fit.not_fitted = "no sum of terms with a > 0 and k > 0 fits the curve";
     return fit;
   }
-  fit.parameters = {{"a1", "-", found.a[0]}, {"k1", "Pa", found.k[0]}};
+  fit.parameters = {{"a1", "-", found.a[0]}, {"k1", "Pa", found.k[0], found.is_k_at_bound[0]}};
   if (found.terms == 2) {
     fit.parameters.push_back({"a2", "-", found.a[1]});
-    fit.parameters.push_back({"k2", "Pa", found.k[1]});
+    fit.parameters.push_back({"k2", "Pa", found.k[1], found.is_k_at_bound[1]});
   }
   const auto law = each(range.pressure, [&](double p) { return found.at(p); });
   judge(fit, range, y, law, each(law, [&](double v) { return d0 / (1 - v * (1 - d0)); }));

@@ -22,16 +22,17 @@ namespace pulvis {
 struct FitParameter {
   std::string name, unit;
   double value = 0;
+  bool is_at_bound = false;  // of its search: the curve does not determine it
 };
 
 struct DensityFit {
   std::string law;         // "heckel"
   std::string not_fitted;  // why; empty: it was fitted
   std::vector<FitParameter> parameters;
-  double rms = 0;          // of the fitted quantity, in its unit
-  std::string rms_unit;    // "-" or "Pa"
-  double r_squared = 0;    // of the fitted quantity
-  double rms_density = 0;  // of the density from the law at each pressure: compares the laws
+  double rms = 0;                 // of the fitted quantity, in its unit
+  std::string rms_unit;           // "-" or "Pa"
+  double r_squared = 0;           // of the fitted quantity
+  double rms_density = 0;         // of the density from the law at each pressure: compares the laws
   std::vector<double> densities;  // that the law gives at FitRange::pressure; for plotting
 };
 

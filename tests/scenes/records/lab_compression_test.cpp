@@ -118,6 +118,23 @@ TEST(LabCompression, TheEmptyPressTellsWhatItGives) {
   }
 }
 
+// Within the pressures from 200 MPa on a term of the fit is constant: its k is at the end of its range.
+TEST(LabCompression, AValueAtItsBoundHasNoInterval) {
+  const Settings settings =
+      load_settings(lab_folder / "press.toml", {"compression.fit_from=200 MPa"}).settings;
+  const auto& spec = *std::ranges::find(settings.curves, "kawakita", &CurveSpec::name);
+  const ReducedCurve curve = reduce_curve(read_press(lab_folder / spec.press, settings), spec,
+                                          settings, machine_of(settings));
+  const Measured k1 = parameter(curve, "cooper_eaton", "k1");
+  EXPECT_NEAR(k1.value, 1e-4 * curve.curve.pressure[curve.curve.peak], 1);
+  EXPECT_FALSE(k1.has_interval());
+  EXPECT_EQ(k1.contributions.size(), 4U);
+  for (const Contribution& c : k1.contributions) EXPECT_TRUE(std::isinf(c.error)) << c.source;
+  for (const char* name : {"a1", "a2", "k2"})
+    EXPECT_TRUE(parameter(curve, "cooper_eaton", name).has_interval()) << name;
+  for (const OverCurves& over : over_curves({curve})) EXPECT_NE(over.name, "k1");
+}
+
 TEST(LabCompression, WithoutTakingThePressOutTheYieldPressureIsWrong) {
   const Reduced all = shipped_curves();
   CurveSpec spec = all.settings.curves.front();

@@ -86,6 +86,23 @@ TEST(DensityFits, CooperEatonOfOneTermHasOne) {
   EXPECT_LT(fit.rms, 1e-5);
 }
 
+// A term that is constant within the measured pressures has a k of no known value.
+TEST(DensityFits, CooperEatonMarksAValueAtItsBound) {
+  const double d0 = 0.68;
+  const auto fit_of = [&](double k1) {
+    const Curve c =
+        curve_of(d0, 500e6, [&](double p) { return cooper_eaton(d0, 0.35, k1, 0.55, 180e6, p); });
+    return fit_cooper_eaton(fit_range(c.density, c.pressure));
+  };
+  const DensityFit fit = fit_of(1.0);
+  EXPECT_NEAR(values(fit)["k1"], 1e-4 * 500e6, 1);
+  std::map<std::string, bool> bound;
+  for (const FitParameter& p : fit.parameters) bound[p.name] = p.is_at_bound;
+  EXPECT_EQ(bound, (std::map<std::string, bool>{
+                       {"a1", false}, {"k1", true}, {"a2", false}, {"k2", false}}));
+  for (const FitParameter& p : fit_of(8e6).parameters) EXPECT_FALSE(p.is_at_bound) << p.name;
+}
+
 // The residual is that of the noise put in: 1e-3 of the ordinate, from a generator of its own.
 TEST(DensityFits, ResidualIsTheNoise) {
   const double d0 = 0.7;
