@@ -89,7 +89,7 @@ std::vector<Key<PlateMeasured>> record_keys() {
       {{.name = "distance",
         .kind = Kind::text,
         .fallback = value_of("distance"),
-        .doc = "Name of the distance column."},
+        .doc = "Name of the distance column. A return stroke is refused."},
        to(&PlateMeasured::distance)},
       {{.name = "friction",
         .kind = Kind::text,

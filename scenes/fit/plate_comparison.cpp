@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::size_t fewest_compared = 20;  // samples of a record
 constexpr double certain = 1e6;              // degrees of freedom of a stated uncertainty
+constexpr double distance_noise =
+    0.02;  // share of the record's range by which the distance may fall
 
 double mean_diameter(const Scene& scene) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
@@ -68,6 +70,28 @@ struct ScaledSlopes {
   throw SceneError({{file.string(), 1, 1, "", key, what}});
 }
 
+// Each sample is compared at its own distance, so those of a return stroke would be taken for a second forward one.
+// `low` to `high`: the compared range, on the scale of the record.
+void require_forward(const csv::Table& table, std::size_t column,
+                     const std::vector<double>& distance, double low, double high) {
+  if (distance.empty()) return;
+  const auto [least, most] = std::ranges::minmax(distance);
+  const double allowed = distance_noise * (most - std::max(least, 0.0));
+  std::size_t farthest = 0;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (distance[i] > distance[farthest]) farthest = i;
+    if (distance[i] < low || distance[i] > high || distance[farthest] - distance[i] <= allowed)
+      continue;
+    csv::refuse(
+        table, i, column,
+        fmt::format("falls to {:.6g} mm after {:.6g} mm in line {}, allowed: a single "
+                    "forward stroke, whose distance falls by at most {:.3g} mm (noise, {:g}% "
+                    "of the range of the record)",
+                    distance[i] * 1e3, distance[farthest] * 1e3, table.lines[farthest],
+                    allowed * 1e3, distance_noise * 100));
+  }
+}
+
 }  // namespace
 
 double static_coefficient(const lab::SimulatedCurve& curve, double within) {
@@ -95,7 +119,8 @@ PlateComparison::PlateComparison(const PlateFit& fit)
   const csv::Table all = csv::read(fit.file.parent_path() / m.record);
   const std::size_t friction_column = csv::column_at(all, m.friction);
   const csv::Table table = csv::with_value(all, friction_column);
-  const std::vector<double> distance = csv::numbers(table, csv::column_at(table, m.distance), "m");
+  const std::size_t distance_column = csv::column_at(table, m.distance);
+  const std::vector<double> distance = csv::numbers(table, distance_column, "m");
   const std::vector<double> friction = csv::numbers(table, friction_column, "");
   const double scale = m.by_diameters() ? simulated_diameter_ / *m.particle_diameter : 1;
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -107,6 +132,7 @@ PlateComparison::PlateComparison(const PlateFit& fit)
   // Before anything runs; set_reach does so again with the way of the simulated plate.
   const double end = m.until.value_or(distance_.empty() ? 0 : std::ranges::max(distance_));
   require_samples(end);
+  require_forward(table, distance_column, distance, from() / scale, end / scale);
 }
 
 void PlateComparison::require_samples(double until) {

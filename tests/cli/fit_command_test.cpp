@@ -285,6 +285,31 @@ TEST_F(FitCommand, RefusesARecordFromBeforeTheStart) {
   EXPECT_THAT(refusal(), HasSubstr("the compared range would end at 0 mm, allowed: beyond its"));
 }
 
+// Samples of a return stroke would be compared as if the plate still slid forward.
+TEST_F(FitCommand, RefusesAReturnStrokeButNotNoise) {
+  const auto rows = [](int first, int step, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += std::to_string(first + i * step) + ",0.2\n";
+    return text;
+  };
+  const std::string head = "distance [um],friction\n";
+  write("measured.csv", head + rows(0, 100, 51) + rows(4850, -100, 30));
+  EXPECT_THAT(refusal(),
+              HasSubstr("measured.csv:53:1: distance: falls to 4.85 mm after 5 mm in line "
+                        "52, allowed: a single forward stroke"));
+  write("measured.csv", head + rows(0, 100, 51) + rows(0, 100, 51));  // a second stroke
+  EXPECT_THAT(refusal(), HasSubstr("falls to 1 mm after 5 mm in line 52, allowed"));
+  std::string noisy = head;  // falls by 90 um of 5 mm, and values that stay equal
+  for (int i = 0; i < 50; ++i) noisy += rows(100 * i + (i % 2 ? 0 : 190), 0, 2);
+  write("measured.csv", noisy);
+  EXPECT_EQ(refusal(), "");
+  // Beyond what is compared it does no harm.
+  write("measured.csv", head + rows(0, 100, 51) + rows(4850, -100, 9));
+  EXPECT_THAT(refusal(), HasSubstr("falls to 4.85 mm"));
+  write("fit.toml", one_key + "until = \"4 mm\"\n");
+  EXPECT_EQ(refusal(), "");
+}
+
 // As `mean` in curves.csv where only one run reaches.
 TEST_F(FitCommand, LeavesOutRowsWithoutAValue) {
   write("measured.csv", "distance [mm],mean\n0,0.1\n1,0.2\n1.5,\n2,0.3\n9,\n" + steady_rows(10));
