@@ -137,7 +137,7 @@ void write_content(const fs::path& path, const CheckpointInfo& info, const State
       [&](const std::string& name, std::span<const std::byte> bytes) { file.write(name, bytes); },
       [&](const std::string& name, std::uint64_t bytes) {
         return FileRoom{fs::absolute(path).string(),
-                        *file.make_room(name, hdf5::Number::byte, {bytes})};
+                        file.make_room(name, hdf5::Number::byte, {bytes}).value()};
       },
       visit);
   for (const auto& [name, bytes] : run) file.write("/run/" + name, bytes);

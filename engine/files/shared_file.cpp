@@ -22,9 +22,10 @@ bool has_one_view(const std::filesystem::path& folder) {
   if (statfs(folder.c_str(), &status) != 0) return false;
   constexpr std::uint32_t fuse_magic = 0x65735546;  // not in linux/magic.h: sshfs and others
   const auto kind = static_cast<std::uint32_t>(status.f_type);
-  for (const std::uint32_t one : {std::uint32_t{NFS_SUPER_MAGIC}, std::uint32_t{SMB_SUPER_MAGIC},
-                                  std::uint32_t{CIFS_SUPER_MAGIC}, std::uint32_t{SMB2_SUPER_MAGIC},
-                                  std::uint32_t{V9FS_MAGIC}, fuse_magic})
+  for (const std::uint32_t one :
+       {std::uint32_t{NFS_SUPER_MAGIC}, std::uint32_t{SMB_SUPER_MAGIC},
+        std::uint32_t{CIFS_SUPER_MAGIC}, std::uint32_t{SMB2_SUPER_MAGIC}, std::uint32_t{V9FS_MAGIC},
+        std::uint32_t{AFS_SUPER_MAGIC}, fuse_magic})
     if (kind == one) return false;
   return true;
 }
