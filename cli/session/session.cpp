@@ -86,19 +86,23 @@ Session::Session(LoadedScene scene, Options options, std::unique_ptr<Simulation>
 
 void Session::begin() {
   if (writes()) {
-    recorder_ = std::make_unique<Recorder>(
+    record_into(std::make_unique<Recorder>(
         options_.folder,
         RunAttributes{program_version(), program_commit(), loaded_.scene.title,
                       fmt::format("{:016x}", loaded_.hash), loaded_.scene.seed, options_.threads},
-        results_.mesh(), results_.series(), results_.fields(), simulated_time, results_.tables());
-    recorder_->share(simulation_->field_writers(options_.folder));
-    checkpoints_.of_run(recorder_->run_id());
+        results_.mesh(), results_.series(), results_.fields(), simulated_time, results_.tables()));
   }
   if (options_.talks) {
     for (const std::string& line : bond_warnings_) tell("warning: {}\n", line);
     for (const std::string& line : warnings_at_start(loaded_.scene)) tell("warning: {}\n", line);
   }
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks);
+}
+
+void Session::record_into(std::unique_ptr<Recorder> recorder) {
+  recorder_ = std::move(recorder);
+  recorder_->share(simulation_->field_writers(options_.folder));
+  checkpoints_.of_run(recorder_->run_id());
 }
 
 // The part of the run's state that is not in the world.
@@ -118,11 +122,9 @@ void Session::go_on_from(const Checkpoint& checkpoint) {
   simulation_->restore(checkpoint);
   for (const std::string& what : driven_in(checkpoint)) driven_.insert(what);
   checkpoints_.resumed(clock().step, clock().time);
-  recorder_ =
-      std::make_unique<Recorder>(options_.folder, mesh, results_.series(), results_.fields(),
-                                 position, simulated_time, results_.tables());
-  recorder_->share(simulation_->field_writers(options_.folder));
-  checkpoints_.of_run(recorder_->run_id());
+  record_into(std::make_unique<Recorder>(options_.folder, mesh, results_.series(),
+                                         results_.fields(), position, simulated_time,
+                                         results_.tables()));
   costs_before_ = spent.costs;
   told_step_ = clock().step;
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks,
@@ -277,10 +279,9 @@ void Session::judge(const std::optional<std::string>& failure, const std::functi
 
 void Session::reopen() {
   if (open()) return;
-  recorder_ =
-      std::make_unique<Recorder>(options_.folder, results_.mesh(), results_.series(),
-                                 results_.fields(), closed_at_, simulated_time, results_.tables());
-  recorder_->share(simulation_->field_writers(options_.folder));
+  record_into(std::make_unique<Recorder>(options_.folder, results_.mesh(), results_.series(),
+                                         results_.fields(), closed_at_, simulated_time,
+                                         results_.tables()));
 }
 
 RunQuality Session::quality() const {

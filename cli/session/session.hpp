@@ -106,6 +106,7 @@ class Session {
   void state(Bytes& bytes, RecorderPosition& position, Spent& spent);
   // Also before the run was resumed.
   std::vector<SystemCost> costs() const { return added(costs_before_, simulation_->costs()); }
+  void record_into(std::unique_ptr<Recorder> recorder);
   void record_cracks();
   void record();
   void keep_states();

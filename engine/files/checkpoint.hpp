@@ -40,9 +40,9 @@ using StateParts = std::map<std::string, std::vector<std::byte>>;
 StateParts state_of(const World& world);
 
 // Afterwards the folder holds this checkpoint and the previous one, but no older ones of this run.
-// For a world whose columns are elsewhere. `write` is called first for every column: it returns false if it has not written
-// the column, into the room made for its bytes; else `flush` is called at the end. Otherwise `fetch` is called before the
-// column is written, and `leave` after it.
+// For a world whose columns are elsewhere. `write` is asked first for every column: it may write the column itself, into the
+// room that is made for its bytes, and returns whether it did; `flush` is called after the last one. Other columns are
+// written here, between calls of `fetch` and `leave`.
 struct ColumnVisit {
   using MakeRoom = std::function<FileRoom(std::uint64_t bytes)>;
   std::function<bool(const ColumnBase&, const MakeRoom&)> write;

@@ -255,7 +255,9 @@ void File::write_series(const std::string& dataset, const std::string& old, std:
                             "make", dataset));
   for (std::uint64_t at = 0; at < kept; at += max_chunk_rows) {
     const std::uint64_t count = std::min(max_chunk_rows, kept - at);
-    write_rows(made.get(), dataset, at, read_rows(old, at, count));
+    std::vector<double> rows_there(count);
+    read_rows(old, H5T_NATIVE_DOUBLE, at, count, rows_there.data());
+    write_rows(made.get(), dataset, at, rows_there);
   }
   write_rows(made.get(), dataset, kept, values);
 }
@@ -270,17 +272,14 @@ void File::write_rows(Id dataset, const std::string& name, std::uint64_t first,
           "write", name);
 }
 
-std::vector<double> File::read_rows(const std::string& dataset, std::uint64_t first,
-                                    std::uint64_t rows) const {
+void File::read_rows(const std::string& dataset, Id type, std::uint64_t first, std::uint64_t rows,
+                     void* values) const {
   const hsize_t count = rows;
-  std::vector<double> values(rows);
   const Handle found(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
   const Handle source = rows_of(found.get(), first, count),
                target(H5Screate_simple(1, &count, nullptr));
-  checked(
-      H5Dread(found.get(), H5T_NATIVE_DOUBLE, target.get(), source.get(), defaults, values.data()),
-      "read", dataset);
-  return values;
+  checked(H5Dread(found.get(), type, target.get(), source.get(), defaults, values), "read",
+          dataset);
 }
 
 void File::link(const std::string& object, const std::string& name) {
@@ -398,14 +397,7 @@ std::vector<std::byte> File::read_bytes(const std::string& dataset) const {
 std::vector<std::byte> File::read_bytes(const std::string& dataset, std::uint64_t first,
                                         std::uint64_t count) const {
   std::vector<std::byte> bytes(count);
-  if (count == 0) return bytes;
-  const Handle found(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
-  const hsize_t size = count;
-  const Handle source = rows_of(found.get(), first, count),
-               target(H5Screate_simple(1, &size, nullptr));
-  checked(
-      H5Dread(found.get(), H5T_NATIVE_UINT8, target.get(), source.get(), defaults, bytes.data()),
-      "read", dataset);
+  if (count > 0) read_rows(dataset, H5T_NATIVE_UINT8, first, count, bytes.data());
   return bytes;
 }
 

@@ -116,8 +116,8 @@ class File {
   static File create(const std::filesystem::path& path, std::uint64_t user_block, Layout layout);
   void write_rows(Id dataset, const std::string& name, std::uint64_t first,
                   std::span<const double> values);
-  std::vector<double> read_rows(const std::string& dataset, std::uint64_t first,
-                                std::uint64_t rows) const;
+  void read_rows(const std::string& dataset, Id type, std::uint64_t first, std::uint64_t rows,
+                 void* values) const;
   void write_any(const std::string& dataset, Id type, const void* values, std::size_t count,
                  const Shape& shape, Packing packing);
   void set_any(const std::string& object, const std::string& name, Id type, const void* value);
@@ -132,8 +132,7 @@ class File {
 
   std::filesystem::path path_;
   Handle handle_;
-  std::uint64_t committed_ =
-      0;  // end of what readers may see; known only with changes that are committed
+  std::uint64_t committed_ = 0;  // end of the last commit, if changes are committed
 };
 
 }  // namespace pulvis::hdf5
