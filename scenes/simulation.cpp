@@ -16,11 +16,9 @@ namespace pulvis {
 Simulation::Simulation(const Scene& scene, int threads, Ranks* ranks)
     : world_(build_world(scene, ranks)), workers_(threads) {
   if (ranks != nullptr) {
-    std::vector<ParticleValues> values = mesh_values(*world_);
-    values.push_back(state_values());
     crew_ = std::make_unique<Crew>(
         *world_, ranks->is_root() ? build_whole_world(scene) : std::unique_ptr<World>(), scene,
-        std::move(values));
+        mesh_values(*world_), hashed_values());
   }
   workers_.run([&] {
     step_ = std::make_unique<Step>(*world_);
@@ -135,12 +133,14 @@ void Simulation::visit_mesh(std::size_t field, const ValueSink& take) {
 
 std::string Simulation::state_hash() {
   if (!crew_) return state_hash_text(*world_);
-  tell(crew_->fetch_history());
-  return state_hash_text(pulvis::state_hash(whole(), [this](const ValueSink& take) {
-    const Order order = crew_->state_of_all();
-    crew_->tell(order);
-    crew_->visit_particles(order, take);
-  }));
+  crew_->tell({Order::Kind::total});
+  crew_->total();
+  return state_hash_text(
+      pulvis::state_hash(whole(), [this](std::size_t number, const ValueSink& take) {
+        const Order order = crew_->hashed(number);
+        crew_->tell(order);
+        crew_->visit_particles(order, take);
+      }));
 }
 
 void Simulation::write_from_root() {
@@ -216,6 +216,9 @@ void Simulation::follow() {
         case Order::Kind::write_column:
         case Order::Kind::flush:
           crew_->write(order);
+          break;
+        case Order::Kind::total:
+          crew_->total();
           break;
         case Order::Kind::restore:
           restore_share(Checkpoint::verified(order.file), *world_);

@@ -19,7 +19,7 @@
 namespace pulvis {
 namespace {
 
-// On sampled steps, once the forces are known: for every particle...
+// On sampled steps, once the forces are known: what each rank knows of its particles...
 template <class F>
 void observe_particles(World& w, SystemList& observe) {
   const bool plastic = w.has<PlasticStrain<F::points>>();
@@ -35,13 +35,13 @@ void observe_particles(World& w, SystemList& observe) {
   observe.add<plastic_work<F>>          ("plastic_work",      plastic);
   observe.add<hourglass_energy>         ("hourglass_energy",  F::stabilised);
   observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress>());
+  observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
   // clang-format on
 }
 // ...and for the powder as a whole.
 void observe_whole(World& w, SystemList& observe) {
   // clang-format off
   observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork>());
-  observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
   observe.add<force_chains>             ("force_chains",      w.has<ForceChains>());
   observe.add<fragments>                ("fragments",         w.has<Fragments>());
   observe.add<local_density>            ("local_density",     w.has<DensityGrid>());

@@ -67,11 +67,12 @@ void print_end(Session& run, const RunOptions& options) {
 ExitCode stopped(Session& run, const RunOptions& options, const std::string& message) {
   run.judge(message, interrupted);
   const bool expected = ended_as_expected(run.loaded().scene, message);
-  run.finish((expected ? "stopped as expected: " : "failed: ") + message);
+  run.close((expected ? "stopped as expected: " : "failed: ") + message);
   if (!expected)
     tell(stderr, "pulvis: the run failed: {}\nthe results up to then are in {}\n", message,
          run.folder().string());
   if (!run.verdicts().empty() || options.json) print_end(run, options);
+  run.end_with_report();
   return expected && all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
 }
 
@@ -98,14 +99,16 @@ ExitCode complete(Session& run, const RunOptions& options) {
     if (done) run.judge({}, interrupted);
     done = done && !interrupted();
     if (!done) run.write_checkpoint();
-    run.finish(done ? "done" : "interrupted");
+    const std::int64_t step = run.clock().step;
+    run.close(done ? "done" : "interrupted");
     print_end(run, options);
+    run.end_with_report();
     if (done) {
       run.remove_checkpoints();
       return all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
     }
-    tell(stderr, "pulvis: interrupted at step {}; continue with: pulvis resume {}\n",
-         run.clock().step, shell_word(run.folder().string()));
+    tell(stderr, "pulvis: interrupted at step {}; continue with: pulvis resume {}\n", step,
+         shell_word(run.folder().string()));
     return ExitCode::interrupted;
   } catch (const RunFailure& failure) {
     return stopped(run, options, failure.what());

@@ -299,6 +299,17 @@ RunQuality Session::quality() const {
 void Session::finish(const std::string& outcome) {
   progress_->finish();
   if (recorder_ == nullptr) return;
+  close(outcome);
+  write_report(options_.folder);
+}
+
+void Session::end_with_report() {
+  simulation_.reset();
+  write_report(options_.folder);
+}
+
+void Session::close(const std::string& outcome) {
+  progress_->finish();
   const std::string hash = simulation_->state_hash();
   record_cracks();  // of the steps since the last sample
   closed_at_ = recorder_->position();
@@ -321,7 +332,6 @@ void Session::finish(const std::string& outcome) {
   }
   write_summary(folder, loaded_.scene, simulation_->whole(), results_, compaction_, quality(), cost,
                 verdicts_);
-  write_report(folder);
 }
 
 }  // namespace pulvis

@@ -66,6 +66,9 @@ class Session {
   void judge(const std::optional<std::string>& failure, const std::function<bool()>& stop);
   // Completes the files; `outcome` says how the run ended.
   void finish(const std::string& outcome);
+  // The same in two parts. The report can be large: it is written once the simulation is gone, and nothing can follow.
+  void close(const std::string& outcome);
+  void end_with_report();
   // After finish: resumes like a stopped run.
   void reopen();
   void write_checkpoint();
@@ -132,7 +135,7 @@ class Session {
   bool keeps_states_;
   std::size_t stages_over_ = 0;
   std::set<std::string> driven_;
-  RecorderPosition closed_at_;            // by finish
+  RecorderPosition closed_at_;            // by close
   std::vector<SystemCost> costs_before_;  // it was resumed
   std::int64_t told_step_ = 0;            // last step at which hooks.every was called
   std::chrono::steady_clock::time_point ticked_{};

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 
 #include "components/bond.hpp"
@@ -14,6 +15,7 @@
 #include "components/space/tools.hpp"
 #include "engine/state_bytes.hpp"
 #include "scenes/language/problem.hpp"
+#include "scenes/spec/space_scene.hpp"
 #include "systems/ranks/restore.hpp"
 
 namespace pulvis {
@@ -31,23 +33,35 @@ std::string name_of() {
   return fmt::format("{}/{}", C::Entity::name, C::info.name);
 }
 
-bool looks_at_motion(const Scene& scene) {
-  const bool shears = std::ranges::any_of(
+bool shears(const Scene& scene) {
+  return std::ranges::any_of(
       scene.stages, [](const StageSpec& stage) { return stage.kind == StageSpec::Kind::shear; });
-  return shears || scene.output.density() || !scene.expects.empty();
+}
+bool looks_at_motion(const Scene& scene) {
+  return shears(scene) || scene.output.density() || !scene.expects.empty();
+}
+bool has_round_die(const Scene& scene) {
+  return scene.space && std::ranges::any_of(scene.space->tools, [](const space::ToolSpec& tool) {
+           return tool.shape == space::ToolSpec::Shape::die;
+         });
 }
 
 }  // namespace
 
 Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
-           std::vector<ParticleValues> values)
+           std::vector<ParticleValues> fields, std::vector<ParticleValues> hashed)
     : share_(share),
       whole_(std::move(whole)),
       ranks_(*share.resource<RankLink>().ranks),
-      values_(std::move(values)),
+      values_(std::move(fields)),
+      fields_(values_.size()),
       balance_(share),
       output_(share),
-      needs_motion_(looks_at_motion(scene)) {}
+      needs_motion_(looks_at_motion(scene)),
+      needs_tool_rows_(shears(scene)),
+      needs_die_wall_(has_round_die(scene)) {
+  std::ranges::move(hashed, std::back_inserter(values_));
+}
 
 Crew::~Crew() {
   if (leads()) tell({Order::Kind::leave});
@@ -81,16 +95,18 @@ void Crew::fetch(const Order& order) {
   Gatherer gathering(share_, whole_.get());
   for (const std::uint64_t number : order.columns)
     gathering.column(static_cast<std::size_t>(number));
-  if (order.rows) {
-    gathering.row_index();
-    bytes_of_all_ = bytes_;
-    ranks_.sum(std::span(&bytes_of_all_, 1));
-    memory_.assign(static_cast<std::size_t>(ranks_.count()), 0);
-    memory_[static_cast<std::size_t>(ranks_.rank())] = peak_memory();
-    ranks_.maximum(memory_);
-    balance_.tell_costs();
-  }
+  if (order.rows) gathering.row_index();
   gathering.common();
+}
+
+void Crew::total() {
+  bytes_of_all_ = bytes_;
+  ranks_.sum(std::span(&bytes_of_all_, 1));
+  memory_.assign(static_cast<std::size_t>(ranks_.count()), 0);
+  memory_[static_cast<std::size_t>(ranks_.rank())] = peak_memory();
+  ranks_.maximum(memory_);
+  balance_.tell_costs();
+  Gatherer(share_, whole_.get()).common();
 }
 
 void Crew::visit_particles(const Order& order, const ValueSink& take) {
@@ -134,33 +150,32 @@ std::vector<std::uint64_t> Crew::numbers_of(const std::vector<std::string>& name
   return numbers;
 }
 
+// The index of the rows is derived from their pairs.
 Order Crew::fetch_sample(const std::vector<std::string>& looks) const {
-  std::vector<std::string> names{"particle/*",
-                                 name_of<CurvePosition>(),
-                                 name_of<space::SurfacePosition>(),
-                                 name_of<space::PointForce>(),
-                                 "pair",
-                                 "touches"};
+  std::vector<std::string> names{"particle/*"};
   if (needs_motion_) names.insert(names.end(), {"node/position", "node/velocity"});
+  if (needs_tool_rows_) names.push_back(name_of<ContactTouches<ToolContact>>());
+  if (needs_die_wall_)
+    names.insert(names.end(), {name_of<space::SurfacePosition>(), name_of<space::PointForce>(),
+                               name_of<ContactTouches<FaceToolContact>>()});
   if (whole_->has<BondTotals>())
-    names.insert(names.end(), {"law", "bond_law", "bonded", "bond_damage"});
+    names.insert(names.end(), {name_of<CurvePosition>(), name_of<space::SurfacePosition>(), "law",
+                               "bond_law", "bonded", "bond_damage"});
   names.insert(names.end(), looks.begin(), looks.end());
-  return {Order::Kind::observe, 0, numbers_of(names), true};
+  const bool needs_rows = std::ranges::any_of(numbers_of(names), [&](std::uint64_t number) {
+    return is_of_contacts(*share_.columns()[number]);
+  });
+  if (needs_rows) names.emplace_back("pair");
+  return {Order::Kind::observe, 0, numbers_of(names), needs_rows};
 }
 Order Crew::fetch_rows() const { return {Order::Kind::fetch, 0, numbers_of({"pair"}), true}; }
-Order Crew::fetch_history() const {
-  return {Order::Kind::fetch, 0,
-          numbers_of({"pair", "touches", "elastic_slip", "slip_weakening", "bonded", "bond_damage",
-                      "contact_point"}),
-          true};
-}
 Order Crew::fetch_start() const {
   if (!whole_->has<BondTotals>()) return {Order::Kind::fetch, 0, numbers_of({"node/position"})};
   return {Order::Kind::fetch, 0, numbers_of({"node/position", "pair", "bonded", "bond_law"}), true};
 }
-Order Crew::state_of_all() const {
+Order Crew::hashed(std::size_t number) const {
   Order order{Order::Kind::particles};
-  order.field = values_.size() - 1;
+  order.field = fields_ + number;
   return order;
 }
 

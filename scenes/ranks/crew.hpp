@@ -26,10 +26,11 @@ struct Order {
     observe,  // and fetch
     move,
     fetch,         // columns, index of rows
-    particles,     // values of a field of the mesh or of the state
+    particles,     // values of a field of the mesh, or of what the state's hash covers
     write_field,   // of the mesh, into the run's file
     write_column,  // into a checkpoint
     flush,         // what was written, to disk
+    total,         // what the ranks sent and used
     restore,
     leave
   };
@@ -38,7 +39,7 @@ struct Order {
   std::vector<std::uint64_t> columns{};  // indices in World::columns
   bool rows = false;                     // their index
   std::string file{};                    // a checkpoint
-  std::uint64_t field = 0;               // of mesh_values; one past them: the state
+  std::uint64_t field = 0;               // of mesh_values; past them: of hashed_values
   FieldRoom room{};                      // in a file, for what is written
 
   template <class Bytes>
@@ -49,9 +50,9 @@ struct Order {
 
 class Crew {
  public:
-  // `whole`: on the root, from build_whole_world. `values`: of the fields of the mesh, and last of the state.
+  // `whole`: on the root, from build_whole_world. `fields`: of the mesh. `hashed`: hashed_values.
   Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
-       std::vector<ParticleValues> values);
+       std::vector<ParticleValues> fields, std::vector<ParticleValues> hashed);
   ~Crew();  // on the root it tells the others to leave; collective
 
   bool leads() const { return ranks_.is_root(); }
@@ -66,6 +67,7 @@ class Crew {
 
   // A rank's part in a fetch.
   void fetch(const Order& order);
+  void total();
   void visit_particles(const Order& order, const ValueSink& take = {});
   void write(const Order& order);
   // What this rank has sent in all; `ran` adds steps and the bytes sent in them.
@@ -79,13 +81,12 @@ class Crew {
   World& whole() { return *whole_; }
   // `looks`: what the observers of the whole world read.
   Order fetch_sample(const std::vector<std::string>& looks) const;
-  Order fetch_rows() const;     // index of the rows, for a checkpoint
-  Order fetch_history() const;  // plus the data of touching rows that the state's hash needs
-  Order state_of_all() const;
+  Order fetch_rows() const;  // index of the rows, for a checkpoint
   Order fetch_start() const;
+  Order hashed(std::size_t number) const;  // of hashed_values
   // Whether the ranks write a field of a frame into files in this folder.
   bool writes_field_in(const std::filesystem::path& folder, std::size_t field) const {
-    return field + 1 < values_.size() && output_.can_write_in(folder);
+    return field < fields_ && output_.can_write_in(folder);
   }
   void write_from_root() { output_.leave_to_root(); }
   // Bytes of a column of the whole that the ranks write into a checkpoint in this folder; nothing: it must be fetched.
@@ -99,7 +100,7 @@ class Crew {
   std::size_t number_of(const ColumnBase& column) const;
   // bytes, peak of each rank; known likewise.
   const std::vector<double>& memory() const { return memory_; }
-  double bytes_a_step() const {  // all ranks together; known once rows were fetched
+  double bytes_a_step() const {  // all ranks together; known after `total`
     return steps_ > 0 ? static_cast<double>(bytes_of_all_) / static_cast<double>(steps_) : 0;
   }
 
@@ -109,10 +110,12 @@ class Crew {
   World& share_;
   std::unique_ptr<World> whole_;
   Ranks& ranks_;
-  std::vector<ParticleValues> values_;  // of fields, and last of the state
+  std::vector<ParticleValues> values_;  // of fields, then hashed_values
+  std::size_t fields_;
   Balance balance_;
   SharedOutput output_;
-  bool needs_motion_;  // results read nodes at every sample
+  // What results read at every sample: the nodes, what touches tools, and the force on a round die.
+  bool needs_motion_, needs_tool_rows_, needs_die_wall_;
   std::int64_t steps_ = 0, bytes_ = 0, bytes_of_all_ = 0;
   std::vector<double> memory_;
 };

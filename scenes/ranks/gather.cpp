@@ -22,8 +22,8 @@ namespace {
 // Set by the step, or by the root when results are taken, and not identical on all ranks.
 bool is_of_a_share(const std::string& resource) {
   static const std::set<std::string> own{
-      "bodies",        "rank_link",          "contact_index",      "contact_quality",
-      "contact_network", "density_grid",     "force_chains",       "fragments",
+      "bodies",        "rank_link",          "contact_index",      "contact_network",
+      "density_grid",  "force_chains",       "fragments",
       "contact_sums",  "tool_contact_sums",  "contact_blocks",     "tool_contact_blocks",
       "face_pairs",    "face_tool_contact_blocks", "pair_loads",  "triangle_lists",
       "bond_sums",     "tool_bond_sums"};

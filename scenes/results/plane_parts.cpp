@@ -81,6 +81,13 @@ std::vector<FieldInfo> PlaneParts::tool_fields() const {
 
 RunMesh PlaneParts::mesh() const {
   RunMesh mesh;
+  std::size_t nodes = 0;
+  for_each_particle<Node>(
+      world_, [&](std::size_t, int, const Shape& shape) { nodes += shape.nodes.size(); });
+  const auto cells = static_cast<std::size_t>(elements_);
+  mesh.quads.reserve(4 * cells);
+  mesh.cell_particle.reserve(cells);
+  mesh.node_particle.reserve(nodes);
   std::int32_t particle = 0, first_node = 0;
   for_each_particle<Node>(world_, [&](std::size_t, int, const Shape& shape) {
     for (const auto& quad : shape.quads) {

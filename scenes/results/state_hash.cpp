@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "components/bond.hpp"
@@ -13,80 +15,65 @@
 #include "components/solid.hpp"
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
+#include "engine/entry.hpp"
 #include "engine/files/xxh3.hpp"
 
 namespace pulvis {
 namespace {
 
-class StateHash {
+// The bytes that the hash covers for the contacts of kind At of a particle: of each row in contact its key, number, edge
+// and partner, and its history; rows sorted by key.
+template <class At>
+class History {
  public:
-  explicit StateHash(const World& world)
-      : world_(world), bodies_(world.resource<Bodies>()), clock_(world.resource<Clock>()) {}
+  explicit History(const World& world) : world_(world), bodies_(world.resource<Bodies>()) {}
 
-  std::uint64_t value(const VisitState& visit) {
-    add(clock_.step);
-    for (const double time : {clock_.time, clock_.dt_before, clock_.dt}) add(time);
-    visit([this](std::span<const double> of_one) { hash_.add(std::as_bytes(of_one)); });
-    const auto number = [this](int slot) { return number_in(slot); };
-    const auto itself = [](int tool) { return tool; };
-    add_contacts<Contact>(number, [this](int row) { add_history<Contact>(row); });
-    add_contacts<ToolContact>(itself, [this](int row) { add_history<ToolContact>(row); });
-    add_contacts<FaceContact>(number, [this](int row) { add_springs(row); });
-    add_contacts<FaceToolContact>(itself, [this](int row) { add_slip(row); });
-    return hash_.value();
+  std::vector<std::byte> of(int slot) {
+    if (!world_.has<ContactPair<At>>()) return {};
+    const auto& index = world_.resource<ContactIndex>();
+    const std::vector<std::int32_t>& begin = with_tools ? index.tool_begin : index.sampled_begin;
+    if (begin.empty()) return {};              // nothing was searched yet
+    std::vector<std::array<int, 3>> touching;  // edge, partner; row
+    for (int r = entry(begin, slot); r < entry(begin, slot + 1); ++r) {
+      const std::int32_t* key = world_.column<ContactPair<At>>().values() + std::ptrdiff_t{3} * r;
+      if (world_.column<ContactTouches<At>>().values()[r] != 0)
+        touching.push_back({key[1], with_tools ? key[2] : number_in(key[2]), r});
+    }
+    std::ranges::sort(touching);
+    for (const auto& [edge, other, row] : touching) {
+      add(std::array{number_in(slot), edge, other});
+      if constexpr (std::is_same_v<At, FaceContact>) add_springs(row);
+      if constexpr (std::is_same_v<At, FaceToolContact>) add_points<space::ElasticSlip>(row);
+      if constexpr (in_space)
+        add_history<space::SlipWeakening<At>, space::BondedPoints<At>, space::BondDamage<At>>(row);
+      else
+        add_history<ElasticSlip<At>, SlipWeakening<At>, BondedPoints<At>, BondDamage<At>>(row);
+    }
+    return std::move(bytes_);
   }
 
  private:
+  static constexpr bool in_space =
+      std::is_same_v<At, FaceContact> || std::is_same_v<At, FaceToolContact>;
+  static constexpr bool with_tools =
+      std::is_same_v<At, ToolContact> || std::is_same_v<At, FaceToolContact>;
+
   template <class T>
   void add(const T& value) {
-    hash_.add(std::as_bytes(std::span(&value, 1)));
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
+  int number_in(int slot) const { return entry(bodies_.slots, slot).number; }
 
-  int number_in(int slot) const { return bodies_.slots[static_cast<std::size_t>(slot)].number; }
-
-  // `add_row`: adds the history of a row in contact.
-  template <class At, class Partner, class AddRow>
-  void add_contacts(const Partner& partner, const AddRow& add_row) {
-    if (!world_.has<ContactPair<At>>()) return;
-    const auto& pair = world_.column<ContactPair<At>>();
-    const auto& touches = world_.column<ContactTouches<At>>();
-    std::vector<std::array<int, 4>> touching;  // number, edge, partner; row
-    for (std::size_t r = 0; r < pair.table.rows; ++r) {
-      const std::int32_t* key = pair.values() + 3 * r;
-      if (touches.values()[r] != 0)
-        touching.push_back({number_in(key[0]), key[1], partner(key[2]), static_cast<int>(r)});
-    }
-    std::ranges::sort(touching);
-    for (const auto& [number, edge, other, row] : touching) {
-      add(std::array{number, edge, other});
-      add_row(row);
-    }
-  }
-  template <class At>
-  void add_history(int row) {
-    add_points<ElasticSlip<At>>(row);
-    add_points<SlipWeakening<At>>(row);
-    if (!world_.has<BondedPoints<At>>()) return;
-    add(world_.column<BondedPoints<At>>().values()[row]);
-    add_points<BondDamage<At>>(row);
-  }
   void add_springs(int row) {
     using Point = space::ContactPoint;
     const double* first = world_.column<Point>().values() + std::ptrdiff_t{row} * Point::count;
     for (int g = 0; g < space::face_points; ++g)
       for (int k = Point::spring; k < Point::numbers; ++k) add(first[g * Point::numbers + k]);
-    add_points<space::SlipWeakening<FaceContact>>(row);
-    add_bonds<FaceContact>(row);
   }
-  void add_slip(int row) {
-    add_points<space::ElasticSlip>(row);
-    add_points<space::SlipWeakening<FaceToolContact>>(row);
-    add_bonds<FaceToolContact>(row);
-  }
-  template <class At>
-  void add_bonds(int row) {
-    add_points<space::BondedPoints<At>>(row);
-    add_points<space::BondDamage<At>>(row);
+  template <class... Columns>
+  void add_history(int row) {
+    (add_points<Columns>(row), ...);
   }
   template <class C>
   void add_points(int row) {
@@ -97,9 +84,33 @@ class StateHash {
 
   const World& world_;
   const Bodies& bodies_;
-  const Clock& clock_;
-  Xxh3 hash_;
+  std::vector<std::byte> bytes_;
 };
+
+// As numbers, of which the first counts the bytes.
+template <class At>
+void append_history(const World& world, int slot, std::vector<double>& out) {
+  const std::vector<std::byte> bytes = History<At>(world).of(slot);
+  const std::size_t first = out.size();
+  out.resize(first + 1 + (bytes.size() + sizeof(double) - 1) / sizeof(double));
+  out[first] = static_cast<double>(bytes.size());
+  std::memcpy(out.data() + first + 1, bytes.data(), bytes.size());
+}
+std::span<const std::byte> bytes_in(std::span<const double> numbers) {
+  return std::as_bytes(numbers.subspan(1)).first(static_cast<std::size_t>(numbers.front()));
+}
+
+std::uint64_t hash_of(const World& world, const VisitHashed& visit) {
+  Xxh3 hash;
+  const auto add = [&](const auto& value) { hash.add(std::as_bytes(std::span(&value, 1))); };
+  const Clock& clock = world.resource<Clock>();
+  add(clock.step);
+  for (const double time : {clock.time, clock.dt_before, clock.dt}) add(time);
+  visit(0, [&](std::span<const double> state) { hash.add(std::as_bytes(state)); });
+  for (std::size_t i = 1; i < hashed_values().size(); ++i)
+    visit(i, [&](std::span<const double> history) { hash.add(bytes_in(history)); });
+  return hash.value();
+}
 
 // For a column without lanes: its rows are in the order of the mesh.
 template <class C>
@@ -123,12 +134,19 @@ std::uint64_t solid_hash(const World& world) {
 
 }  // namespace
 
-std::uint64_t state_hash(const World& world, const VisitState& visit) {
-  return world.has<SolidMesh>() ? solid_hash(world) : StateHash(world).value(visit);
+std::vector<ParticleValues> hashed_values() {
+  return {state_values(), append_history<Contact>, append_history<ToolContact>,
+          append_history<FaceContact>, append_history<FaceToolContact>};
+}
+
+std::uint64_t state_hash(const World& world, const VisitHashed& visit) {
+  return world.has<SolidMesh>() ? solid_hash(world) : hash_of(world, visit);
 }
 
 std::uint64_t state_hash(const World& world) {
-  return state_hash(world, [&](const ValueSink& take) { visit_all(world, state_values(), take); });
+  return state_hash(world, [&](std::size_t i, const ValueSink& take) {
+    visit_all(world, hashed_values().at(i), take);
+  });
 }
 
 std::string state_hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }

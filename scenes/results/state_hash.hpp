@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "engine/world.hpp"
 #include "scenes/results/mesh_values.hpp"
@@ -18,9 +19,11 @@ namespace pulvis {
 // For a solid (AFM), which has no clock: over the displacements, loads and plastic state at the start of an
 // increment, the forces and history of the probe's points, and the resources in a checkpoint.
 std::uint64_t state_hash(const World& world);
-// `visit` supplies state_values of all particles by number, where `world` does not hold them.
-using VisitState = std::function<void(const ValueSink& take)>;
-std::uint64_t state_hash(const World& world, const VisitState& visit);
+// What the hash covers of every particle, in this order: first state_values, then the history of its contacts.
+std::vector<ParticleValues> hashed_values();
+// `visit` supplies the values of number `hashed` of all particles by number, where `world` does not hold them.
+using VisitHashed = std::function<void(std::size_t hashed, const ValueSink& take)>;
+std::uint64_t state_hash(const World& world, const VisitHashed& visit);
 
 // As written to files: 16 hexadecimal digits.
 std::string state_hash_text(std::uint64_t hash);

@@ -9,6 +9,7 @@
 // Runs     on sampled steps, after the narrow phases
 // Active   when contact is possible
 #include <algorithm>
+#include <array>
 
 #include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
@@ -69,17 +70,33 @@ void add_row(const Curve& sampled, const Shape::Edge& edge, const Read<PointForc
   }
 }
 
-void add_up(const Found& found, ContactQuality& quality) {
-  quality.overlap += found.overlap;
-  quality.penetration_work += found.work;
+ContactQuality quality_of(const Found& found) {
+  ContactQuality of_one{.overlap = found.overlap, .penetration_work = found.work};
   for (const Side& side : found.sides) {
     const double force = length_of(side.force);
-    quality.force += force;
+    of_one.force += force;
     if (side.edges >= ContactQuality::min_edges || side.face) continue;
-    quality.narrow_force += force;
-    quality.narrow_width += force * side.width;
-    quality.narrow_edges += force * side.edges;
+    of_one.narrow_force += force;
+    of_one.narrow_width += force * side.width;
+    of_one.narrow_edges += force * side.edges;
   }
+  return of_one;
+}
+
+// Exact, and hence the same for any number of ranks.
+ContactQuality sum(const std::vector<Found>& particles, const Link& link) {
+  constexpr std::array numbers{&ContactQuality::overlap,      &ContactQuality::penetration_work,
+                               &ContactQuality::force,        &ContactQuality::narrow_force,
+                               &ContactQuality::narrow_width, &ContactQuality::narrow_edges};
+  std::array<ExactSum, numbers.size()> sums;
+  for (const Found& found : particles) {
+    const ContactQuality of_one = quality_of(found);
+    for (std::size_t i = 0; i < numbers.size(); ++i) sums[i].add(of_one.*numbers[i]);
+  }
+  sum_of_ranks(link, sums);
+  ContactQuality all;
+  for (std::size_t i = 0; i < numbers.size(); ++i) all.*numbers[i] = sums[i].value();
+  return all;
 }
 
 }  // namespace
@@ -127,13 +144,12 @@ void contact_quality::operator()() const {
   const auto found = list_by_slot<Found>(static_cast<int>(bodies->slots.size()),
                                          [&](int slot, std::vector<Found>& list) {
                                            Found mine;
-                                           if (outlines.number(slot) == Bodies::empty_slot) return;
+                                           if (!bodies->owns(slot)) return;
                                            if (pairs) add_pairs(slot, mine);
                                            if (tools) add_tools(slot, mine);
                                            if (!mine.sides.empty()) list.push_back(std::move(mine));
                                          });
-  *quality = {};
-  for (const Found& one : found.all) add_up(one, *quality);
+  *quality = sum(found.all, link);
 }
 
 }  // namespace pulvis

@@ -5,6 +5,7 @@
 #include "components/bond.hpp"
 #include "components/bundles.hpp"
 #include "components/observed.hpp"
+#include "systems/ranks/reduce.hpp"
 
 namespace pulvis {
 
@@ -25,6 +26,7 @@ struct contact_quality {
   Optional<TouchingPairs> pairs;
   Optional<TouchingTools> tools;
   Write<ContactQuality> quality;
+  Link link;
   void operator()() const;
 };
 

@@ -33,7 +33,7 @@ ROOMS = {
         "contact": "laws ranks",
         "tools": "contact laws ranks",
         "cell": "tools ranks",
-        "observe": "contact tools",
+        "observe": "contact tools ranks",
         "sparse": "",
         "lever": "sparse body laws",
         "space/body": "body laws",
