@@ -24,27 +24,44 @@ PatchPlace gauss_place(int point) {
           entry(kernels::edge_w, i) * entry(kernels::edge_w, j)};
 }
 
-PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points, double u,
-                    double v) {
+PatchWeights patch_weights(double u, double v) {
   const Four in_u = bernstein(u), in_v = bernstein(v);
   const Four by_u = bernstein_slope(u), by_v = bernstein_slope(v);
-  PatchPoint place{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  PatchWeights weights;
   for (std::size_t j = 0; j < 4; ++j)
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3& p = entry(points, numbers[4 * j + i]);
-      place.at += in_u[i] * in_v[j] * p;
-      place.by_u += by_u[i] * in_v[j] * p;
-      place.by_v += in_u[i] * by_v[j] * p;
-    }
+    for (std::size_t i = 0; i < 4; ++i)
+      weights[4 * j + i] = {in_u[i] * in_v[j], by_u[i] * in_v[j], in_u[i] * by_v[j]};
+  return weights;
+}
+
+PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points,
+                    const PatchWeights& weights) {
+  PatchPoint place{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const Vec3& p = entry(points, numbers[k]);
+    place.at += weights[k].at * p;
+    place.by_u += weights[k].by_u * p;
+    place.by_v += weights[k].by_v * p;
+  }
   return place;
 }
 
+PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points, double u,
+                    double v) {
+  return patch_at(numbers, points, patch_weights(u, v));
+}
+
 double volume_under(const std::array<int, 16>& numbers, const std::vector<Vec3>& points) {
+  static const auto at_gauss_points = [] {
+    std::array<PatchWeights, Shape::gauss_points> all;
+    for (int g = 0; g < Shape::gauss_points; ++g)
+      entry(all, g) = patch_weights(gauss_place(g).u, gauss_place(g).v);
+    return all;
+  }();
   double volume = 0;
   for (int g = 0; g < Shape::gauss_points; ++g) {
-    const PatchPlace place = gauss_place(g);
-    const PatchPoint on = patch_at(numbers, points, place.u, place.v);
-    volume += place.weight * on.at.dot(on.area()) / 3;
+    const PatchPoint on = patch_at(numbers, points, entry(at_gauss_points, g));
+    volume += gauss_place(g).weight * on.at.dot(on.area()) / 3;
   }
   return volume;
 }

@@ -1,6 +1,7 @@
 // The undeformed smooth surface: points, tangents and areas of its patches.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "components/space/shape.hpp"
@@ -17,7 +18,15 @@ struct PatchPoint {
   Vec3 at, by_u, by_v;
   Vec3 area() const { return by_u.cross(by_v); }  // outward, per unit area of the unit square
 };
+// What each Bezier point of a face counts at a place of it: where many faces are looked at, the same for all.
+struct PointWeights {
+  double at, by_u, by_v;
+};
+using PatchWeights = std::array<PointWeights, 16>;
+PatchWeights patch_weights(double u, double v);
 // `points`: the particle's Bezier points.
+PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points,
+                    const PatchWeights& weights);
 PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points, double u,
                     double v);
 inline PatchPoint patch_at(const Shape::Face& face, const std::vector<Vec3>& points, double u,

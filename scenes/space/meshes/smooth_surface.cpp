@@ -61,24 +61,31 @@ struct Likeness {
   // >= 1: good enough. Where the area almost vanishes, closest points cannot be found.
   double quality() const { return std::min(cosine / 0.5, evenness / 0.2); }
 };
+std::vector<PatchWeights> weights_looked_at() {
+  std::vector<PatchWeights> weights;
+  for (const double u : looked_at)
+    for (const double v : looked_at) weights.push_back(patch_weights(u, v));
+  return weights;
+}
 Likeness likeness(const SurfaceNet& net, const std::vector<Vec3>& points,
                   const StarSurface& surface) {
+  static const std::vector<PatchWeights> all_weights = weights_looked_at();
   Likeness worst;
   for (int f = 0; f < net.faces(); ++f) {
+    const std::array<int, 16> numbers = points_of(net, f);
     double least = std::numeric_limits<double>::infinity(), sum = 0;
-    for (const double u : looked_at)
-      for (const double v : looked_at) {
-        const PatchPoint patch = patch_at(points_of(net, f), points, u, v);
-        const Vec3 direction = patch.at.normalized();
-        const auto [radius, normal] = surface.spot(direction);
-        const Vec3 off = patch.at - radius * direction;
-        worst.distance = std::max(worst.distance, off.norm());
-        worst.bulge = std::max(worst.bulge, off.dot(normal));
-        const double area = patch.area().norm(), along = patch.area().dot(normal);
-        worst.cosine = std::min(worst.cosine, along > 0 ? along / area : -1.0);
-        least = std::min(least, area);
-        sum += area;
-      }
+    for (const PatchWeights& weights : all_weights) {
+      const PatchPoint patch = patch_at(numbers, points, weights);
+      const Vec3 direction = patch.at.normalized();
+      const auto [radius, normal] = surface.spot(direction);
+      const Vec3 off = patch.at - radius * direction;
+      worst.distance = std::max(worst.distance, off.norm());
+      worst.bulge = std::max(worst.bulge, off.dot(normal));
+      const double area = patch.area().norm(), along = patch.area().dot(normal);
+      worst.cosine = std::min(worst.cosine, along > 0 ? along / area : -1.0);
+      least = std::min(least, area);
+      sum += area;
+    }
     worst.evenness = std::min(worst.evenness, least * looked_at.size() * looked_at.size() / sum);
   }
   return worst;
@@ -88,13 +95,19 @@ Likeness likeness(const SurfaceNet& net, const std::vector<Vec3>& points,
 class Fit {
  public:
   Fit(const Shape& shape, const SurfaceNet& net, const StarSurface& surface)
-      : net_(net), surface_(surface), frames_(spline_frames(net)), c_(count(), usual_c) {
+      : net_(net),
+        surface_(surface),
+        frames_(spline_frames(net)),
+        bezier_(net, frames_),
+        c_(count(), usual_c) {
     for (int i = 0; i < net.nodes(); ++i) nodes_.push_back(vector_of(entry(shape.nodes, i)));
     for (int i = 0; i < net.nodes(); ++i) u_.push_back(value_of(umbrella(net, i), nodes_));
     for (int i = 0; i < net.nodes(); ++i)
       normal_u_.push_back(
           std::abs(entry(u_, i).dot(surface.normal(entry(nodes_, i).normalized()))));
     most_u_ = *std::ranges::max_element(normal_u_);
+    for (int i = 0; i < net.nodes(); ++i)
+      if (net.valence(i) == 4 && meets_irregular(i)) turning_.push_back(i);
     for (int i = 0; i < fits; ++i) improve_smoothing();
     turn_as_far_as_good();
   }
@@ -103,7 +116,7 @@ class Fit {
   // Of a node: the surface is flat there.
   bool is_flat(int node) const { return entry(normal_u_, node) < flat * most_u_; }
   // In terms of the nodes of the net.
-  std::vector<Combination> points() const { return bezier_points(net_, turned_frames()); }
+  const std::vector<Combination>& points() const { return bezier_.all(); }
   const Likeness& reached() const { return reached_; }
 
  private:
@@ -156,13 +169,20 @@ class Fit {
       entry(c_, i) = std::clamp(entry(c_, i) + change[i], least_c, most_c);
   }
 
-  std::vector<NodeFrame> turned_frames() const {
-    std::vector<NodeFrame> frames = frames_;
-    const std::vector<Vec3> control = net_places();
-    for (int i = 0; i < net_.nodes(); ++i)
-      if (net_.valence(i) == 4)
-        for (int k = 0; k < 2; ++k) turn_line(i, k, control, entry(frames, i));
-    return frames;
+  bool meets_irregular(int node) const {
+    for (int end = 0; end < 4; ++end)
+      if (net_.valence(neighbour(node, end)) == 3) return true;
+    return false;
+  }
+
+  // Of all Bezier points only those around the irregular nodes depend on the positions.
+  void turn_lines(const std::vector<Vec3>& control) {
+    for (const int w : turning_) {
+      NodeFrame frame = entry(frames_, w);
+      for (int k = 0; k < 2; ++k) turn_line(w, k, control, frame);
+      bezier_.set(w, frame);
+    }
+    if (!turning_.empty()) bezier_.join();
   }
 
   // The first fraction of the changes that is good enough; if there is none, the best.
@@ -183,11 +203,13 @@ class Fit {
     }
     share_ = best_share;
     c_ = best_c;
+    turn_lines(net_places());
   }
 
   // m, positions of the Bezier points.
-  std::vector<Vec3> places() const {
+  std::vector<Vec3> places() {
     const std::vector<Vec3> control = net_places();
+    turn_lines(control);
     std::vector<Vec3> at;
     for (const Combination& point : points()) at.push_back(value_of(point, control));
     return at;
@@ -266,7 +288,9 @@ class Fit {
 
   const SurfaceNet& net_;
   const StarSurface& surface_;
-  std::vector<NodeFrame> frames_;
+  std::vector<NodeFrame> frames_;  // not turned
+  BezierPoints bezier_;
+  std::vector<int> turning_;  // nodes with lines to irregular ones
   std::vector<double> c_;
   double share_ = 1;  // of most_change
   Likeness reached_;

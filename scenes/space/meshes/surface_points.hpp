@@ -1,6 +1,7 @@
 // Bezier points of the smooth surface as combinations of its control net: see smooth_surface.hpp.
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@ class Combination {
   auto begin() const { return terms_.begin(); }
   auto end() const { return terms_.end(); }
   bool empty() const { return terms_.empty(); }
+  void clear() { terms_.clear(); }
 
   friend void add(Combination& to, const Combination& from, double factor);
 
@@ -56,7 +58,27 @@ struct NodeFrame {
 std::vector<NodeFrame> spline_frames(const SurfaceNet& net);
 
 // [points] over the nodes of the net. Patches share tangent planes for any frames.
-std::vector<Combination> bezier_points(const SurfaceNet& net, const std::vector<NodeFrame>& frames);
+class BezierPoints {
+ public:
+  BezierPoints(const SurfaceNet& net, const std::vector<NodeFrame>& frames);
+  // Another frame at a node where four faces meet. `join` afterwards: the points around the nodes of three faces follow.
+  void set(int node, const NodeFrame& frame);
+  void join();
+  const std::vector<Combination>& all() const { return points_; }
+
+ private:
+  using Corner = SurfaceNet::Corner;
+  Combination& at(int point) { return entry(points_, point); }
+  void clear(int v);
+  void set_irregular(int v);
+  void set_inside(const std::vector<Corner>& fan, const std::array<Combination, 3>& sum);
+  void set_cube_corner(int v, const Combination& place);
+  void set_cube_inside(int v);
+
+  const SurfaceNet& net_;
+  PointNumbers number_;
+  std::vector<Combination> points_;
+};
 // The point numbers of a face, u first.
 std::array<int, 16> points_of(const SurfaceNet& net, int face);
 
