@@ -19,6 +19,8 @@ int up_to_multiple_of_4(double edges) {
   return 4 * static_cast<int>(std::ceil(std::min(edges, maximum) / 4 - 1e-6));
 }
 
+int fewest_of(double edges) { return std::max(8, up_to_multiple_of_4(edges)); }
+
 // Requested edge lengths at the samples of a smooth closed curve.
 class EdgeLengths {
  public:
@@ -43,14 +45,23 @@ class EdgeLengths {
  private:
   double step(std::size_t k) const { return samples_[k + 1].s - samples_[k].s; }
 
-  // Absolute turning angle from the start to s, which may lie up to a lap outside the range.
-  double turned(double s) const {
-    const double length = samples_.back().s, laps = std::floor(s / length);
-    s -= laps * length;
+  // The sample before s, or the last but one; looked for only where it is not `near`.
+  std::size_t before(double s, std::size_t near) const {
+    const std::size_t last = samples_.size() - 2;
+    if ((near == 0 || samples_[near].s <= s) && (near == last || s < samples_[near + 1].s))
+      return near;
     const auto after = std::upper_bound(
         samples_.begin() + 1, samples_.end() - 1, s,
         [](double value, const OutlineCurve::Sample& sample) { return value < sample.s; });
-    const auto k = static_cast<std::size_t>(after - samples_.begin()) - 1;
+    return static_cast<std::size_t>(after - samples_.begin()) - 1;
+  }
+
+  // Absolute turning angle from the start to s, which may lie up to a lap outside the range. `k`: a guess at the sample
+  // before s; becomes that sample.
+  double turned(double s, std::size_t& k) const {
+    const double length = samples_.back().s, laps = std::floor(s / length);
+    s -= laps * length;
+    k = before(s, k);
     const double share = (s - samples_[k].s) / step(k);
     return laps * turned_.back() + turned_[k] + share * (turned_[k + 1] - turned_[k]);
   }
@@ -59,9 +70,11 @@ class EdgeLengths {
   // have peaks that no edge resolves.
   double longest(double s) const {
     double low = 0, high = samples_.back().s;
+    std::size_t ahead = 0, behind = 0;
     for (int i = 0; i < 40; ++i) {
       const double h = 0.5 * (low + high);
-      (turned(s + 0.5 * h) - turned(s - 0.5 * h) <= max_turn ? low : high) = h;
+      const double turn = turned(s + 0.5 * h, ahead) - turned(s - 0.5 * h, behind);
+      (turn <= max_turn ? low : high) = h;
     }
     return low;
   }
@@ -172,18 +185,20 @@ BoundaryNodes boundary_nodes(const OutlineCurve& curve, int edges) {
 }
 
 int fewest_edges(const OutlineCurve& curve) {
-  if (curve.sharp())
-    return std::max(8, up_to_multiple_of_4(static_cast<double>(side_lengths(curve).size())));
-  return std::max(8, up_to_multiple_of_4(EdgeLengths(curve).count(unlimited, max_growth).back()));
+  if (curve.sharp()) return fewest_of(static_cast<double>(side_lengths(curve).size()));
+  return fewest_of(EdgeLengths(curve).count(unlimited, max_growth).back());
 }
 
 int edges_of_size(const OutlineCurve& curve, double size) {
-  double edges = 0;
-  if (curve.sharp())
-    for (const double side : side_lengths(curve)) edges += std::max(1.0, std::round(side / size));
-  else
-    edges = EdgeLengths(curve).count(size, usual_growth).back();
-  return std::max(up_to_multiple_of_4(edges), fewest_edges(curve));
+  if (curve.sharp()) {
+    const std::vector<double> sides = side_lengths(curve);
+    double edges = 0;
+    for (const double side : sides) edges += std::max(1.0, std::round(side / size));
+    return std::max(up_to_multiple_of_4(edges), fewest_of(static_cast<double>(sides.size())));
+  }
+  const EdgeLengths lengths(curve);
+  return std::max(up_to_multiple_of_4(lengths.count(size, usual_growth).back()),
+                  fewest_of(lengths.count(unlimited, max_growth).back()));
 }
 
 }  // namespace pulvis
