@@ -9,6 +9,7 @@
 
 #include "scenes/grains/cut_cells.hpp"
 #include "scenes/meshes/mesh.hpp"
+#include "scenes/meshes/mesh_outlines.hpp"
 #include "scenes/outlines/curve_of.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/outlines/star.hpp"
@@ -53,6 +54,14 @@ bool is_star(const GrainMap& map, const std::vector<GrainMap::Side>& grain) {
   for (const GrainMap::Side& side : grain)
     polygon.push_back(map.vertices[static_cast<std::size_t>(side.vertex)].at);
   return star_centre(polygon).has_value();
+}
+
+// Of the elements' corners; no more of the grain's shape is made than that takes.
+double worst_sine(const GrainOutline& outline, const OutlineCurve& curve, const StarMesh& mesh) {
+  Shape shape;
+  shape.area = curve.area();
+  mesh_outline(outline, curve, mesh, shape);
+  return min_corner_sine(shape);
 }
 
 class Cutter {
@@ -108,10 +117,11 @@ class Cutter {
       int edges = 0;
       for (const auto& face : outline.faces) edges += face.edges;
       spec.outline = outline;
-      spec.mesh = StarMesh{edges, 1};
+      const StarMesh mesh{edges, 1};
+      spec.mesh = mesh;
       const OutlineCurve curve = curve_of(outline);
       if (curve.area() < least_share * mean) return {};
-      if (!(min_corner_sine(make_shape(spec)) >= least_sine)) return {};
+      if (!(worst_sine(outline, curve, mesh) >= least_sine)) return {};
       cuts.push_back({std::move(spec), outline.faces[0].from - curve.at(0).at});
     }
     return cuts;

@@ -64,11 +64,18 @@ void set_gauss_points(Shape& shape) {
 Shape make_shape(const ParticleSpec& particle, double phase) {
   Shape shape;
   shape.name = particle.name;
-  shape.area = outline_area(particle.outline);
   std::visit(
       [&](const auto& outline) {
         using Mesh = typename std::decay_t<decltype(outline)>::Mesh;
-        mesh_outline(outline, std::get<Mesh>(particle.mesh), phase, shape);
+        const Mesh& mesh = std::get<Mesh>(particle.mesh);
+        if constexpr (requires { curve_of(outline); }) {
+          const OutlineCurve curve = curve_of(outline);
+          shape.area = area_with(curve, particle.outline);
+          mesh_outline(outline, curve, mesh, shape);
+        } else {
+          shape.area = outline_area(particle.outline);
+          mesh_outline(outline, mesh, phase, shape);
+        }
       },
       particle.outline);
   set_gauss_points(shape);

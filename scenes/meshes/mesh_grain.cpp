@@ -47,9 +47,10 @@ Outside nodes_of_faces(const GrainOutline& grain) {
 
 }  // namespace
 
-void mesh_outline(const GrainOutline& grain, const StarMesh& mesh, double /*phase*/, Shape& shape) {
+void mesh_outline(const GrainOutline& grain, const OutlineCurve& curve, const StarMesh& mesh,
+                  Shape& shape) {
   const Outside outside = nodes_of_faces(grain);
-  const Vec2 origin = grain.faces[0].from - curve_of(grain).at(0).at;
+  const Vec2 origin = grain.faces[0].from - curve.at(0).at;
   std::vector<Point> nodes;
   std::vector<Vec2> polygon;
   for (const Vec2& p : outside.nodes) {

@@ -14,6 +14,9 @@ OutlineCurve curve_of(const PointsOutline& outline);
 OutlineCurve curve_of(const FourierOutline& outline);
 OutlineCurve curve_of(const GrainOutline& outline);
 
+// m^2, as outline_area, of an outline whose curve is at hand.
+double area_with(const OutlineCurve& curve, const Outline& outline);
+
 // For any outline without a hole.
 OutlineCurve any_curve(const Outline& outline);
 

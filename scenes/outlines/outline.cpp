@@ -41,10 +41,6 @@ double area_of(const SuperellipseOutline& o) {
                h = portable::log_gamma(1 + 2 / o.exponent);
   return o.width * o.height * portable::exp(2 * g - h);
 }
-template <class CurvedOutline>
-double area_of(const CurvedOutline& o) {
-  return curve_of(o).area();
-}
 
 std::vector<Vec2> polygon_of(const RoundedBox& box, double deviation) {
   // The sagitta of a chord over the angle 2 a is r (1 - cos a).
@@ -103,7 +99,25 @@ bool can_fold(const Outline& outline) {
 }
 
 double outline_area(const Outline& outline) {
-  return std::visit([](const auto& o) { return area_of(o); }, outline);
+  return std::visit(
+      [](const auto& o) {
+        if constexpr (requires { area_of(o); })
+          return area_of(o);
+        else
+          return curve_of(o).area();
+      },
+      outline);
+}
+
+double area_with(const OutlineCurve& curve, const Outline& outline) {
+  return std::visit(
+      [&](const auto& o) {
+        if constexpr (requires { area_of(o); })
+          return area_of(o);
+        else
+          return curve.area();
+      },
+      outline);
 }
 
 }  // namespace pulvis
