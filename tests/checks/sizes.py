@@ -34,7 +34,9 @@ OPEN, CLOSE = "([{", ")]}"
 BLOCK = re.compile(r"^(?:else\b|if\b|for\b|while\b|do\b|switch\b|try\b|catch\b|case\b|default\b)")
 RECORD = re.compile(r"^(?:template\s*<.*?>\s*)?(?:requires\b.*?)?(?:struct|class|union)\s+(?:alignas\([^)]*\)\s*)?"
                     r"(?P<name>[\w:<>, ]*?)\s*(?:final\s*)?(?::[^:].*)?$", re.S)
-SPECIFIERS = re.compile(r"\s*(?:\b(?:const|override|final|mutable|noexcept|try)\b|&&?|->[^(){};]*(?:\([^()]*\))?[^(){};]*"
+# (From the beginning of the white space: blanked comments are much of it, and each start in its middle would be tried.)
+SPECIFIERS = re.compile(r"(?<!\s)\s*(?:"
+                        r"\b(?:const|override|final|mutable|noexcept|try)\b|&&?|->[^(){};]*(?:\([^()]*\))?[^(){};]*"
                         r"|\bnoexcept\s*\([^()]*\)|\brequires\b[^{};]*)\s*$", re.S)
 
 
@@ -42,7 +44,7 @@ def code_of(text):
     """The text with comments, literals and directives blanked, line by line the same."""
     def blank(match):
         kept = '""' if match[0][0] in "\"'R" else ""
-        return kept + re.sub(r"[^\n]", " ", match[0][len(kept):])
+        return kept + "\n".join(" " * len(line) for line in match[0][len(kept):].split("\n"))
     return NO_CODE.sub(blank, text)
 
 
