@@ -3,8 +3,9 @@
 
 usage: ranks.py [--pulvis PROGRAM] [--folder DIR] [--repeats N] WHAT...
 
-WHAT  strong   a square packing on 1 and 2 threads and on 1 and 2 ranks, interleaved: wall seconds, minimum and median; and
-               two independent processes with half of it each, run concurrently: measures how uneven the cores are
+WHAT  strong   a square packing on 1 and 2 threads and on 1 and 2 ranks, interleaved: wall seconds of the steps, minimum
+               and median; and two independent processes with half of it each, run concurrently: measures how uneven the
+               cores are
       weak     N discs on one rank, 2 N on two
       bytes    data exchanged between ranks per step, by number of ranks and of discs
       model    seconds per step on 1 to 1,024 nodes for 10^4 to 10^7 discs, from the cost per disc and the bytes measured
@@ -88,13 +89,16 @@ def scene_of(options, discs, edges=40):
 
 
 def side_by_side(options, scene, steps, ways, also=dict):
-    """Wall seconds of each configuration, run interleaved; and those of `also`."""
+    """Wall seconds of `steps` steps in each configuration, run interleaved; and those of `also`. A run of a tenth of the
+    steps is subtracted, since files of the start and of the end take ranks longer than one process."""
     seconds = {name: [] for name in ways}
     summaries = {}
     for _ in range(options.repeats):
         for name, words in ways.items():
-            summaries[name] = run(options, name.replace(" ", "-"), [scene, "--stop-after", steps, *words])
-            seconds[name].append(summaries[name]["wall_seconds"])
+            first, last = (run(options, name.replace(" ", "-"), [scene, "--stop-after", stop, *words])
+                           for stop in (steps // 10, steps // 10 + steps))
+            seconds[name].append(last["wall_seconds"] - first["wall_seconds"])
+            summaries[name] = last
         for name, time in also().items():
             seconds.setdefault(name, []).append(time)
     return seconds, summaries
@@ -105,9 +109,11 @@ def halves(options, discs):
     side = round(math.sqrt(discs))
     half = block(options, side, side // 2)
     names = ("lower", "upper")
-    for process in [start(options, name, [half, "--stop-after", options.steps, "--threads", 1]) for name in names]:
-        process.wait()
-    seconds = [summary_of(options, name)["wall_seconds"] for name in names]
+    seconds = [0, 0]
+    for sign, stop in ((-1, options.steps // 10), (1, options.steps // 10 + options.steps)):
+        for process in [start(options, name, [half, "--stop-after", stop, "--threads", 1]) for name in names]:
+            process.wait()
+        seconds = [s + sign * summary_of(options, name)["wall_seconds"] for s, name in zip(seconds, names)]
     return {"two halves alone, the slower": max(seconds), "two halves alone, the faster": min(seconds)}
 
 
