@@ -320,6 +320,8 @@ class AfmChecks {
       const bool press = action.kind == ActionSpec::Kind::press;
       if (press && (action.distance != 0) == action.force.has_value())
         refuse(path + ".distance", "neither or both of distance and force are given, allowed: one");
+      if (!press && action.kind != ActionSpec::Kind::hold && action.distance == 0)
+        refuse(path + ".distance", "0 m: nothing moves, allowed: any other distance");
       if (action.servo && !pressed)
         refuse(path + ".set_point", "there is no force to hold yet, allowed: after a press");
       pressed = pressed || press;

@@ -12,12 +12,16 @@ namespace {
 struct Channel {
   const char *name, *series, *unit, *meaning;
   double sign;
+  bool turns;  // its sign depends on the direction of the trace
 };
 constexpr Channel channels[] = {
     {"topography", "scanner/z", "m",
-     "distance by which the scanner was lowered to follow the surface", -1},
-    {"deflection", "detector/normal", "V", "normal signal of the detector", 1},
-    {"friction", "detector/lateral", "V", "lateral signal of the detector", 1}};
+     "distance by which the scanner was lowered to follow the surface", -1, false},
+    {"deflection", "detector/normal", "V", "normal signal of the detector", 1, false},
+    {"friction", "detector/lateral", "V",
+     "lateral signal of the detector, with the sign of the force that drags the probe along the "
+     "trace",
+     -1, true}};
 
 // The history rows of an action; the first row of all is the state before the programme.
 std::size_t first_row(const Scene& scene, std::size_t action) {
@@ -60,9 +64,11 @@ std::vector<AfmImage> raster_images(const Scene& scene, const AfmHistory& histor
     const double along = std::abs(action.distance) / static_cast<double>(pixels);
     const PixelSpacing spacing{
         along, action.lines > 1 ? std::abs(action.width) / (action.lines - 1) : along};
-    for (const Channel& channel : channels)
+    for (Channel channel : channels) {
+      if (channel.turns && action.distance < 0) channel.sign = -channel.sign;
       for (const bool retrace : {false, true})
         images.push_back(image_of(history, channel, a, retrace, first, lines, pixels, spacing));
+    }
   }
   return images;
 }

@@ -300,15 +300,17 @@ bool AfmProgramme::traverse(const std::array<double, 3>& travel, int increments,
                                    travel[2] / increments};
   for (int i = 0; i < increments; ++i) {
     const bool made = skip();
-    iterations_ = 0;
-    if (!made) {
-      advance(step, servo, 0);
-      refuse_lock(step);
-    }
+    if (!made) pass(step, servo);
     time_ += share_ / increments;
     if (!made && !tell()) return false;
   }
   return true;
+}
+
+void AfmProgramme::pass(const std::array<double, 3>& step, bool servo) {
+  iterations_ = 0;
+  advance(step, servo, 0);
+  refuse_lock(step);
 }
 
 bool AfmProgramme::press(const ActionSpec& action, double sign) {
@@ -347,8 +349,26 @@ bool AfmProgramme::scan(const ActionSpec& action) {
   return done;
 }
 
-// A pixel is recorded when the probe leaves it: at its far end on the trace, at its near end on the
-// retrace. Between the lines the probe moves along the slow axis.
+// Pixels are recorded at their centres, so that trace and retrace have them at the same places: half a pixel before the first
+// and after the last one is passed without a record.
+bool AfmProgramme::cross(const std::array<double, 3>& travel, const ActionSpec& action) {
+  std::array<double, 3> pixel, half;
+  for (std::size_t k = 0; k < 3; ++k) {
+    pixel[k] = travel[k] / action.increments;
+    half[k] = pixel[k] / 2;
+  }
+  for (int i = 0; i < action.increments; ++i) {
+    const std::array<double, 3>& step = i == 0 ? half : pixel;
+    const bool made = skip();
+    if (!made) pass(step, action.servo);
+    time_ += share_ / action.increments;
+    if (!made && !tell()) return false;
+  }
+  if (to_skip_ == 0) pass(half, action.servo);
+  return true;
+}
+
+// Between the lines the probe moves along the slow axis.
 bool AfmProgramme::raster(const ActionSpec& action) {
   const bool lateral = action.direction == TargetSpec::Direction::lateral;
   const double d = action.distance;
@@ -358,9 +378,8 @@ bool AfmProgramme::raster(const ActionSpec& action) {
   const std::array<double, 3> aside{lateral ? -apart : 0, lateral ? 0 : -apart, 0};
   share_ = 0.5 / action.lines;
   for (int line = 0; line < action.lines; ++line) {
-    if (line > 0 && to_skip_ == 0) advance(aside, action.servo, 0);
-    if (!traverse(trace, action.increments, action.servo)) return false;
-    if (!traverse(retrace, action.increments, action.servo)) return false;
+    if (line > 0 && to_skip_ == 0) pass(aside, action.servo);
+    if (!cross(trace, action) || !cross(retrace, action)) return false;
   }
   share_ = 1;
   return true;

@@ -53,6 +53,9 @@ class AfmProgramme {
   bool scan(const ActionSpec& action);
   bool raster(const ActionSpec& action);
   bool traverse(const std::array<double, 3>& travel, int increments, bool servo);
+  bool cross(const std::array<double, 3>& travel, const ActionSpec& action);  // a line of a raster
+  // An increment; refuses a probe that has locked.
+  void pass(const std::array<double, 3>& step, bool servo);
   // Moves the target; splits the step in half where no equilibrium is found, or where an adhesive tip is released
   // somewhere within it.
   void advance(const std::array<double, 3>& travel, bool servo, int depth);

@@ -41,8 +41,8 @@ function rastersOf(run) {
   return [...rasters.values()];
 }
 
-// The images of a channel: trace, retrace, and for friction half of their difference, whose sign does not depend on
-// topography. Each is levelled separately.
+// The images of a channel: trace, retrace, and for friction half of their difference, from which the slope of the surface
+// cancels. Each is levelled separately.
 function mapsOf(channel, {trace, retrace}, level) {
   const levelled = image => LEVELS[level][1](image.values, image.pixels, image.lines);
   const maps = [["trace", levelled(trace)], ...(retrace ? [["retrace", levelled(retrace)]] : [])];

@@ -185,10 +185,35 @@ TEST(Raster, TheTopographyIsTheSurface) {
   ASSERT_EQ(trace.values.size(), 18u);
   EXPECT_NEAR(trace.spacing.along, 20e-9, 1e-20);
   EXPECT_NEAR(trace.spacing.across, 20e-9, 1e-20);
-  // Without friction the retrace is the trace: a pixel's near end is the last one's far end.
-  for (std::size_t line = 0; line < 3; ++line)
-    for (std::size_t pixel = 1; pixel < 6; ++pixel)
-      EXPECT_NEAR(retrace.values[6 * line + pixel], trace.values[6 * line + pixel - 1], 2e-12);
+  // Without friction the retrace is the trace.
+  for (std::size_t i = 0; i < 18; ++i) EXPECT_NEAR(retrace.values[i], trace.values[i], 2e-12) << i;
+}
+
+// Law: on a slope t, (T_u - T_d)/2 = mu L/(cos^2 t - mu^2 sin^2 t), docs/afm.md: mu L but for t^2.
+TEST(Raster, HalfTheDifferenceIsFrictionWithoutTheSlopes) {
+  for (const std::string distance : {"160 nm", "-160 nm"}) {
+    SCOPED_TRACE(distance);
+    const Scene scene =
+        shipped_afm("raster.toml", {"action[3].lines=2", "action[3].increments=8",
+                                    "action[3].distance=" + distance, "action[3].width=40 nm",
+                                    "action[1].distance=-300 nm", "action[1].increments=5",
+                                    "action[2].increments=5"});
+    const auto images = raster_images(scene, history_of(scene));
+    const AfmImage &trace = images[4], &retrace = images[5];
+    ASSERT_EQ(trace.info.name, "action_3/friction_trace");
+    double sum = 0, least = 1, most = -1, slopes = 0;
+    for (std::size_t i = 0; i < trace.values.size(); ++i) {
+      const double half = 0.5 * (trace.values[i] - retrace.values[i]);
+      sum += half / static_cast<double>(trace.values.size());
+      least = std::min(least, half);
+      most = std::max(most, half);
+      slopes = std::max(slopes, std::abs(trace.values[i] + retrace.values[i]) / 2);
+    }
+    EXPECT_GT(least, 0.97 * sum);
+    EXPECT_LT(most, 1.03 * sum);
+    EXPECT_GT(slopes, 0.1 * sum);  // there are some
+    EXPECT_GT(sum, 0);
+  }
 }
 
 }  // namespace

@@ -111,6 +111,17 @@ TEST(WrongAfm, AScanThatLeavesTheHeightMapIsRefusedWithTheBound) {
   EXPECT_NE(refused({"surface.file=nothing.csv"}).find("there is no such file"), std::string::npos);
 }
 
+TEST(WrongAfm, AnActionThatMovesNothingIsRefused) {
+  const auto refused = [](const std::string& override) {
+    return message_of([&] { shipped_afm("raster.toml", {override}); });
+  };
+  for (const std::string scan : {"action[1]", "action[3]"})
+    EXPECT_NE(refused(scan + ".distance=0 m")
+                  .find(scan + ".distance: 0 m: nothing moves, allowed: any other distance"),
+              std::string::npos)
+        << refused(scan + ".distance=0 m");
+}
+
 std::string refused_heights(const std::string& heights) {
   const auto file = std::filesystem::temp_directory_path() / "pulvis_wrong_heights.csv";
   std::ofstream(file) << heights;

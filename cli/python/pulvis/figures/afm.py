@@ -227,7 +227,8 @@ def levelled(values, level):
 
 def maps_of(run, level):
     """Every image of every raster, levelled: (action, channel, direction, unit, values, (pixel width, height) in m or None).
-    The friction difference is half of trace minus retrace: topography contributes equally to both and cancels."""
+    The friction difference is half of trace minus retrace: both are of the same places, so that the slope of the surface
+    contributes equally to both and cancels. It is positive where friction resists the probe."""
     for action in sorted(run.file.get("images", [])):
         for channel in CHANNELS:
             traces = {}
