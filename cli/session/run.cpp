@@ -63,6 +63,20 @@ void print_end(Session& run, const RunOptions& options) {
   tell("results in {}\n", run.folder().string());
 }
 
+// For a run that is closed and has nothing to continue.
+void end_with_report(Session& run) {
+  try {
+    run.end_with_report();
+  } catch (const OutputError&) {
+    const std::string folder = run.folder().string();
+    tell(stderr,
+         "pulvis: the results in {} are complete, but the report is missing; once the cause is "
+         "fixed, write it with: pulvis report {}\n",
+         folder, shell_word(folder));
+    throw;
+  }
+}
+
 // A health check or a limit ended the run: that may be what the scene expects.
 ExitCode stopped(Session& run, const RunOptions& options, const std::string& message) {
   run.judge(message, interrupted);
@@ -72,7 +86,7 @@ ExitCode stopped(Session& run, const RunOptions& options, const std::string& mes
     tell(stderr, "pulvis: the run failed: {}\nthe results up to then are in {}\n", message,
          run.folder().string());
   if (!run.verdicts().empty() || options.json) print_end(run, options);
-  run.end_with_report();
+  end_with_report(run);
   return expected && all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
 }
 
@@ -102,14 +116,12 @@ ExitCode complete(Session& run, const RunOptions& options) {
     const std::int64_t step = run.clock().step;
     run.close(done ? "done" : "interrupted");
     print_end(run, options);
-    run.end_with_report();
-    if (done) {
-      run.remove_checkpoints();
-      return all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
+    if (!done) {
+      run.end_with_report();
+      tell(stderr, "pulvis: interrupted at step {}; continue with: pulvis resume {}\n", step,
+           shell_word(run.folder().string()));
+      return ExitCode::interrupted;
     }
-    tell(stderr, "pulvis: interrupted at step {}; continue with: pulvis resume {}\n", step,
-         shell_word(run.folder().string()));
-    return ExitCode::interrupted;
   } catch (const RunFailure& failure) {
     return stopped(run, options, failure.what());
   } catch (const OutputError&) {
@@ -117,6 +129,9 @@ ExitCode complete(Session& run, const RunOptions& options) {
     tell_what_is_left(run.folder());
     throw;
   }
+  end_with_report(run);
+  run.remove_checkpoints();
+  return all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
 }
 
 // `ranks`: null if the process is alone.

@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Faults : public ProgramTest {
  protected:
@@ -89,6 +90,42 @@ TEST_F(Faults, AFileSizeLimitStopsTheRunAndItGoesOnWithoutIt) {
   const Outcome rest = pulvis({"resume", "run"});
   EXPECT_EQ(rest.code, 0) << rest.err;
   EXPECT_EQ(whole_frames(), 101U);
+}
+
+// The limit lies between the sizes of run.h5 (some 90 kB) and of the page (some 220 kB).
+constexpr const char* too_small_for_a_report = "ulimit -f 300";  // of 512 bytes: 150 kB
+
+Words short_spin() {
+  return {"--threads",       "1",     "--set",           "stage.spin.duration=0.1 ms", "--set",
+          "output.frames=1", "--set", "output.samples=2"};
+}
+
+TEST_F(Faults, AReportThatCannotBeWrittenIsWrittenLater) {
+  const Words run = with({"run", scene("basic/spinning-disc.toml"), "-o", "run"}, short_spin());
+  const Outcome end = pulvis(run, too_small_for_a_report);
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, HasSubstr("report.html: cannot write: File too large"));
+  EXPECT_THAT(end.err, HasSubstr("pulvis report run"));
+  EXPECT_THAT(end.err, Not(HasSubstr("pulvis resume")));
+  EXPECT_THAT(text_of(place / "run" / "summary.json"), HasSubstr("\"outcome\": \"done\""));
+  EXPECT_FALSE(fs::exists(place / "run" / "report.html"));
+  const Outcome report = pulvis({"report", "run"});
+  EXPECT_EQ(report.code, 0) << report.err;
+  EXPECT_TRUE(fs::exists(place / "run" / "report.html"));
+}
+
+TEST_F(Faults, WithoutItsReportAFailedRunIsCompleteAndAnInterruptedOneIsNot) {
+  const Words run = with({"run", scene("basic/spinning-disc.toml"), "-o", "run"}, short_spin());
+  const Outcome failed =
+      pulvis(with(run, {"--set", "limits.energy_balance=1e-14"}), too_small_for_a_report);
+  EXPECT_EQ(failed.code, 4) << failed.err;
+  EXPECT_THAT(failed.err, HasSubstr("the run failed: energies: energy_balance"));
+  EXPECT_THAT(failed.err, HasSubstr("pulvis report run"));
+  const Outcome stopped =
+      pulvis(with(run, {"--overwrite", "--stop-after", "100"}), too_small_for_a_report);
+  EXPECT_EQ(stopped.code, 4) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("pulvis resume run"));
+  EXPECT_THAT(stopped.err, Not(HasSubstr("pulvis report")));
 }
 
 // A file system of 5 MB of the run's own; needs the right to mount one.
