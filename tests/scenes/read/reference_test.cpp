@@ -1,5 +1,5 @@
 // The committed descriptions of the scene language are those the declarations give.
-// To renew them: pulvis check --print-reference, or copy what the failing test found.
+// To renew them: pulvis check --reference text, or schema; or copy what the failing test found.
 #include "scenes/keys/scene_reference.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/schema.hpp"
