@@ -39,7 +39,6 @@ using StateParts = std::map<std::string, std::vector<std::byte>>;
 // What a checkpoint of `world` would contain, by name: kept in memory, to be written later.
 StateParts state_of(const World& world);
 
-// Afterwards the folder holds this checkpoint and the previous one, but no older ones of this run.
 // For a world whose columns are elsewhere. `write` is asked first for every column: it may write the column itself, into the
 // room that is made for its bytes, and returns whether it did; `flush` is called after the last one. Other columns are
 // written here, between calls of `fetch` and `leave`.
@@ -49,6 +48,8 @@ struct ColumnVisit {
   std::function<void()> flush;
   std::function<void(const ColumnBase&)> fetch, leave;
 };
+
+// Afterwards the folder holds this checkpoint and the previous one, but no older ones of this run.
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
                       const World& world, const StateParts& run, const ColumnVisit& visit = {});
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,

@@ -183,7 +183,7 @@ const TableDeclaration<ActionSpec>& action() {
          .range = within(-largest_size, largest_size),
          .fallback = value_of("0 m"),
          .only_for = {"press", "scan", "retract", "raster"},
-         .doc = "Travel of the scanner; for a press, `force` may be given instead. For a "
+         .doc = "Travel of the scanner, not 0; for a press, `force` may be given instead. For a "
                 "raster: length of a line, which begins at the current position of the probe."},
         to(&ActionSpec::distance)},
        {{.name = "force",

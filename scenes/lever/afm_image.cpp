@@ -12,15 +12,15 @@ namespace {
 struct Channel {
   const char *name, *series, *unit, *meaning;
   double sign;
-  bool turns;  // its sign depends on the direction of the trace
+  bool turns;  // changes its sign with the direction of a trace across the lever
 };
 constexpr Channel channels[] = {
     {"topography", "scanner/z", "m",
      "distance by which the scanner was lowered to follow the surface", -1, false},
     {"deflection", "detector/normal", "V", "normal signal of the detector", 1, false},
     {"friction", "detector/lateral", "V",
-     "lateral signal of the detector, with the sign of the force that drags the probe along the "
-     "trace",
+     "lateral signal of the detector, with the sign of the force that drags the probe along a "
+     "trace across the lever",
      -1, true}};
 
 // The history rows of an action; the first row of all is the state before the programme.
@@ -64,8 +64,10 @@ std::vector<AfmImage> raster_images(const Scene& scene, const AfmHistory& histor
     const double along = std::abs(action.distance) / static_cast<double>(pixels);
     const PixelSpacing spacing{
         along, action.lines > 1 ? std::abs(action.width) / (action.lines - 1) : along};
+    const bool is_backwards =
+        action.distance < 0 && action.direction == TargetSpec::Direction::lateral;
     for (Channel channel : channels) {
-      if (channel.turns && action.distance < 0) channel.sign = -channel.sign;
+      if (channel.turns && is_backwards) channel.sign = -channel.sign;
       for (const bool retrace : {false, true})
         images.push_back(image_of(history, channel, a, retrace, first, lines, pixels, spacing));
     }
