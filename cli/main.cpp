@@ -94,8 +94,9 @@ ExitCode plan(const Options& options) {
   const Scene scene = read_scene(options.run.scene, options.run.overrides);
   if (scene.afm) return plan_afm(scene, options.dot);
   Simulation simulation(scene);
-  tell("{}", options.dot ? plan_dot(simulation.plan())
-                         : plan_text(simulation.plan(), simulation.world()));
+  tell("{}", options.dot
+                 ? plan_dot(simulation.plan())
+                 : plan_text(simulation.plan(), simulation.sampled_systems(), simulation.world()));
   return ExitCode::done;
 }
 

@@ -1,6 +1,7 @@
 #include "cli/plan.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace pulvis {
 namespace {
@@ -20,7 +21,8 @@ std::string stage_name(const StagePlan& stage) {
 
 }  // namespace
 
-std::string plan_text(const GraphPlan& plan, const World& world) {
+std::string plan_text(const GraphPlan& plan, const std::vector<std::string>& sampled,
+                      const World& world) {
   std::string out = "systems of a step, in order; systems on one line are fused chunk by chunk\n";
   for (std::size_t s = 0; s < plan.stages.size(); ++s) {
     const StagePlan& stage = plan.stages[s];
@@ -34,6 +36,10 @@ std::string plan_text(const GraphPlan& plan, const World& world) {
   out += "\nedges\n";
   for (const auto& [earlier, later] : plan.edges)
     out += fmt::format("  {} -> {}\n", earlier, later);
+
+  if (!sampled.empty())
+    out += fmt::format("\nsystems that only sampled steps run, after the forces\n     {}\n",
+                       fmt::join(sampled, ", "));
 
   out += "\ncolumns\n";
   std::size_t total = 0;

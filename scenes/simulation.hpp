@@ -27,7 +27,8 @@ class Simulation {
   // Where results are taken: the same or, on the root of several ranks, the gathered data of the whole scene.
   World& whole() { return crew_ ? crew_->whole() : *world_; }
   const Clock& clock() const { return world_->resource<Clock>(); }
-  const GraphPlan& plan() const { return step_->plan(); }
+  const GraphPlan& plan() const { return step_->plan(); }  // of plain steps
+  std::vector<std::string> sampled_systems() const { return step_->sampled_systems(); }
   std::vector<SystemCost> costs() const;
   bool finished() const { return clock().time >= end(); }
 

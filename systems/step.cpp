@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "components/space/shape.hpp"
+#include "engine/run_failure.hpp"
 #include "engine/system_list.hpp"
 #include "systems/body/systems.hpp"
-#include "engine/run_failure.hpp"
 #include "systems/cell/systems.hpp"
 #include "systems/contact/systems.hpp"
 #include "systems/observe/systems.hpp"
@@ -208,8 +208,8 @@ std::vector<System> watched(std::vector<System> systems, World& world) {
   if (!world.has<RankLink>()) return systems;
   RankLink& link = world.resource<RankLink>();
   for (std::size_t i = 0; i < systems.size(); ++i)
-    systems[i].run = [&link, position = static_cast<int>(i), run = std::move(systems[i].run)](
-                         Chunk chunk) {
+    systems[i].run = [&link, position = static_cast<int>(i),
+                      run = std::move(systems[i].run)](Chunk chunk) {
       try {
         run(chunk);
       } catch (const RunFailure& failure) {
@@ -258,7 +258,8 @@ void Step::run() {
   whole_.run();
   try {
     end_of_step();
-  } catch (const RunFailure&) {  // the other ranks have completed the step; the run stops in it, as it does alone
+  } catch (
+      const RunFailure&) {  // the other ranks have completed the step; the run stops in it, as it does alone
     world_.resource<Clock>() = before;
     throw;
   }
@@ -276,6 +277,19 @@ void Step::move() {
 
 void Step::end_of_step() const {
   if (world_.has<RankLink>()) throw_failure_of_any(world_.resource<RankLink>());
+}
+
+std::vector<std::string> Step::sampled_systems() const {
+  const auto names = [](const GraphPlan& plan) {
+    std::vector<std::string> all;
+    for (const StagePlan& stage : plan.stages)
+      all.insert(all.end(), stage.systems.begin(), stage.systems.end());
+    return all;
+  };
+  const std::vector<std::string> plain = names(plan());
+  std::vector<std::string> sampled = names(observed_.plan());
+  std::erase_if(sampled, [&](const auto& name) { return std::ranges::count(plain, name) > 0; });
+  return sampled;
 }
 
 std::vector<SystemCost> Step::costs() const {

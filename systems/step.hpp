@@ -44,6 +44,8 @@ class Step {
   void observe();  // forces and energies at t_n...
   void move();     // ...and then the motion that completes the step
   const GraphPlan& plan() const { return whole_.plan(); }
+  // Names of the systems that only sampled steps run, in order.
+  std::vector<std::string> sampled_systems() const;
   std::vector<SystemCost> costs() const;  // plain and sampled steps together
 
  private:

@@ -94,7 +94,8 @@ ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
 
 ExitCode plan_afm(const Scene& scene, bool dot) {
   AfmSimulation simulation(scene);
-  tell("{}", dot ? plan_dot(simulation.plan()) : plan_text(simulation.plan(), simulation.world()));
+  tell("{}",
+       dot ? plan_dot(simulation.plan()) : plan_text(simulation.plan(), {}, simulation.world()));
   return ExitCode::done;
 }
 

@@ -180,9 +180,12 @@ TEST_F(CommandLine, CheckPrintsTheSceneLanguage) {
 }
 
 TEST_F(CommandLine, PlanListsSystemsEdgesAndColumnsWithTheirBytes) {
-  const Outcome end = pulvis({"plan", scene("compaction/regular-25.toml")});
+  const Outcome end =
+      pulvis({"plan", scene("compaction/regular-25.toml"), "--set", "output.particle_stress=true"});
   EXPECT_EQ(end.code, 0);
   EXPECT_THAT(end.out, HasSubstr("internal_force"));
+  EXPECT_THAT(end.out, ContainsRegex("\nsystems that only sampled steps run[^\n]*\n[^\n]*"
+                                     "kinetic_energy[^\n]*particle_stress"));
   EXPECT_THAT(end.out, ContainsRegex("\nedges\n +[0-9]+ -> [0-9]+\n"));
   EXPECT_THAT(end.out, ContainsRegex("\n +node +position +2 x m +[0-9]+ B "));
   EXPECT_THAT(end.out, ContainsRegex("[1-9][0-9]+ B in total"));
