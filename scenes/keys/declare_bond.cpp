@@ -72,7 +72,8 @@ std::vector<Key<BondSpec>> bond_origin_keys() {
             .fallback = value_of(0.01),
             .only_for = "initial",
             .doc = "Maximum distance between facing surfaces that are bonded, as a fraction of "
-                   "the boundary edge length."},
+                   "the boundary edge length. In three dimensions surfaces that overlap are bonded "
+                   "as well."},
            to(&BondSpec::reach)},
           {{.name = "inside",
             .kind = Kind::flag,

@@ -86,9 +86,10 @@ const TableDeclaration<UntilSpec>& until() {
   static const TableDeclaration<UntilSpec> declaration{
       {"stage.until", false, "",
        "Ends the preceding stage before its duration is over; its tools or strains "
-       "then come to rest as smoothly as they started. If the condition is not met "
-       "within the duration of the stage, the run stops. Exactly one of `force`, "
-       "`displacement` and `relative_density` is given.",
+       "then come to rest as smoothly as they started, and so travel on by about half of "
+       "`ramp` times the distance of the whole stage. If the condition is not met within "
+       "the duration of the stage, the run stops. Exactly one of `force`, `displacement` "
+       "and `relative_density` is given.",
        compaction_only, true},
       {{{.name = "tool",
          .kind = Kind::reference,

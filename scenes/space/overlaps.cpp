@@ -287,7 +287,8 @@ std::vector<std::string> contact_overlap_warnings(const Scene& scene,
   if (count == 0) return {};
   return {fmt::format(
       "the contact surfaces bulge out beyond the shapes: at the start {}, by up to {:.3g} m ({}), "
-      "and push each other apart; leave larger gaps, or use more divisions",
+      "and push each other apart where no initial bond holds them; leave larger gaps, or use more "
+      "divisions",
       count == 1 ? "two overlap" : fmt::format("they overlap in {} places", count), deepest,
       where)};
 }

@@ -1,9 +1,11 @@
 // initial_bonds: bonds surfaces that touch at the start, in three dimensions.
 //
 // Law      as in two dimensions (systems/contact/initial_bonds.cpp): a point within `reach` of its closest point on a
-//          surface that faces it; an initial gap belongs to the bond and carries no force
+//          surface that faces it; an initial gap belongs to the bond and carries no force. So does an initial overlap,
+//          which smooth surfaces of coarse meshes can have although the shapes only touch: it is bonded at any depth
 // Runs     once, at the start, after the first narrow phase, which finds the closest points
 // Active   when the scene has bonds between particles that exist from the start
+#include <algorithm>
 #include <cmath>
 
 #include "systems/contact/bond_strength.hpp"
@@ -56,8 +58,8 @@ void initial_bonds::operator()() const {
       const Vec along = d - opening * n;
       if (dot(along, along) > beside * beside * size * size || dot(n, normal_of(own)) > facing)
         continue;
-      entry(totals->nearest, number - 1).take(std::abs(opening), size);
-      if (std::abs(opening) > law.reach * size) continue;
+      entry(totals->nearest, number - 1).take(std::max(opening, 0.0), size);
+      if (opening > law.reach * size) continue;
       rows.make(row, g, strength, opening);
       activation(row, g) = 0;
       entry(totals->made, number - 1) += 1;

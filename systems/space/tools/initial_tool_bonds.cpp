@@ -3,7 +3,7 @@
 // Law      as between particles (systems/space/contact/initial_bonds.cpp)
 // Runs     once, at the start, after the first search for contacts
 // Active   when the scene has bonds with tools that exist from the start
-#include <cmath>
+#include <algorithm>
 
 #include "systems/contact/bond_strength.hpp"
 #include "systems/space/contact/gauss_points.hpp"
@@ -29,7 +29,7 @@ void initial_tool_bonds::operator()() const {
       const Standing standing = standing_on_tool(tools, triangles, tool, row, at, face.size);
       unsigned made = 0;
       for (int l = 0; l < lane_count; ++l) {
-        const double gap = std::abs(standing.gap[l]);
+        const double gap = std::max(-standing.gap[l], 0.0);  // overlaps are bonded at any depth
         entry(totals->nearest, number - 1).take(gap, face.size);
         if (gap > law.reach * face.size) continue;
         rows.make(row, lane_count * half + l, strength, -standing.gap[l]);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <regex>
 #include <string>
 
 #include "scenes/results/bond_results.hpp"
@@ -146,6 +147,36 @@ TEST(BondsInSpace, AGluedBodyKeepsItsMomentumAndEnergy) {
   EXPECT_LT(balance, 1e-6 * e.value("energy/kinetic"));
   EXPECT_EQ(e.value("bonds/crack_area"), 0);
   EXPECT_GT(e.value("energy/bonds"), 0);
+}
+
+// Coarse meshes: the smooth surfaces of the end faces overlap, although the cylinders only touch.
+TEST(BondsInSpace, WhatOverlapsAtTheStartIsGluedAndAtRest) {
+  std::string text = cylinders(-0.5e-3, "", {});
+  text.replace(text.rfind("position"), std::string::npos,
+               "position = [\"0 mm\", \"0 mm\", \"0.5 mm\"]\n");
+  text = std::regex_replace(text, std::regex("mesh = [^\n]*"), "mesh = { divisions = 4 }");
+  text += R"(
+[[bond]]
+between = ["stone", "stone"]
+origin = "initial"
+strength = "10 MPa"
+fracture_energy = "50 J/m^2"
+[[stage]]
+name = "rest"
+kind = "settle"
+duration = "2 us"
+)";
+  Experiment e(own_scene(text));
+  double contact = 0, crack = 0;
+  e.run(20, [&] {
+    contact = std::max(contact, e.value("energy/contact"));
+    crack = std::max(crack, e.value("bonds/crack_area"));
+  });
+  const double section = 0.25 * std::numbers::pi * 1e-6;
+  EXPECT_GT(e.value("bonds/area"), 0.7 * section);
+  EXPECT_EQ(crack, 0);
+  EXPECT_LT(contact, 1e-9 * 10e6 * section * 1e-3);  // J, of the strength over the height
+  EXPECT_LT(e.value("energy/kinetic"), 1e-9 * 10e6 * section * 1e-3);
 }
 
 // ---- cold welding ------------------------------------------------------------------------------------------
