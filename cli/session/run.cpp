@@ -35,7 +35,11 @@ void print_balance(Simulation& simulation) {
 
 void print_end(Session& run, const RunOptions& options) {
   if (options.json) print_summary(run.folder());
-  if (!options.talks()) return;
+  const auto warn = [&] {
+    for (const std::string& line : run.quality().lines())
+      tell(options.warns_on(), "warning: {}\n", line);
+  };
+  if (!options.talks()) return warn();
   const Results& r = run.results();
   const double seconds = run.seconds();
   const std::int64_t steps = run.clock().step;
@@ -57,7 +61,7 @@ void print_end(Session& run, const RunOptions& options) {
          told(shear->dynamic_friction), shear->distance * 1e3,
          shear->dilation ? fmt::format(", dilation {:.4g} mm", *shear->dilation * 1e3) : "");
   }
-  for (const std::string& line : run.quality().lines()) tell("warning: {}\n", line);
+  warn();
   if (!run.verdicts().empty()) tell("expectations\n");
   for (const Verdict& verdict : run.verdicts()) tell("  {}\n", verdict.text());
   tell("results in {}\n", run.folder().string());
@@ -181,9 +185,10 @@ ExitCode run_scene(const RunOptions& options) {
     require_free_folder(loaded, folder);
     return run_afm(loaded, options, folder, rank.threads());
   }
-  const OpenSession run = open_session(
-      loaded, {folder, rank.threads(), options.talks(), options.checkpoints, rank.led()},
-      options.overwrite, take_interrupts);
+  const OpenSession run = open_session(loaded,
+                                       {folder, rank.threads(), options.talks(),
+                                        options.checkpoints, rank.led(), options.warns_on()},
+                                       options.overwrite, take_interrupts);
   return complete(*run.session, options);
 }
 
@@ -200,7 +205,9 @@ ExitCode resume_run(const RunOptions& options) {
   if (loaded.scene.afm) return resume_afm(loaded, options, checkpoint, threads);
   require_memory(loaded.scene, machines_of(rank.led()));
   Ranks* ranks = rank.led() != nullptr ? &rank.led()->tell(loaded) : nullptr;
-  Session run(loaded, {options.folder, threads, options.talks(), options.checkpoints, rank.led()},
+  Session run(loaded,
+              {options.folder, threads, options.talks(), options.checkpoints, rank.led(),
+               options.warns_on()},
               std::make_unique<Simulation>(loaded.scene, threads, ranks));
   take_interrupts();
   run.go_on_from(checkpoint);

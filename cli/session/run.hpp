@@ -1,6 +1,7 @@
 // pulvis run: from the scene file to the results folder; pulvis resume: continues a stopped run.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -20,11 +21,12 @@ struct RunOptions {
   bool overwrite = false;
   std::vector<std::string> overrides;  // key.path=value
   CheckpointOptions checkpoints;
-  bool quiet = false;  // prints only errors and warnings
+  bool quiet = false;  // prints only errors and warnings, on standard error
   bool json = false;   // the same, and summary.json on standard output
   // Called before the first step.
   std::function<void(Simulation&)> before_steps{};
   bool talks() const { return !quiet && !json; }
+  std::FILE* warns_on() const { return talks() ? stdout : stderr; }
 };
 
 std::filesystem::path folder_of(const RunOptions& options);  // for the results

@@ -72,8 +72,8 @@ ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
                  const std::filesystem::path& folder, int threads) {
   refuse_checkpoint_time(loaded, options);
   require_afm_memory(loaded.scene);
-  if (options.talks())
-    for (const std::string& line : lever_warnings(loaded.scene)) tell("warning: {}\n", line);
+  for (const std::string& line : lever_warnings(loaded.scene))
+    tell(options.warns_on(), "warning: {}\n", line);
   AfmSession run(loaded, threads);
   take_interrupts();
   const FolderLock lock = open_run_folder(folder, options.overwrite);

@@ -92,9 +92,10 @@ void Session::begin() {
                       fmt::format("{:016x}", loaded_.hash), loaded_.scene.seed, options_.threads},
         results_.mesh(), results_.series(), results_.fields(), simulated_time, results_.tables()));
   }
-  if (options_.talks) {
-    for (const std::string& line : bond_warnings_) tell("warning: {}\n", line);
-    for (const std::string& line : warnings_at_start(loaded_.scene)) tell("warning: {}\n", line);
+  if (std::FILE* to = options_.warns_on) {
+    for (const std::string& line : bond_warnings_) tell(to, "warning: {}\n", line);
+    for (const std::string& line : warnings_at_start(loaded_.scene))
+      tell(to, "warning: {}\n", line);
   }
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks);
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -47,7 +48,8 @@ class Session {
     int threads = 1;
     bool talks = false;
     CheckpointOptions checkpoints{};
-    LedRanks* ranks = nullptr;  // led by this process as root
+    LedRanks* ranks = nullptr;      // led by this process as root
+    std::FILE* warns_on = nullptr;  // null: it says nothing of warnings
   };
 
   // `scene` as it is saved; `built` is at its start. Neither the folder nor its lock belongs to the session.
