@@ -200,7 +200,8 @@ Table complete_tree(const std::string& text, const std::filesystem::path& file,
   refuse_extending(root, problems);
   problems.throw_if_any();
   const bool in_space = is_in_space(root);
-  if (in_space) space::refuse_keys_of_the_plane(root, problems);
+  in_space ? space::refuse_keys_of_the_plane(root, problems)
+           : space::refuse_solids_in_the_plane(root, problems);
   problems.throw_if_any();
   apply_let(root, language_of(root), problems);
   refuse_dimension_of_variables(root, in_space, problems);

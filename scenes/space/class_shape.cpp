@@ -12,18 +12,24 @@
 namespace pulvis::space {
 
 Shape class_shape(const Scene& scene, std::size_t particle) {
+  constexpr double farthest = 0.5;
   const ParticleSpec& spec = scene.space->particles.at(particle);
   try {
-    return make_shape(spec);
+    Shape shape = make_shape(spec);
+    if (const double share = surface_error_share(shape); share > farthest)
+      throw std::invalid_argument(
+          fmt::format("its smoothed surface is {:.0f}% of the mean radius off", 100 * share));
+    return shape;
   } catch (const std::invalid_argument& error) {
     const std::size_t declared =
         spec.class_of < 0 ? particle : static_cast<std::size_t>(spec.class_of);
     throw SceneError(
         {{scene.file_of(spec.mark).string(), spec.mark.line, spec.mark.column, "",
           fmt::format("particle[{}].mesh", declared),
-          fmt::format("{}: the mesh is too coarse for this shape, allowed: more divisions, or a "
-                      "rounder shape",
-                      error.what())}});
+          fmt::format(
+              "{}: the mesh is too coarse for this shape, allowed: a rounder shape, or more "
+              "divisions",
+              error.what())}});
   }
 }
 

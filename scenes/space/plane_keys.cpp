@@ -81,4 +81,19 @@ void refuse_keys_of_the_plane(const Table& root, Problems& problems) {
   PlaneKeys(problems).look_through(root, "", "");
 }
 
+void refuse_solids_in_the_plane(const Table& root, Problems& problems) {
+  const document::Entry* particles = document::find(root, "particle");
+  if (document::find(root, "dimension") != nullptr || particles == nullptr ||
+      !document::is_array_of_tables(particles->value))
+    return;
+  for (const Value& particle : particles->value.get<document::Array>()) {
+    const document::Entry* shape = document::find(particle.get<Table>(), "shape");
+    if (shape == nullptr) continue;
+    problems.add(shape->origin, "particle.shape",
+                 "belongs to three dimensions, allowed: with `dimension = 3` at the top of the "
+                 "scene; in two dimensions a particle has an `outline`");
+    return;
+  }
+}
+
 }  // namespace pulvis::space

@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "scenes/space/meshes/rounded_polyhedron.hpp"
+
 namespace pulvis::space {
 namespace {
 
@@ -44,6 +46,11 @@ void check_sizes(const PolyhedronShape& polyhedron, const std::string& path, con
   else if (thickness_of(polyhedron.corners) == 0)
     refuse(path + ".corners",
            "they lie in one plane, allowed: at least four points that enclose a volume");
+  else if (const auto most = too_round(polyhedron))
+    refuse(path + ".rounding",
+           fmt::format("{:g} m leaves nothing of the polyhedron, allowed: below {:.4g} m, the "
+                       "radius of its largest inscribed sphere",
+                       polyhedron.rounding, *most));
 }
 
 }  // namespace

@@ -33,13 +33,20 @@ void sort_around(const Vec3& normal, std::vector<Vec3>& corners) {
   });
 }
 
+// Of the smaller polyhedron, whose faces lie `rounding` deeper.
+std::vector<HalfSpace> moved_in(std::vector<HalfSpace> planes, double rounding) {
+  for (HalfSpace& plane : planes) plane.offset -= rounding;
+  return planes;
+}
+bool encloses_volume(const std::vector<Vec3>& corners) { return corners.size() >= 4; }
+
 class RoundedPolyhedron final : public StarSurface {
  public:
   explicit RoundedPolyhedron(const PolyhedronShape& shape) : rounding_(shape.rounding) {
-    std::vector<HalfSpace> planes = faces_of_hull(shape.corners);
-    for (HalfSpace& plane : planes) plane.offset -= rounding_;
+    const std::vector<HalfSpace> planes = moved_in(faces_of_hull(shape.corners), rounding_);
     const std::vector<Vec3> corners = corners_between(planes);
-    if (corners.size() < 4) throw std::invalid_argument("nothing is left of it after rounding");
+    if (!encloses_volume(corners))
+      throw std::invalid_argument("nothing is left of it after rounding");
     for (const HalfSpace& plane : planes) add_side(plane, corners);
     measure(corners);
     move_to_centre();
@@ -188,6 +195,21 @@ class RoundedPolyhedron final : public StarSurface {
 
 std::unique_ptr<StarSurface> polyhedron_surface(const PolyhedronShape& shape) {
   return std::make_unique<RoundedPolyhedron>(shape);
+}
+
+std::optional<double> too_round(const PolyhedronShape& shape) {
+  const std::vector<HalfSpace> planes = faces_of_hull(shape.corners);
+  const auto is_left = [&](double rounding) {
+    return encloses_volume(corners_between(moved_in(planes, rounding)));
+  };
+  if (is_left(shape.rounding)) return std::nullopt;
+  double low = 0, high = shape.rounding;
+  constexpr int halvings = 50;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    (is_left(middle) ? low : high) = middle;
+  }
+  return low;
 }
 
 Vec3 centre_of(const PolyhedronShape& shape) { return RoundedPolyhedron(shape).centre(); }

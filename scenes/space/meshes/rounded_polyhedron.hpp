@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "scenes/space/meshes/star_surface.hpp"
 
@@ -9,6 +10,9 @@ namespace pulvis::space {
 
 // Throws std::invalid_argument if the rounding leaves nothing.
 std::unique_ptr<StarSurface> polyhedron_surface(const PolyhedronShape& shape);
+
+// m, the radius of the largest sphere inside, if the rounding is not below it.
+std::optional<double> too_round(const PolyhedronShape& shape);
 
 // Its centre of volume, in the frame of its corners, m.
 Vec3 centre_of(const PolyhedronShape& shape);

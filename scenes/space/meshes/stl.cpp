@@ -170,7 +170,7 @@ std::vector<Triangle> stl_triangles(const std::string& bytes) {
 
 std::vector<Triangle> read_stl(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw BadStl("the file cannot be opened");
+  if (!file) throw BadStl("the file '" + path + "' cannot be opened");
   std::ostringstream bytes;
   bytes << file.rdbuf();
   return stl_triangles(bytes.str());

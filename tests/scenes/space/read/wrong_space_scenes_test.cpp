@@ -53,6 +53,11 @@ constexpr const char* one_move =
 constexpr const char* pill_sizes = "shape = \"cylinder\"\ndiameter = \"8 mm\"\nheight = \"6 mm\"\n";
 const std::vector<WrongSpaceScene> wrong_in_space{
     {"Thickness", {"thickness=1 mm"}, as_it_is, "thickness", {"two dimensions", "dimension = 3"}},
+    {"SolidsWithoutADimension",
+     {},
+     {"dimension = 3\n", ""},
+     "particle.shape",
+     {"three dimensions", "`dimension = 3`"}},
     {"BondsInside",
      {},
      {time_table,
@@ -128,7 +133,14 @@ const std::vector<WrongSpaceScene> wrong_in_space{
       "shape = \"polyhedron\"\ncorners = [[\"0 mm\", \"0 mm\", \"0 mm\"], [\"4 mm\", \"0 mm\", \"0 "
       "mm\"], [\"0 mm\", \"4 mm\", \"0 mm\"], [\"0 mm\", \"0 mm\", \"4 mm\"]]\n"},
      "particle[1].mesh",
-     {"folded", "too coarse", "more divisions"}},
+     {"folded", "too coarse", "rounder shape"}},
+    {"NothingLeftOfAPolyhedron",
+     {"particle.pill.rounding=0.85 mm"},
+     {pill_sizes,
+      "shape = \"polyhedron\"\ncorners = [[\"0 mm\", \"0 mm\", \"0 mm\"], [\"4 mm\", \"0 mm\", \"0 "
+      "mm\"], [\"0 mm\", \"4 mm\", \"0 mm\"], [\"0 mm\", \"0 mm\", \"4 mm\"]]\n"},
+     "particle[1].rounding",
+     {"leaves nothing", "below 0.0008453 m"}},  // 4 mm / (3 + sqrt 3)
     {"MouthOfAPlane", {"tool.top.height=5 mm"}, as_it_is, "tool[1].height", {"die"}},
     {"EdgeWithoutAMouth",
      {"tool.top.shape=die", "tool.top.diameter=40 mm", "tool.top.rounding=1 mm"},
