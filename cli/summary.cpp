@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -148,8 +149,11 @@ Json expectations_json(const std::vector<Verdict>& verdicts) {
 
 void add_stages(Json& json, const World& world) {
   if (!world.has<ToolProgram>()) return;
+  const double now = world.resource<Clock>().time;
   for (const ToolProgram::Stage& stage : world.resource<ToolProgram>().stages)
-    json["stages"].push_back({{"name", stage.name}, {"begin", stage.begin}, {"end", stage.end}});
+    if (stage.begin < now || stage.begin == 0)
+      json["stages"].push_back(
+          {{"name", stage.name}, {"begin", stage.begin}, {"end", std::min(stage.end, now)}});
 }
 
 void add_shear(Json& json, const Results& results) {

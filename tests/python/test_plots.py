@@ -407,3 +407,13 @@ def test_a_lever_s_film_as_mp4(loop, tmp_path):
 def test_what_a_lever_has_not_is_not_filmed(loop, tmp_path):
     says = call("figure", loop, "--animate", "film.gif", "--field", "pressure", code=2, cwd=tmp_path)
     assert "--field pressure: a lever is animated as one of: solid" in says
+
+
+def test_friction_of_a_target(scenes, tmp_path):
+    call("run", scenes / "shear/steady-sliding.toml", "-o", tmp_path / "run", "--threads", "1")
+    run = pulvis.open(tmp_path / "run")
+    _, axes = run.plot.friction()
+    assert axes.get_xlabel().startswith("Sliding distance $s$ / ") and axes.get_ylabel() == r"Friction coefficient $\mu$"
+    static, dynamic = (run.summary["shear"][f"{kind}_friction"] for kind in ("static", "dynamic"))
+    assert [text.get_text() for text in axes.get_legend().get_texts()][1:] == [f"static: {static:.3g}", f"dynamic: {dynamic:.3g}"]
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), run.series("shear/friction")[run.series("shear/distance") != 0])

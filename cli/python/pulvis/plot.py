@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from pulvis.results import Run
 
 NEEDS = {"network": "output.contacts = true", "density": "output.density_cells", "forces": "tools",
-         "cracks": "[[bond]]"}
+         "cracks": "[[bond]]", "friction of a target": 'a stage of kind "shear"'}
 DPI = 150
 
 
@@ -79,6 +79,10 @@ class Plot:
     def stress_ratio(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Axial and lateral stress, normalised by the yield stress, against relative density."""
         return self._drawn(curves.stress_ratio, "stress over yield stress", options_of(look), ax)
+
+    def friction(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
+        """Friction of the target over its distance, with the static and dynamic coefficients; needs a shear stage."""
+        return self._drawn(curves.friction, "friction of a target", options_of(look), ax)
 
     def energies(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Energy balance over time: work of the tools or of the periodic cell, and all energy terms."""

@@ -32,7 +32,7 @@ def make_room(axes, ends):
     wide, tall = axes.get_position(original=True).size * axes.figure.get_size_inches()
     for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max()):
         axis.set_major_locator(MaxNLocator(5 if share > 0.5 else 1 if share < 0.15 else 2))
-        axis.labelpad = 14 if share > 0.5 else 3
+        axis.labelpad = 24 if share > 0.5 else 3
     axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(1.0, 0.82 * wide / tall)))
 
 
@@ -52,9 +52,20 @@ def part_colours(run, faces):
     return [COLOURS[run.mesh.cell_particle[cell]] for _, cell in faces]
 
 
+LOAD_CASES = ["at rest", "under a force normal to the sample", "under a lateral force", "under a force along the lever"]
+
+
 def progress_words(run):
     """What the times of a lever's frames count: actions or load cases."""
     return "actions completed" if run.has("scanner/z") else "load case"
+
+
+def moment_of_lever(run, frame):
+    """The time of a lever's frame, in words: completed actions, or the load of a calibration."""
+    case = round(frame.time)
+    if progress_words(run) == "load case" and case < len(LOAD_CASES):
+        return LOAD_CASES[case]
+    return f"{progress_words(run)} {frame.time:.3g}"
 
 
 def solid(run, options=None):
@@ -73,7 +84,7 @@ def solid(run, options=None):
     colours = part_colours(run, faces)
     for i, frame in enumerate(chosen):
         axis = figure.add_subplot(len(chosen), 1, i + 1, projection="3d")
-        title = f"frame {frame.number}, {progress_words(run)} {frame.time:.3g}" if options.title else ""
+        title = f"frame {frame.number}, {moment_of_lever(run, frame)}" if options.title else ""
         draw_solid(axis, frame.nodes, faces, colours, title)
     last = chosen[-1].nodes
     figure.table = [(axis, "m", last[:, k]) for k, axis in enumerate("xyz")]

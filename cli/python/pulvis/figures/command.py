@@ -20,7 +20,7 @@ from pulvis.figures.afm import AFM_FIGURES, LEVELS, simple_fields
 from pulvis.figures.animation import NoEncoder, animate, writer_for
 from pulvis.figures.bonds import breaking, cracks, fragment_sizes
 from pulvis.figures.colours import colour_map
-from pulvis.figures.curves import chosen_series, energies, forces, stress_ratio
+from pulvis.figures.curves import chosen_series, energies, forces, friction, stress_ratio
 from pulvis.figures.densities import density_profile, local_density
 from pulvis.figures.fields import DEFAULT_FIELD, field_picture
 from pulvis.figures.look import NotDrawn, Options, write_csv
@@ -34,7 +34,7 @@ from pulvis.figures.study import figures_of_study
 from pulvis.results import Run
 
 FORMATS = {".png", ".svg", ".pdf", ".csv"}
-PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "energies": energies,
+PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "friction": friction, "energies": energies,
                  "local_density": local_density, "density_profile": density_profile,
                  "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
                  "breaking": breaking, "fragment_sizes": fragment_sizes}

@@ -42,6 +42,25 @@ def stress_ratio(run, options=None, axes=None):
                       axes)
 
 
+def friction(run, options=None, axes=None):
+    """Friction of the target of a shear stage over its distance, with the static and dynamic coefficients."""
+    if not run.has("shear/friction") or not np.any(run.series("shear/distance")):
+        return None
+    slides = run.series("shear/distance") != 0  # before that the powder is loaded
+    distance, values = run.series("shear/distance")[slides], run.series("shear/friction")[slides]
+    figure = draw_lines(run, ("shear/distance", distance, run.unit("shear/distance")),
+                        [(r"measured $\mu$", values, run.unit("shear/friction"))], "shear/friction", "Friction of the target",
+                        options, axes)
+    axes = axes or figure.axes[0]
+    for kind, colour, dashes in (("static", "#d55e00", "--"), ("dynamic", "#009e73", ":")):
+        value = (run.summary.get("shear") or {}).get(f"{kind}_friction")
+        if value is not None:
+            axes.axhline(value, color=colour, linestyle=dashes, linewidth=1.2, label=f"{kind}: {value:.3g}")
+    if len(axes.get_legend_handles_labels()[0]) > 1:
+        axes.legend()
+    return figure
+
+
 def energies(run, options=None, axes=None):
     lines = [(capital(name_of(match[0]).words.removesuffix(" energy")), values, unit)
              for match, values, unit in matching(run, r"energy/(.+)")]

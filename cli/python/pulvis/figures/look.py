@@ -74,11 +74,11 @@ class Options:
         ends = (finite.min(), finite.max()) if finite.size else (0.0, 1.0)
         return tuple(end if asked is None else asked for asked, end in zip(limits_of(self.limits, unit), ends))
 
-    def head(self, axes, text, run=None):
-        """The title of axes."""
+    def head(self, axes, text, run=None, of_width=7.2):
+        """The title of axes; of_width: default width of the figure, inches."""
         if self.title:
             size = FontProperties(size=plt.rcParams["axes.titlesize"]).get_size_in_points()  # may be "large"
-            letters = int((self.width or 7.2) * 72 * 0.8 / (0.5 * size))
+            letters = int((self.width or of_width) * 72 * 0.8 / (0.5 * size))
             lines = (text if run is None else f"{text}\n{run.title}").split("\n")
             axes.set_title("\n".join(textwrap.fill(line, letters) for line in lines), loc="left")
 

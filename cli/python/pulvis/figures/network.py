@@ -83,7 +83,7 @@ def rose(run, options=None):
     axes.set_rlabel_position(25)
     axes.yaxis.set_major_locator(MaxNLocator(4, prune="lower"))  # more would overlap; 0 is under the bars
     axes.yaxis.set_major_formatter("{x:g} %")
-    options.head(axes, f"Directions of the contact normals at {moment(frame)}", run)
+    options.head(axes, f"Directions of the contact normals at {moment(frame)}", run, of_width=5)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.07), ncols=2)  # below the rim and its labels
     figure.table = [("direction", "rad", middle[:len(number)]), ("share of the number", "-", number),
                     ("share of the normal force", "-", force)]

@@ -88,7 +88,7 @@ def until_text(until):
         what = f"{quantity(until['force'], 'N')}"
     else:
         what = f"a travel of {quantity(until['displacement'], 'm')}"
-    return f"ends at {what}" + (f" of {until['tool']}" if "tool" in until else "")
+    return f"slows down from {what}" + (f" of {until['tool']}" if "tool" in until else "")
 
 
 STRAINS = {"strain_xx": "ε_xx", "strain_yy": "ε_yy", "strain_xy": "ε_xy"}
