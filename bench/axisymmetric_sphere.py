@@ -56,11 +56,11 @@ def quarter_disc(n):
     return np.array(nodes), np.array(quads)
 
 
-class Sphere:
-    """State of the quarter section; r = x[:, 0], z = x[:, 1]."""
+class Body:
+    """State of the section; r = x[:, 0], z = x[:, 1]. The nodal masses are the caller's."""
 
-    def __init__(self, n, young, poisson, yield_stress, hardening):
-        self.X, self.quads = quarter_disc(n)
+    def __init__(self, nodes, quads, young, poisson, yield_stress, hardening):
+        self.X, self.quads = nodes, quads
         self.mu = young / (2 * (1 + poisson))
         self.bulk = young / (3 * (1 - 2 * poisson))
         self.yield_stress, self.hardening = yield_stress, hardening
@@ -78,14 +78,15 @@ class Sphere:
         e = len(self.quads)
         self.inv_cp = np.tile(np.array([1.0, 1, 1, 0]), (e, 4, 1))  # rr zz tt rz
         self.eps = np.zeros((e, 4))
-        # Nodal masses are scaled to a uniform stable step: inertia only serves to reach equilibrium.
-        size = np.sqrt(np.linalg.det(J).min(1))
-        modulus = self.bulk + 4 / 3 * self.mu
+        self.smallest = np.linalg.det(J).min(1)  # of each element
         self.mass = np.zeros(len(self.X))
-        for i in range(4):
-            np.add.at(self.mass, self.quads[:, i], self.V / 4 * modulus / size**2)
         self.x = self.X.copy()
         self.v = np.zeros_like(self.x)
+
+    def add_masses(self, of_elements):
+        """[elements, 4]: the masses of an element's corners."""
+        for i in range(4):
+            np.add.at(self.mass, self.quads[:, i], of_elements[:, i])
 
     def forces(self):
         x = self.x[self.quads]
@@ -148,7 +149,9 @@ class Sphere:
 
 def flatten(n, approach, young, poisson, yield_stress, hardening, steps):
     """Rows of approach/R, force/(pi R^2 sigma_y), contact radius/R. steps: number of steps for the whole approach."""
-    body = Sphere(n, young, poisson, yield_stress, hardening)
+    body = Body(*quarter_disc(n), young, poisson, yield_stress, hardening)
+    # Nodal masses are scaled to a uniform stable step: inertia only serves to reach equilibrium.
+    body.add_masses(np.repeat((body.V / 4 * (body.bulk + 4 / 3 * body.mu) / body.smallest)[:, None], 4, axis=1))
     axis, equator = body.X[:, 0] < 1e-9, body.X[:, 1] < 1e-9
     dt, rows = 0.35, []
     # Time lag of the force: a hundred steps. The damping force on the whole body stays far below the contact force.

@@ -10,6 +10,7 @@ LAW  hertz      an elastic sphere between frictionless planes, and two spheres: 
      turns      force of a sphere between planes for random rotations of its mesh: rms over the mean
      taylor     copper rod against a rigid wall at 227 m/s: length, radius of the mushroomed end
      mindlin    partial slip of pressed contacts: compliance, friction work per cycle (Mindlin & Deresiewicz 1953)
+     inertia    kinetic energy of a turning sphere, over that of a solid one
      dense      27 plastic spheres pressed to a relative density of 0.94: meshes and contact stiffnesses
      shapes     deviation of the smooth surfaces of coarse meshes from the exact shapes
      sharp      how far sharp grains can be compacted before a run aborts
@@ -268,6 +269,18 @@ hardening_modulus = "100 MPa"
               f"foot {1e3 * across.max():.3f}", flush=True)
 
 
+def inertia(bench):
+    radius, rate = 5e-3, 1000
+    print("law inertia: a free sphere that turns: its kinetic energy over 1/2 (2/5 m R^2) w^2")
+    solid = 0.5 * 0.4 * (4 / 3 * math.pi * radius**3 * 7990) * radius**2 * rate**2
+    for divisions, rings in ((2, 1), (3, 3), (4, 1), (4, 4), (7, 1), (8, 2), (12, 2)):
+        text = head("Inertia", STEEL) + ball(2 * radius, divisions, rings)
+        text += body(0, 0, 0, more=f'angular_velocity = ["0 rad/s", "0 rad/s", "{rate} rad/s"]\n')
+        text += plane("far", (0, 0, -2 * radius), (0, 0, 1)) + stage(1e-7, {}, "settle") + OUTPUT
+        h = bench.run(f"inertia-{divisions}-{rings}", text)
+        print(f"  {divisions} divisions, {rings} rings: {h['energy/kinetic'][0] / solid:.4f}", flush=True)
+
+
 def partial_slip(h, top, radius, young, nu, mu, begins):
     """A contact that is pressed and moved back and forth along x. `begins`: of the first slip, and of the cycle. Contact radius
     (Hertz), amplitude of q = Q/(mu N), compliance and work of friction in a cycle over Mindlin & Deresiewicz's."""
@@ -345,7 +358,7 @@ def mindlin(bench):
              radius, math.pi / 2 * radius / divisions)
 
 
-LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin, dense, cost, shapes, sharp)}
+LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin, inertia, dense, cost, shapes, sharp)}
 
 
 def main():
