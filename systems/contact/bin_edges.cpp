@@ -13,6 +13,7 @@
 #include "systems/contact/broad_phase.hpp"
 #include "systems/contact/surface_search.hpp"
 #include "systems/contact/systems.hpp"
+#include "systems/laws/weakening_law.hpp"
 
 namespace pulvis {
 namespace {
@@ -86,12 +87,9 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
   rows.law(row, Law::stiffness) = law.kappa;
   rows.law(row, Law::friction) = law.friction.coefficient;
   if (rows.more) {
-    using More = FrictionMore<At>;
-    (*rows.more)(row, More::drop) = law.friction.drop;
-    (*rows.more)(row, More::inv_decay) = law.friction.inv_decay;
-    (*rows.more)(row, More::strength) = law.friction.strength;
-    (*rows.more)(row, More::rate) = law.friction.rate;
-    (*rows.more)(row, More::inv_speed) = law.friction.inv_speed;
+    static_assert(more_of_friction.size() <= FrictionMore<At>::count);
+    for (int i = 0; const auto number : more_of_friction)
+      (*rows.more)(row, i++) = law.friction.*number;
   }
   if (rows.adhesion) {
     using Adhesive = AdhesionLaw<At>;

@@ -10,6 +10,7 @@
 #include "systems/laws/adhesion.hpp"
 #include "systems/laws/friction.hpp"
 #include "systems/laws/normal_contact.hpp"
+#include "systems/laws/weakening_law.hpp"
 
 namespace pulvis {
 
@@ -123,13 +124,9 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
     return kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
                                     spring.inv_kappa);
   }
-  using More = FrictionMore<At>;
-  kernels::Weakening<Lane> law{mu,
-                               at_candidates(*sliding.more, two, More::drop),
-                               at_candidates(*sliding.more, two, More::inv_decay),
-                               share * at_candidates(*sliding.more, two, More::strength),
-                               at_points(*sliding.lost, two),
-                               speed_effect(c, two, slip.rate)};
+  auto law = weakening_law(
+      mu, [&](int n) { return at_candidates(*sliding.more, two, n); }, share,
+      at_points(*sliding.lost, two), speed_effect(c, two, slip.rate));
   const auto friction = kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
                                                  spring.inv_kappa);
   // A point that is apart regains its static friction.

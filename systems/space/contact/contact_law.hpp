@@ -14,6 +14,7 @@
 #include "systems/laws/adhesion.hpp"
 #include "systems/laws/friction.hpp"
 #include "systems/laws/normal_contact.hpp"
+#include "systems/laws/weakening_law.hpp"
 #include "systems/space/contact/systems.hpp"
 #include "systems/space/contact/vector.hpp"
 
@@ -115,9 +116,9 @@ struct WeakeningPass {
                                            : pulvis::kernels::rate_effect(sqrt(dot(m.slip, m.slip)),
                                                                           Lane(friction.rate),
                                                                           Lane(friction.inv_speed));
-  pulvis::kernels::Weakening<Lane> sliding{
-      Lane(friction.coefficient),           Lane(friction.drop), Lane(friction.inv_decay),
-      Lane(pass.share * friction.strength), pass.lost,           by_speed};
+  auto sliding = weakening_law(
+      Lane(friction.coefficient), [&](int n) { return Lane(friction.*entry(more_of_friction, n)); },
+      pass.share, pass.lost, by_speed);
   add_friction(law, m, dt, pressure, before, sliding, f);
   return select(m.depth() > 0.0, sliding.lost, Lane{});
 }
