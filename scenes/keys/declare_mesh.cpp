@@ -1,5 +1,7 @@
 // Declarations of the finite elements of a particle.
+#include <array>
 #include <concepts>
+#include <utility>
 
 #include "scenes/keys/declare.hpp"
 
@@ -19,6 +21,27 @@ auto mesh_to(Set set) {
   };
 }
 
+constexpr auto set_edges = [](auto& mesh, int value) requires requires { mesh.boundary_edges; }
+{ mesh.boundary_edges = value; };
+constexpr auto set_rings = [](auto& mesh, int value) requires requires { mesh.rings; }
+{ mesh.rings = value; };
+
+// The words of the outlines whose meshes have what Set sets. Grains have no word.
+template <class Set, std::size_t... outline>
+Words words_with(std::index_sequence<outline...>) {
+  const std::vector<Choice>& words = particle().keys.front().info.choices;  // ordered as Outline
+  Words with;
+  const std::array has{
+      std::invocable<Set, typename std::variant_alternative_t<outline, Outline>::Mesh&, int>...};
+  for (std::size_t i = 0; i < has.size(); ++i)
+    if (has[i]) with.list.push_back(words[i].word);
+  return with;
+}
+template <class Set>
+Words outlines_with(const Set&) {
+  return words_with<Set>(std::make_index_sequence<std::variant_size_v<Outline> - 1>());
+}
+
 }  // namespace
 
 const TableDeclaration<ParticleSpec>& mesh() {
@@ -36,27 +59,21 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .kind = Kind::integer,
          .range = within(4, 4096),
          .multiple_of = 4,
-         .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
-                      "points", "fourier"},
+         .only_for = outlines_with(set_edges),
          .doc = "Number of edges along the outline; a uniform core has (boundary_edges/4)^2 "
                 "quads. Corners with a small radius get four edges each, with edges growing "
                 "towards the middle of the flat sides.",
          .fallback_doc = "set by `accuracy`; if another mesh size is given: 40, or 48 for outlines "
                          "other than disc and ring"},
-        mesh_to(
-            [](auto& mesh, int value) requires requires { mesh.boundary_edges; } {
-              mesh.boundary_edges = value;
-            })},
+        mesh_to(set_edges)},
        {{.name = "rings",
          .kind = Kind::integer,
          .range = within(0, 1024),
-         .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
-                      "points", "fourier"},
+         .only_for = outlines_with(set_rings),
          .doc = "Number of rings of quads between core and outline, or through the wall of a "
                 "ring; 0: core only, for discs with at most 20 boundary edges or a coarse core.",
          .fallback_doc = "set by `accuracy`; if another mesh size is given: 1, or 4 for a ring"},
-        mesh_to(
-            [](auto& mesh, int value) requires requires { mesh.rings; } { mesh.rings = value; })},
+        mesh_to(set_rings)},
        {{.name = "core",
          .kind = Kind::choice,
          .choices = {{"even", "as fine as the outline"},

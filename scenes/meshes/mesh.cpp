@@ -1,4 +1,4 @@
-// Common to all outlines: Gauss points, nodal areas, edges. The meshers are in scenes/mesh_<outline>.cpp.
+// Common to all outlines: Gauss points, nodal areas, edges. The meshers are in scenes/meshes/mesh_<outline>.cpp.
 #include "scenes/meshes/mesh.hpp"
 
 #include <algorithm>

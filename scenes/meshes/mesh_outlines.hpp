@@ -1,4 +1,4 @@
-// One mesher per outline (scenes/mesh_<outline>.cpp): each fills nodes, quads, the number of boundary
+// One mesher per outline (scenes/meshes/mesh_<outline>.cpp): each fills nodes, quads, the number of boundary
 // nodes and the contact curve of a shape whose area is known. `phase` rotates the mesh inside the outline (rad), where it
 // can. `curve`: the outline's.
 #pragma once

@@ -38,7 +38,7 @@ struct MaterialSpec {
 };
 
 // Meshes and outlines. Each outline names its mesh type; scenes/outlines/outline.cpp knows its geometry,
-// scenes/mesh_<outline>.cpp meshes it, scenes/keys/declare_powder.cpp declares its keys.
+// scenes/meshes/mesh_<outline>.cpp meshes it, scenes/keys/declare_particle.cpp and declare_mesh.cpp declare its keys.
 struct DiscMesh {
   int boundary_edges = 40;  // a multiple of 4, with a coarse core of 12
   int rings = 1;  // of quads between the core and the outline; 0: the core's rim is the outline

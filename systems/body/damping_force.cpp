@@ -68,6 +68,7 @@ Flux viscous_flux(OnePoint, const Maps& m, const Viscosity& v, const Shape& shap
 // Four points; with the mean dilatation, or each with its own.
 template <class F>
 Flux viscous_flux(F, const Maps& m, const Viscosity& v, const Shape& shape, std::size_t e) {
+  static_assert(F::points == 4, "a formulation with other points needs a viscous_flux of its own");
   PointRate at[4];
   Lane dilatation{}, before{}, now{};
   double area = 0;
