@@ -16,17 +16,21 @@ void choose(Law& law, int index) {
          std::make_index_sequence<std::variant_size_v<Law>>());
 }
 
-// A constant of the selected law.
-template <class Law>
-auto hardening_to(double Law::*constant) {
+template <class Selected, class Law>
+void set_in(Selected& selected, double Law::*constant, double number) {
+  if (Law* law = std::get_if<Law>(&selected)) law->*constant = number;
+}
+// A constant of the selected law. A key of several laws names that of each.
+template <class... Law>
+auto hardening_to(double Law::*... constant) {
   return [=](FlowLaw& flow, const Decoded& value) {
-    if (Law* law = std::get_if<Law>(&flow.hardening)) law->*constant = value.number;
+    (set_in(flow.hardening, constant, value.number), ...);
   };
 }
-template <class Law>
-auto rate_to(double Law::*constant) {
+template <class... Law>
+auto rate_to(double Law::*... constant) {
   return [=](FlowLaw& flow, const Decoded& value) {
-    if (Law* law = std::get_if<Law>(&flow.rate)) law->*constant = value.number;
+    (set_in(flow.rate, constant, value.number), ...);
   };
 }
 
@@ -37,10 +41,7 @@ Key<FlowLaw> exponent_of_hardening() {
            .required = true,
            .only_for = {"swift", "ludwik"},
            .doc = "Exponent n of the power law."},
-          [](FlowLaw& flow, const Decoded& value) {
-            hardening_to (&kernels::SwiftHardening::n)(flow, value);
-            hardening_to (&kernels::LudwikHardening::n)(flow, value);
-          }};
+          hardening_to(&kernels::SwiftHardening::n, &kernels::LudwikHardening::n)};
 }
 
 }  // namespace
