@@ -28,7 +28,9 @@ inline Plan plan_or_fault(const schema::Language& language, const std::filesyste
 
 // `text`: "scene", `folder`: where its bases lie.
 inline void expect_all_used(const Plan& plan, const std::string& text, const std::string& folder) {
-  for (const std::string& fault : plan.faults) ADD_FAILURE() << fault;
+  for (const std::string& fault : plan.faults)
+    ADD_FAILURE() << "a " << text << " of " << folder << " is refused: " << fault;
+  if (!plan.faults.empty()) return;  // what only that one uses would be missing, too
   for (const Use& use : plan.missing)
     ADD_FAILURE() << use.text() << " stands in no " << text << ", and none of " << folder
                   << " takes a value made from its declaration: give it one in a " << text
