@@ -37,7 +37,12 @@ def main():
         (given.folder / file).parent.mkdir(parents=True, exist_ok=True)
         if (given.root / file).exists():
             shutil.copy(given.root / file, given.folder / file)
-    subprocess.run(["patch", "-p1", "--fuzz=0", "--silent"], input=patch, text=True, cwd=given.folder, check=True)
+    applied = subprocess.run(["patch", "-p1", "--fuzz=0", "--force", "--reject-file=-"], input=patch, text=True,
+                             cwd=given.folder, capture_output=True)
+    if applied.returncode != 0:
+        sys.exit(f"{applied.stdout}{applied.stderr}\n"
+                 f"The sources have changed where the example of docs/extending.md, \"{given.section}\", does: update its\n"
+                 "diff there. The hunks that no longer fit are named above.")
     print("\n".join(files))
     if given.at_most and len(files) > given.at_most:
         sys.exit(f"{given.section}: {len(files)} files, expected at most {given.at_most}")
