@@ -15,7 +15,8 @@ inline constexpr std::array more_of_friction{
     &ContactRules::Friction::drop, &ContactRules::Friction::inv_decay,
     &ContactRules::Friction::strength, &ContactRules::Friction::rate,
     &ContactRules::Friction::inv_speed};
-static_assert(sizeof(ContactRules::Friction) == (1 + more_of_friction.size()) * sizeof(double));
+static_assert(sizeof(ContactRules::Friction) == (1 + more_of_friction.size()) * sizeof(double),
+              "more_of_friction lacks a member of ContactRules::Friction");
 
 // `number(n)`: number n of FrictionMore of the pairs. `share` of a stress that this pass bears: one half if the other
 // particle samples back. `lost`, `by_speed`: see Weakening.
