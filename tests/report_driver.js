@@ -34,8 +34,9 @@ function hashOf(picture) {
   return hash >>> 0;
 }
 
-const key = (name, target = document.body) =>
-  target.dispatchEvent(new KeyboardEvent("keydown", {key: name, bubbles: true, cancelable: true}));
+// False where the page has used the key.
+const key = (name, target = canvas(), more = {}) =>
+  target.dispatchEvent(new KeyboardEvent("keydown", {key: name, bubbles: true, cancelable: true, ...more}));
 const told = (name, value) => { document.body.dataset[name] = value; };
 const change = (id, value) => {
   const select = document.getElementById(id);
@@ -125,6 +126,17 @@ function hasNames() {
   return told.length > 10 && (keys.length === 0 || keys.join("; "));
 }
 
+// Keys scroll the page where nothing has the focus, other controls and combinations keep theirs.
+function leavesKeysAlone() {
+  const before = document.getElementById("frame").value, focusable = [".plot", ".picture", "#frame"].map(one => document.querySelector(one));
+  const scrolling = ["PageDown", "PageUp", " ", "Home", "End", "ArrowLeft", "ArrowRight"];
+  const taken = [...[document.body, ...document.querySelectorAll("input:not(#frame), select")].flatMap(place =>
+                   scrolling.filter(name => !key(name, place)).map(name => `${name} on ${place.id || place.tagName}`)),
+                 ...focusable.filter(Boolean).flatMap(place => ["+", "-", "=", "0", "x", " ", "Home"].filter(name =>
+                   !key(name, place, {ctrlKey: true}) || !key(name, place, {metaKey: true})).map(name => `Ctrl ${name} on ${place.className}`))];
+  return taken.join("; ") || document.getElementById("frame").value === before;
+}
+
 async function drive() {
   await until(() => document.body.dataset.ready);
   told("unmeasured", withUnit(null, "Pa") === "–" && withUnit(undefined, "m") === "–" && withUnit(0, "m") === "0 m");
@@ -132,6 +144,7 @@ async function drive() {
   told("axesApart", axesAreApart());
   told("whole", isWhole());
   told("named", hasNames());
+  told("keysFree", leavesKeysAlone());
   told("nearZeroOff", hidesWhatIsNearZero());
   told("network", performance.getEntriesByType("resource").filter(entry => !entry.name.startsWith("data:")).length);
   const shown = document.querySelector("#curve option");

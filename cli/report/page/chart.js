@@ -412,27 +412,28 @@ class Chart {
     };
     picture.addEventListener("pointerup", release);
     picture.addEventListener("pointercancel", release);
-    picture.addEventListener("dblclick", () => { this.view = null; this.draw(); });
+    picture.addEventListener("dblclick", () => this.showAll());
     picture.addEventListener("wheel", event => {
       if (!event.ctrlKey && !event.shiftKey) return;  // let the page scroll
       event.preventDefault();
       const [x, y] = at(event), turn = event.deltaY || event.deltaX;
       this.zoom(Math.exp(0.002 * turn), this.place.xAt(x), this.place.yAt(y));
     }, {passive: false});
-    picture.addEventListener("keydown", event => {
-      if (event.key === "+" || event.key === "=") this.zoom(0.8);
-      else if (event.key === "-") this.zoom(1.25);
-      else if (event.key === "0") { this.view = null; this.draw(); }
-      else return;
-      event.preventDefault();
-      event.stopPropagation();
-    });
+    onKey(picture, event => this.key(event));
+  }
+  key({key}) {
+    if (key === "+" || key === "=") this.zoom(0.8);
+    else if (key === "-") this.zoom(1.25);
+    else if (key === "0") this.showAll();
+    else return false;
+    return true;
   }
 
   columns() {
     const {spec} = this;
     if (!spec.lines.some(line => line.x)) return [spec.x, ...spec.lines];
     return spec.lines.flatMap(line => [{...spec.x, label: `${spec.x.label}, ${line.label}`,
+  showAll() { this.view = null; this.draw(); }
                                         values: line.x || spec.x.values}, line]);
   }
 

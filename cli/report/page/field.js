@@ -422,13 +422,13 @@ class FieldView {
     });
     canvas.addEventListener("pointerleave", () => { this.pointer = null; this.tellPointer(); });
     canvas.addEventListener("dblclick", () => this.showAll());
-    canvas.addEventListener("keydown", event => {
-      if (event.key === "+" || event.key === "=") this.zoomBy(0.8);
-      else if (event.key === "-") this.zoomBy(1.25);
-      else if (event.key === "0") this.showAll();
-      else return;
-      event.preventDefault();
-      event.stopPropagation();
-    });
+    onKey(canvas, event => this.key(event));
+  }
+  key({key}) {
+    if (key === "+" || key === "=") this.zoomBy(0.8);
+    else if (key === "-") this.zoomBy(1.25);
+    else if (key === "0") this.showAll();
+    else return false;
+    return true;
   }
 }

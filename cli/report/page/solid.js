@@ -120,7 +120,7 @@ class SolidView {
     drawScale(ctx, room + 14, 26, height - 60, {low: range[0], high: range[1], unit: "m"});
     const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `displacements × ${digits(this.larger)}`;
     this.note.textContent = `Lever, ${this.run.isCalibration ? loadCase(time) : digits(time, 3) + " actions completed"}, ${drawn}; largest displacement ${withUnit(this.most, "m")}. Drag to turn.`;
-    canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent}`);
+    canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent} Shift and arrows turn, plus and minus zoom, 0 shows all.`);
     canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }
 
@@ -178,17 +178,19 @@ class SolidView {
     canvas.addEventListener("pointermove", event => {
       if (event.buttons & 1) this.turnBy(0.008 * event.movementX, 0.008 * event.movementY);
     });
-    canvas.addEventListener("dblclick", () => { Object.assign(this, {zoom: 1, ...FIRST_VIEW}); this.draw(); });
-    canvas.addEventListener("keydown", event => {
-      if (event.key === "+" || event.key === "=") this.zoomBy(1.25);
-      else if (event.key === "-") this.zoomBy(0.8);
-      else if (event.shiftKey && event.key.startsWith("Arrow")) {
-        this.turnBy({ArrowLeft: -0.15, ArrowRight: 0.15}[event.key] || 0, {ArrowUp: -0.15, ArrowDown: 0.15}[event.key] || 0);
-      } else return;
-      event.preventDefault();
-      event.stopPropagation();
-    });
+    canvas.addEventListener("dblclick", () => this.showAll());
+    onKey(canvas, event => this.key(event));
   }
+  key({key, shiftKey}) {
+    const turns = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]};
+    if (key === "+" || key === "=") this.zoomBy(1.25);
+    else if (key === "-") this.zoomBy(0.8);
+    else if (key === "0") this.showAll();
+    else if (shiftKey && turns[key]) this.turnBy(...turns[key]);
+    else return false;
+    return true;
+  }
+  showAll() { Object.assign(this, {zoom: 1, ...FIRST_VIEW}); this.draw(); }
   zoomBy(factor) { this.zoom *= factor; this.draw(); }
   turnBy(turn, tilt) {
     this.turn += turn;

@@ -17,7 +17,7 @@ class Timeline {
     this.setPlaying(false);
     this.tell();
     onUnits(() => this.tell());
-    addEventListener("keydown", event => this.key(event));
+    onKey(window, event => this.key(event));
   }
 
   listen(listener) { this.listeners.push(listener); }
@@ -74,17 +74,16 @@ class Timeline {
     this.setPlaying(Boolean(this.timer));
   }
 
-  // Space plays, arrow keys step, unless the focused element needs these keys.
-  key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const at = event.target;
-    if (at.matches("select, input:not([type=range]), textarea, summary")) return;
-    const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10}[event.key];
-    if (event.key === " " && !at.matches("button")) this.toggle();
+  // Space plays, arrow keys step, where the time is shown: elsewhere they scroll the page. Other controls need their keys.
+  key({key, target}) {
+    const isControl = target !== this.slider && target.matches("select, input, textarea");
+    if (isControl || !target.closest("#stage, .plot")) return false;
+    const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10}[key];
+    if (key === " " && !target.matches("button")) this.toggle();
     else if (steps) this.showFrame(this.frame + steps);
-    else if (event.key === "Home") this.showFrame(0);
-    else if (event.key === "End") this.showFrame(this.times.length - 1);
-    else return;
-    event.preventDefault();
+    else if (key === "Home") this.showFrame(0);
+    else if (key === "End") this.showFrame(this.times.length - 1);
+    else return false;
+    return true;
   }
 }

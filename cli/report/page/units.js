@@ -65,6 +65,12 @@ function element(tag, properties, ...children) {
 
 // Runs after the layout that caused the resize.
 const onResize = (host, action) => new ResizeObserver(() => requestAnimationFrame(action)).observe(host);
+// action(event): true if it uses the key. Keys pressed with Ctrl, Meta or Alt are left to the browser.
+const onKey = (host, action) => host.addEventListener("keydown", event => {
+  if (event.ctrlKey || event.metaKey || event.altKey || !action(event)) return;
+  event.preventDefault();
+  event.stopPropagation();
+});
 const percent = value => digits(100 * value, 3) + " %";
 // "1 run", "2 runs".
 const counted = (count, one) => `${count.toLocaleString("en")} ${one}${count === 1 ? "" : "s"}`;

@@ -207,21 +207,15 @@ class SpaceView extends FieldView {
     });
     canvas.addEventListener("pointerleave", () => { this.pointer = null; this.tellPointer(); });
     canvas.addEventListener("dblclick", () => this.showAll());
-    canvas.addEventListener("keydown", event => {
-      if (!this.key(event)) return;
-      event.preventDefault();
-      event.stopPropagation();
-    });
+    onKey(canvas, event => this.key(event));
   }
-  key({key, shiftKey}) {
+  key(event) {
+    const {key, shiftKey} = event;
     const turns = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]};
     const views = {x: "x", y: "y", z: "z", i: "isometric"};
-    if (key === "+" || key === "=") this.zoomBy(0.8);
-    else if (key === "-") this.zoomBy(1.25);
-    else if (key === "0") this.showAll();
-    else if (shiftKey && turns[key]) this.turnBy(...turns[key]);
+    if (shiftKey && turns[key]) this.turnBy(...turns[key]);
     else if (views[key]) this.lookFrom(views[key]);
-    else return false;
+    else return super.key(event);
     return true;
   }
 }
