@@ -19,6 +19,8 @@
     if (paths().length !== 2 || paths().some(path => path.getAttribute("d").split("L").length < 3)) problems.push(`${title}: a line is missing`);
     if (paths().filter(path => path.getAttribute("stroke-dasharray")).length !== 1) problems.push(`${title}: they look alike`);
   }
+  document.getElementById("shade").click();
+  if (paths().some((path, i) => path.getAttribute("stroke") !== DARK.lines[i])) problems.push("not the colours of the dark page");
   const heads = title => [...[...document.querySelectorAll(".card")].find(card => card.querySelector("h2").textContent === title)
     .querySelectorAll("thead th")].map(head => head.textContent);
   const newtons = [...document.querySelectorAll(".menu label")].find(label => label.textContent.startsWith("N ")).querySelector("select");

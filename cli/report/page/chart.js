@@ -1,6 +1,6 @@
 // Line charts. A chart is {title, x, y, lines}: x and each line are {label, unit, values}, values in SI; y is
 // the axis label. A line may have separate x values (x), a band around it (low, high), and standard-deviation
-// bars (deviation) at some samples. Lines close to zero are hidden at first. A line with isMarks is drawn as
+// bars (deviation) at some samples, and a `hue` or `colour` (strokeOf). Lines close to zero are hidden at first. A line with isMarks is drawn as
 // markers with bars from low to high, with the fitted line (fit: x, values) on top.
 "use strict";
 
@@ -141,6 +141,9 @@ function barsOf(xs, line, kx, ky, {px, py}, stroke, shift) {
   return `<path class="error-bar" d="${barSamples(line, shift).map(bar).join("")}" stroke="${stroke}" stroke-width="1.2"/>`;
 }
 
+// A line has the colour of its place, of another place of the palette (`hue`), or `colour`: the name of one in the theme, or any.
+const strokeOf = ({hue, colour}, i, colours) => colours[colour] || colour || colours.lines[(hue ?? i) % colours.lines.length];
+
 // Circles, with error bars where the error is known.
 function marksOf(xs, line, kx, ky, {px, py}, stroke) {
   return Array.from(line.values, (value, i) => {
@@ -189,7 +192,7 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
            `stroke-width="1.8" stroke-linejoin="round">`);
   spec.lines.forEach((one, i) => {
     if (hidden.has(i)) return;
-    const stroke = one.colour || colours.lines[i % colours.lines.length], xs = one.x || spec.x.values;
+    const stroke = strokeOf(one, i, colours), xs = one.x || spec.x.values;
     if (one.isMarks) {
       out.push(marksOf(xs, one, shown.x.factor, shown.y.factor, place, stroke));
       if (one.fit) {
@@ -206,13 +209,13 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
   });
   spec.lines.forEach((one, i) => {
     if (hidden.has(i) || !one.deviation) return;
-    const stroke = one.colour || colours.lines[i % colours.lines.length];
+    const stroke = strokeOf(one, i, colours);
     out.push(barsOf(one.x || spec.x.values, one, shown.x.factor, shown.y.factor, place, stroke, 4 * i));
   });
   out.push("</g>");
   if (legend) {
-    told.forEach((i, row) => {
-      const one = spec.lines[i], y = height + 16 * row + 6, stroke = one.colour || colours.lines[i % colours.lines.length];
+    visible.forEach((i, row) => {
+      const one = spec.lines[i], y = height + 16 * row + 6, stroke = strokeOf(one, i, colours);
       out.push(`<g transform="translate(${left} ${y - 8})">${keySvg(one, stroke)}</g>`, text(left + 34, y, "start", one.label));
     });
   }
@@ -229,7 +232,7 @@ function dashOf(i) {
 }
 
 const distinct = spec => ({...spec, lines: spec.lines.map((line, i) =>
-  line.dash || line.colour || line.isMarks ? line : {...line, dash: dashOf(i)})});
+  line.dash || line.colour || line.hue !== undefined || line.isMarks ? line : {...line, dash: dashOf(i)})});
 
 const NEAR_ZERO = 0.01;  // fraction of the largest line
 
@@ -280,10 +283,10 @@ class Chart {
   }
 
   drawLegend() {
-    const colours = theme().lines, negligible = nearZero(this.spec.lines);
+    const colours = theme(), negligible = nearZero(this.spec.lines);
     this.legend.replaceChildren(...this.spec.lines.map((line, i) => {
       const key = element("i", {}), tiny = negligible.has(i);
-      key.innerHTML = keySvg(line, line.colour || colours[i % colours.length]);
+      key.innerHTML = keySvg(line, strokeOf(line, i, colours));
       const button = element("button", {type: "button", "aria-pressed": String(!this.hidden.has(i)),
         title: tiny ? "Below 1 % of the largest value. Show or hide" : "Show or hide"}, key, line.label);
       button.onclick = () => {
@@ -321,7 +324,7 @@ class Chart {
         if (!Number.isFinite(y) || x < place.left - 1 || x > place.right + 1) return;
         ctx.beginPath();
         ctx.arc(x, y, 4, 0, 2 * Math.PI);
-        ctx.fillStyle = line.colour || colours.lines[i % colours.lines.length];
+        ctx.fillStyle = strokeOf(line, i, colours);
         ctx.fill();
         ctx.strokeStyle = colours.paper;
         ctx.lineWidth = 1.5;

@@ -16,7 +16,7 @@ function contributionOf(run, title, model, x) {
   const group = groupOf(run, title), axis = group && group.xs.find(one => one.label === x);
   if (!axis) return null;
   const key = keyOf(model), own = group.lines.find(one => keyOf(one) === key) || (run.has(key) ? run.series(key) : null);
-  return own && {...own, x: axis.values, axis, y: group.y, colour: undefined, dash: undefined};
+  return own && {...own, x: axis.values, axis, y: group.y, hue: undefined, colour: undefined, dash: undefined};
 }
 
 // A curve that at least two runs have, each with its own x values.

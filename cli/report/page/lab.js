@@ -21,7 +21,7 @@ function placeTable({title, head, rows, note}) {
   document.getElementById("settings").before(box);
 }
 
-const inColours = line => ({...line, colour: line.isSimulated ? theme().ink : line.colour,
+const inColours = line => ({...line, colour: line.isSimulated ? "ink" : line.colour,
                             dash: line.isSimulated ? [8, 4] : line.dash});
 
 function main() {

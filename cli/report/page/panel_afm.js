@@ -43,11 +43,11 @@ function loopParts(run) {
 const RETURN = [6, 4];  // dashes for the return motion: retract, retrace
 
 function curveLines(run, name, label) {
-  const motion = run.has(name) && verticalMotion(run), colours = LIGHT.lines;
+  const motion = run.has(name) && verticalMotion(run);
   if (!motion) return [];
   const there = part => run.values(name).some((_, i) => motion[part](i));
   return ["approach", "retract"].filter(there).map((part, k) =>
-    onlySamples(run.series(name), label ? `${label}, ${part}` : part, motion[part], {colour: colours[k], dash: k ? RETURN : undefined}));
+    onlySamples(run.series(name), label ? `${label}, ${part}` : part, motion[part], {hue: k, dash: k ? RETURN : undefined}));
 }
 
 // With the sign of the loop's table: the force that drags the tip is opposite to the force on it.
@@ -57,7 +57,7 @@ function loopLines(run, axis, name) {
   const series = run.series(name), dragging = {...series, values: Array.from(series.values, v => -v)};
   const label = (loop, part) => loops.length > 1 ? `action ${loop.action}, ${part}` : part;
   return loops.flatMap((loop, i) => ["trace", "retrace"].map((part, k) => onlySamples(dragging, label(loop, part), loop[part],
-    {colour: LIGHT.lines[(loops.length > 1 ? i : k) % LIGHT.lines.length], dash: k ? RETURN : undefined})));
+    {hue: loops.length > 1 ? i : k, dash: k ? RETURN : undefined})));
 }
 
 addCurves(run => {

@@ -92,7 +92,7 @@ function placeCurves(friction, shear, mean, summary) {
   const host = card(`Friction coefficient against sliding distance${
     simulated ? ": tests and simulation" : ""}`);
   const named = lines.map(line => line.kind === "simulation"
-    ? {...line, label: `simulation ${line.name}`, colour: theme().ink, dash: [8, 4]} : line);
+    ? {...line, label: `simulation ${line.name}`, colour: "ink", dash: [8, 4]} : line);
   const charts = [() => drawChart(host, pair(x, "friction coefficient", named))];
   const runs = summary.runs.length;
   if (runs > 1) {

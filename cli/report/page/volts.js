@@ -31,10 +31,9 @@ function drawTraces(title, record) {
   const raw = record.loops.filter(loop => loop.traces);
   if (!raw.length) return;
   const chosen = [...new Set([0, raw.length >> 1, raw.length - 1])].map(i => raw[i]);
-  const colours = theme().lines;
   const lines = chosen.flatMap((loop, i) => ["trace", "retrace"].map((direction, k) =>
     ({label: `${withUnit(loop.load, record.load_unit, 3)}, ${direction}`, unit: "V", x: loop.traces.position,
-      values: loop.traces[direction], colour: colours[i], dash: k ? [5, 3] : undefined})));
+      values: loop.traces[direction], hue: i, dash: k ? [5, 3] : undefined})));
   draw(title, {x: {label: record.position_unit ? "position" : "place", unit: record.position_unit, values: []},
                y: "lateral signal", lines});
 }
