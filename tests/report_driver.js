@@ -188,6 +188,9 @@ async function drive() {
   }
   key("+", canvas());
   told("zoomed", hashOf(canvas()) !== first);
+    for (let i = 0; i < 30; ++i) key("+", plot);
+    const ticks = anchor => [...plot.querySelectorAll(`text[text-anchor="${anchor}"]:not([transform])`)].map(text => text.textContent);
+    told("ticksApart", ["middle", "end"].every(anchor => new Set(ticks(anchor)).size === ticks(anchor).length) || [...ticks("middle"), ...ticks("end")].join(" "));
   key(document.getElementById("same-range") ? "0" : "-", canvas());
   key("0", canvas());
   if (tip()) {

@@ -91,7 +91,7 @@ const LINE_HEIGHT = 15, LEAST_LEFT = 62;
 
 // Room to the left of the plot: for the ticks and the title beside them.
 function roomOnTheLeft(ticks, title, tall) {
-  const widest = Math.max(0, ...ticks.map(tick => textWidth(digits(tick))));
+  const widest = Math.max(0, ...ticks.map(tickText(ticks)).map(textWidth));
   return Math.max(LEAST_LEFT, Math.ceil(6 + LINE_HEIGHT * titleLines(title, tall).length + 6 + widest + 7));
 }
 
@@ -156,7 +156,7 @@ function marksOf(xs, line, kx, ky, {px, py}, stroke) {
 // The x axis may be categorical.
 const abscissaTicks = ({names}, [low, high], count) => names ? names.map((_, i) => i).filter(i => i >= low && i <= high)
   : niceTicks(low, high, Math.max(3, count));
-const abscissaText = ({names}, value) => names ? names[Math.round(value)] ?? "" : digits(value);
+const abscissaText = ({names}, told = digits) => value => names ? names[Math.round(value)] ?? "" : told(value);
 
 // The line sample for the legend.
 const keySvg = ({dash, isMarks}, stroke) => `<svg width="26" height="8" viewBox="0 0 26 8">` + (isMarks
@@ -165,8 +165,8 @@ const keySvg = ({dash, isMarks}, stroke) => `<svg width="26" height="8" viewBox=
 
 // The chart as SVG text: shown on the page and saved by the buttons.
 function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
-  const shown = shownChart(spec, hidden), range = view || shown.whole, told = spec.lines.map((_, i) => i).filter(i => !hidden.has(i));
-  const rows = legend ? told.length * 16 : 0;
+  const shown = shownChart(spec, hidden), range = view || shown.whole, visible = spec.lines.map((_, i) => i).filter(i => !hidden.has(i));
+  const rows = legend ? visible.length * 16 : 0;
   const place = chartPlace(range, {width, height}, shown.yLabel), {left, right, top, bottom, px, py} = place;
   const text = (x, y, anchor, content, more = "") =>
     `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" ${more}>${markup(content)}</text>`;
@@ -176,12 +176,14 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
                `viewBox="0 0 ${width} ${height + rows}" font-family="system-ui, sans-serif" font-size="12" ` +
                `fill="${colours.soft}">`];
   if (legend) out.push(`<rect width="100%" height="100%" fill="${colours.paper}"/>`);
-  for (const tick of abscissaTicks(spec.x, range.x, (right - left) / 90)) {
+  const across = abscissaTicks(spec.x, range.x, (right - left) / 90), acrossText = abscissaText(spec.x, tickText(across));
+  for (const tick of across) {
     out.push(line(px(tick), top, px(tick), bottom, colours.grid),
-             text(Math.min(px(tick), width - 30), bottom + 16, "middle", abscissaText(spec.x, tick)));
+             text(Math.min(px(tick), width - 30), bottom + 16, "middle", acrossText(tick)));
   }
-  for (const tick of valueTicks(range.y)) {
-    out.push(line(left, py(tick), right, py(tick), colours.grid), text(left - 7, py(tick) + 4, "end", digits(tick)));
+  const ticks = valueTicks(range.y), told = tickText(ticks);
+  for (const tick of ticks) {
+    out.push(line(left, py(tick), right, py(tick), colours.grid), text(left - 7, py(tick) + 4, "end", told(tick)));
   }
   if (range.y[0] < 0 && range.y[1] > 0) out.push(line(left, py(0), right, py(0), colours.edge));
   out.push(text((left + right) / 2, height - 8, "middle", shown.xLabel),
@@ -347,7 +349,7 @@ class Chart {
     const lines = (read.length ? read : spec.lines.filter((_, i) => !this.hidden.has(i)))
       .map(line => `${line.label} ${value(line.values[Math.min(sample, line.values.length - 1)], shown.y)}`);
     const xs = spec.x.values || [];
-    this.readout.textContent = (xs.length ? `${spec.x.label} ${spec.x.names ? abscissaText(spec.x, xs[sample]) : value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
+    this.readout.textContent = (xs.length ? `${spec.x.label} ${spec.x.names ? abscissaText(spec.x)(xs[sample]) : value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
   }
 
   // Marks the sample of the frame shown elsewhere.
@@ -431,12 +433,12 @@ class Chart {
     else return false;
     return true;
   }
+  showAll() { this.view = null; this.draw(); }
 
   columns() {
     const {spec} = this;
     if (!spec.lines.some(line => line.x)) return [spec.x, ...spec.lines];
     return spec.lines.flatMap(line => [{...spec.x, label: `${spec.x.label}, ${line.label}`,
-  showAll() { this.view = null; this.draw(); }
                                         values: line.x || spec.x.values}, line]);
   }
 

@@ -66,9 +66,10 @@ function drawScale(ctx, left, top, tall, {low, high, unit}) {
     ctx.fillText(digits(low * shown.factor), left + wide + 6, top + 8);
     return;
   }
-  for (const tick of niceTicks(low * shown.factor, high * shown.factor, Math.max(2, tall / 50))) {
+  const ticks = niceTicks(low * shown.factor, high * shown.factor, Math.max(2, tall / 50)), told = tickText(ticks);
+  for (const tick of ticks) {
     const y = top + tall * (1 - (tick / shown.factor - low) / (high - low));
     ctx.fillRect(left + wide, y - 0.5, 4, 1);
-    ctx.fillText(digits(tick), left + wide + 8, y + 4);
+    ctx.fillText(told(tick), left + wide + 8, y + 4);
   }
 }

@@ -36,8 +36,9 @@ function effectsSvg(effects, {name, unit}, width, colours) {
   const path = (d, stroke, more = "") => `<path d="${d}" stroke="${stroke}" fill="none" ${more}/>`;
   const out = [`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" ` +
                `font-family="system-ui, sans-serif" font-size="12" fill="${colours.soft}">`];
+  const told = tickText(ticks);
   for (const tick of ticks) {
-    out.push(path(`M${left} ${py(tick).toFixed(1)}H${right}`, colours.grid), text(left - 7, py(tick) + 4, "end", digits(tick)));
+    out.push(path(`M${left} ${py(tick).toFixed(1)}H${right}`, colours.grid), text(left - 7, py(tick) + 4, "end", told(tick)));
   }
   out.push(axisTitleSvg(title, top, bottom));
   effects.forEach(({key, levels, balanced}, k) => {

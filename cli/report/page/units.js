@@ -85,3 +85,10 @@ function niceTicks(low, high, count) {
   const first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
   return Array.from({length: Math.max(0, last - first + 1)}, (_, i) => (first + i) * step);
 }
+
+// Ticks as text, with enough digits to tell neighbours apart.
+function tickText(ticks) {
+  const most = largest(ticks), step = ticks.length > 1 ? ticks[1] - ticks[0] : most;
+  const count = most > 0 ? 2 + Math.round(Math.log10(most / step)) : 0;
+  return tick => digits(tick, Math.min(15, Math.max(4, count)));
+}
