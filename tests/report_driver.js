@@ -150,6 +150,10 @@ async function drive() {
   const shown = document.querySelector("#curve option");
   told("cellFirst", Boolean(shown) && shown.textContent === "Stresses of the cell" && unitFor("J/m^3", 2.88e7).label === "MJ/m^3");
   const bars = {family: "compaction", head: {mesh: {particles: 4}}, times: [0, 1], values: () => [1, 0.98], summary: {}};
+  const slid = far => did({...bars, family: "shear", values: name => name === "shear/distance" ? [0, far] : bars.values()});
+  told("unslid", slid(0) === did(bars) && /slid under/.test(slid(1e-3)));
+  const damped = materialRows([{name: "steel", damping: {mass_proportional: 5, stiffness_proportional: 2e-7}}])[0][1];
+  told("damped", damped === "damping mass proportional 5 1/s, damping stiffness proportional 200 ns" || damped);
   told("pulled", did(bars) === "4 particles were moved and deformed");
   if (!canvas()) return;
   const slider = document.getElementById("frame"), last = Number(slider.max), field = document.getElementById("field").value;
@@ -184,13 +188,13 @@ async function drive() {
     const whole = curve();
     key("+", plot);
     told("curveZoomed", curve() !== whole);
+    for (let i = 0; i < 30; ++i) key("+", plot);
+    const ticks = anchor => [...plot.querySelectorAll(`text[text-anchor="${anchor}"]:not([transform])`)].map(text => text.textContent);
+    told("ticksApart", ["middle", "end"].every(anchor => new Set(ticks(anchor)).size === ticks(anchor).length) || [...ticks("middle"), ...ticks("end")].join(" "));
     key("0", plot);
   }
   key("+", canvas());
   told("zoomed", hashOf(canvas()) !== first);
-    for (let i = 0; i < 30; ++i) key("+", plot);
-    const ticks = anchor => [...plot.querySelectorAll(`text[text-anchor="${anchor}"]:not([transform])`)].map(text => text.textContent);
-    told("ticksApart", ["middle", "end"].every(anchor => new Set(ticks(anchor)).size === ticks(anchor).length) || [...ticks("middle"), ...ticks("end")].join(" "));
   key(document.getElementById("same-range") ? "0" : "-", canvas());
   key("0", canvas());
   if (tip()) {

@@ -31,7 +31,7 @@ check() {
 }
 
 drivers=()
-everything=(has-curves axes-apart scrubbed back stepped playing linked curve-zoomed zoomed other-field dark)
+everything=(has-curves axes-apart keys-free scrubbed back stepped playing linked curve-zoomed ticks-apart zoomed other-field dark)
 particles=("${everything[@]}" tip fit)  # of a plane run
 
 # (Figures for papers are no pages.)
@@ -55,7 +55,7 @@ check ShowsLocalDensitiesAndContactsOfEveryFrame "${particles[@]}" contacts
 check ShowsBondsCracksAndFragmentsOfEveryFrame "${particles[@]}" bonds
 check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
 check compaction "${particles[@]}" unmeasured material contacts whole near-zero-off named
-check cell "${particles[@]}" cell-first pulled
+check cell "${particles[@]}" cell-first pulled unslid damped
 check lever "${everything[@]}" named
 check ShowsTheCurvesOfARunWithoutFrames has-curves
 

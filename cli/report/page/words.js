@@ -20,7 +20,7 @@ function did(run) {
                                (head.frames || []).length && summary.increments ? " and moved against a surface" : "");
   const particles = counted(head.mesh.particles, "particle");
   if (!run.times.length) return `${titled(particles)} had not moved yet`;
-  if (family === "shear") return `A target was slid under a compact of ${particles}`;
+  if (family === "shear" && largest(run.values("shear/distance")) > 0) return `A target was slid under a compact of ${particles}`;
   const were = head.mesh.particles === 1 ? "was" : "were";
   return !wasPressed(run) ? `${titled(particles)} ${were} moved and deformed`
     : `${titled(particles)} ${were} pressed to a relative density of ` +
@@ -77,12 +77,13 @@ addFigures(run => {
 
 // Units of material parameters: the summary is in plain SI.
 const MATERIAL_UNITS = {density: "kg/m³", youngs_modulus: "Pa", poissons_ratio: "-",
-                        yield_stress: "Pa", hardening_modulus: "Pa"};
+                        yield_stress: "Pa", hardening_modulus: "Pa", mass_proportional: "1/s", stiffness_proportional: "s"};
 
 function materialRows(materials) {
   const named = key => words(key).replace(/^(young|poisson)s/, (_, name) => `${titled(name)}'s`);
-  const told = (key, value) => `${named(key)} ` +
-    (typeof value === "number" ? withUnit(value, MATERIAL_UNITS[key] || "-") : value);
+  const told = (key, value) => value !== null && typeof value === "object"
+    ? Object.entries(value).map(([inner, one]) => `${named(key)} ${told(inner, one)}`).join(", ")
+    : `${named(key)} ${typeof value === "number" ? withUnit(value, MATERIAL_UNITS[key] || "-") : value}`;
   return (Array.isArray(materials) ? materials : []).map(({name, ...numbers}) =>
     [`Material ${name || ""}`, Object.entries(numbers).map(one => told(...one)).join(", "),
      ["materials"]]);
