@@ -11,6 +11,7 @@
     const before = first.getBoundingClientRect().left;
     place.scrollLeft = 200;
     if (place.scrollWidth <= place.clientWidth) problems.push(`${id} is not wide`);
+    if (place.tabIndex !== 0 || place.getAttribute("role") !== "region" || !place.getAttribute("aria-label")) problems.push(`${id} is not offered to keys`);
     if (place.scrollLeft !== 200) problems.push(`${id} does not scroll`);
     if (Math.abs(first.getBoundingClientRect().left - before) > 1) problems.push(`${id}: the first column moves`);
   }

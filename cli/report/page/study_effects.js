@@ -84,9 +84,9 @@ function drawEffects({effects = []}) {
   const choice = element("select", {});
   values.forEach(({name}, i) => choice.add(new Option(titleOf(name), i)));
   const title = "Main effects", host = card(title, element("div", {className: "controls"}, element("label", {}, "value ", choice)));
-  const plot = element("div", {className: "effects scroll", role: "img"}), chosen = () => values[Number(choice.value)];
+  const plot = element("div", {className: "effects", role: "img"}), chosen = () => values[Number(choice.value)];
   const unbalanced = effects.some(({balanced}) => !balanced);
-  host.append(plot, element("p", {className: "note", textContent: "Mean over all runs at a level; bars: ± standard deviation of " +
+  host.append(element("div", {className: "scroll"}, plot), element("p", {className: "note", textContent: "Mean over all runs at a level; bars: ± standard deviation of " +
     "these runs (over seeds and the other keys); dashed: mean of all runs. All values are in effects.csv." +
     (unbalanced ? " * Combinations were not run equally often: the effect includes part of those of other keys." : "")}));
   const svg = (colours, width) => effectsSvg(effects, chosen(), Math.max(width, 66 + 150 * effects.length), colours);

@@ -8,6 +8,19 @@ function addRow(table, cells, isHead) {
   }
 }
 
+// Tables that are wider than their place scroll by keys, too: such places have the focus in turn, and the name of their card.
+function nameScrollers() {
+  for (const place of document.querySelectorAll(".scroll")) {
+    const isWide = place.scrollWidth > place.clientWidth, title = place.closest("section")?.querySelector("h2")?.textContent;
+    const set = (name, value) => isWide ? place.setAttribute(name, value) : place.removeAttribute(name);
+    set("tabindex", "0");
+    set("role", "region");
+    set("aria-label", `${title || "Table"}, scrolls`);
+  }
+}
+new MutationObserver(nameScrollers).observe(document.body, {attributes: true, attributeFilter: ["data-ready"]});
+onResize(document.body, nameScrollers);
+
 const withError = (value, error, count = 3) =>
   error === undefined ? digits(value, count) : `${digits(value, count)} ± ${digits(error, 2)}`;
 

@@ -122,7 +122,7 @@ function drawBars(groups, {friction}) {
   const title = "Contributions to the uncertainty of the friction coefficient", host = card(title);
   const shown = groups.filter(group => friction.contributions[group].share > 0 || friction.contributions[group].linear > 0);
   const plot = element("div", {className: "bars", role: "img", "aria-label": title});
-  host.append(plot, element("p", {className: "note", textContent:
+  host.append(element("div", {className: "scroll"}, plot), element("p", {className: "note", textContent:
     "Bar: variance with only that input drawn, relative to that with all inputs drawn. Tick: the same by the law of propagation of uncertainty."}));
   const svg = (colours, width) => barsSvg(shown, friction.contributions, colours, width);
   const redraw = () => { plot.innerHTML = svg(theme(), Math.max(380, host.clientWidth)); };
