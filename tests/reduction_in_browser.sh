@@ -84,3 +84,9 @@ body=$(body_of matrix "$matrix/report.html" 1200,2600 ready)
 grep -q '<td>interactions</td>' "$work/page.html" || fail "no interactions on the page"
 picture_of "$matrix/report.html" 1200,2600 "$matrix/report.png"
 echo "ok: matrix of conditions"
+
+for page in "$out" "$wedge" "$volts" "$press" "$die" "$matrix"; do
+  body=$(body_of narrow "$page/report.html" 500,900 within "$(dirname "$0")/width_driver.js")
+  [[ $body == *'data-within="1"'* ]] || fail "narrow ${page##*/}: $body"
+done
+echo "ok: narrow screen"

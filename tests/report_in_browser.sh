@@ -153,6 +153,8 @@ body=$(body_of raster "$reports/raster/report.html" 1200,2400 levelled "$(dirnam
 /usr/bin/python3 "$(dirname "$0")/raster_page.py" "$source_dir" "$work/page.html" "$reports/raster/run.h5" "$work/fields" ||
   fail "the images of the raster"
 picture_of "$reports/raster/report.html" 1200,2400 "$reports/raster.png"
+body=$(body_of "narrow raster" "$reports/raster/report.html" 500,900 within "$(dirname "$0")/width_driver.js")
+[[ $body == *'data-within="1"'* ]] || fail "narrow raster: $body"
 echo "ok: images of a raster"
 
 # A loop and a force curve: what goes there and what comes back are lines of their own, the tables have one unit a column,

@@ -90,18 +90,28 @@ function drawMap(ctx, {left, top, wide, tall}, image, map) {
   drawScale(ctx, left + wide + 8, top + 14, tall - 14, {low, high, unit: image.unit});
 }
 
+const MAP_LEFT = 52, MAP_SIDES = MAP_LEFT + 74, LEAST_MAP = 150, MOST_MAP = 380;
+
+// As many maps side by side as are not too small: {columns, wide}.
+function mapsInARow(width, count) {
+  const columns = Math.max(1, Math.min(Math.max(2, count), Math.floor(width / (MAP_SIDES + LEAST_MAP))));
+  return {columns, wide: Math.max(20, Math.min(width / columns - MAP_SIDES, MOST_MAP))};
+}
+
 function drawRaster(canvas, image, maps) {
   const ratio = devicePixelRatio || 1, width = canvas.parentElement.clientWidth || 900;
-  const left = 52, wide = Math.min(width / Math.max(2, maps.length) - left - 74, 380), cell = left + wide + 74;
+  const {columns, wide} = mapsInARow(width, maps.length), cell = wide + MAP_SIDES;
   const up = (image.pixel_height || 1) * image.lines / ((image.pixel_width || 1) * image.pixels);
-  const tall = Math.min(Math.max(wide * up, 60), 2 * wide), height = tall + 70;
+  const tall = Math.min(Math.max(wide * up, 60), 2 * wide), row = tall + 70, height = row * Math.ceil(maps.length / columns);
   canvas.style.height = height + "px";
   canvas.width = Math.round(width * ratio);
   canvas.height = Math.round(height * ratio);
   const ctx = canvas.getContext("2d");
   ctx.scale(ratio, ratio);
   ctx.font = "12px system-ui, sans-serif";
-  maps.forEach((map, i) => drawMap(ctx, {left: i * cell + left, top: 26, wide, tall}, image, map));
+  maps.forEach((map, i) =>
+    drawMap(ctx, {left: i % columns * cell + MAP_LEFT, top: Math.floor(i / columns) * row + 26, wide, tall}, image, map));
+  canvas.dataset.wide = wide;
   canvas.dataset.scale = maps.map(map => map.range.join(" ")).join(" ");
 }
 
