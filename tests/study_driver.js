@@ -20,5 +20,14 @@
     await image.decode().catch(() => problems.push("a picture cannot be read"));
     if (Math.max(image.naturalWidth, image.naturalHeight) !== 240) problems.push(`a picture of ${image.naturalWidth} pixels`);
   }
+  const head = JSON.parse(document.getElementById("head").textContent), rows = id => document.querySelectorAll(`#${id} tbody tr`).length;
+  const all = ["laws", "below"].map(rows);
+  head.runs[0].complete = false;
+  fillLaws(head);
+  fillBelow(head);
+  for (const [i, id] of ["laws", "below"].entries()) {
+    if (!all[i] || rows(id) !== all[i] * 3 / 4) problems.push(`${id}: ${rows(id)} of ${all[i]} rows without one of four runs`);
+    if (document.getElementById(`${id}-left-out`).textContent !== "1 run that did not reach its end is left out.") problems.push(`${id}: no note`);
+  }
   document.body.dataset.fits = problems.length ? problems.join("; ") : "1";
 })().catch(error => { document.body.dataset.fits = error; });

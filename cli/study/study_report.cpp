@@ -33,7 +33,8 @@ Json run_json(const Study& study, const StudyResult& result) {
             {"scene", result.run->file.filename().string()},
             {"seed", result.run->scene.seed},
             {"varied", varied},
-            {"code", result.code}};
+            {"code", result.code},
+            {"complete", result.usable}};
   if (!result.failure.empty()) json["failure"] = result.failure;
   json["values"] = Json::array();
   for (const Figure& figure : figures_of(result))

@@ -83,14 +83,14 @@ below = -1.6
 | `report.html` | charts with standard deviation bars, effect plots, the last frame of each run, tables |
 | `slurm.sh`, `slurm.json`, `slurm/` | on a cluster: the job script, its list of runs, its output (docs/cluster.md) |
 
-Runs that did not complete appear only in `study.csv`. For compaction between four planes, values are also reported at the
-sample with the highest relative density: `peak/relative_density`, `peak/top_force`, `peak/bottom_force`, `peak/top_pressure`,
-`peak/transmission`, `peak/stress_ratio/axial`, `peak/stress_ratio/lateral`. `quality` lists all quantities of the quality
-card that exceed their limits, and for levers all friction loops without a plateau; otherwise it is `within limits`. If the
-combinations of keys were not all run equally often, a main effect contains part of the effects of other keys; the report
-marks it with *. For variations with their own scenes, keys that some of them do not set have no main effect.
-The images of the last frames have at most 3 million pixels in total, one byte each before compression; studies of more
-than 1302 runs have none.
+Runs that did not complete appear only in `study.csv` and in the report's table of runs; its notes say how many are left out.
+For compaction between four planes, values are also reported at the sample with the highest relative density:
+`peak/relative_density`, `peak/top_force`, `peak/bottom_force`, `peak/top_pressure`, `peak/transmission`,
+`peak/stress_ratio/axial`, `peak/stress_ratio/lateral`. `quality` lists all quantities of the quality card that exceed their
+limits, and for levers all friction loops without a plateau; otherwise it is `within limits`. If the combinations of keys
+were not all run equally often, a main effect contains part of the effects of other keys; the report marks it with *. For
+variations with their own scenes, keys that some of them do not set have no main effect. The images of the last frames have
+at most 3 million pixels in total, one byte each before compression; studies of more than 1302 runs have none.
 )";
 
 // Settings of a table whose keys are paths into a scene; nested tables extend the path.

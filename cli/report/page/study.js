@@ -31,8 +31,17 @@ function fillExpectations(list) {
 const fillTexts = (id, titles, rows) =>
   fillTable(id, titles.map((title, k) => ({title, cells: rows.map(row => row[k])})));
 
+// Only runs that reached their end can be compared.
+const completeRuns = ({runs}) => runs.filter(run => run.complete);
+
+function leftOutNote(head) {
+  const count = head.runs.length - completeRuns(head).length;
+  return count ? `${counted(count, "run")} that did not reach ${count > 1 ? "their end are" : "its end is"} left out.` : "";
+}
+
 function fillLaws(head) {
-  const runs = head.runs.filter(run => run.fits && Array.isArray(run.fits.laws));
+  const runs = completeRuns(head).filter(run => run.fits && Array.isArray(run.fits.laws));
+  document.getElementById("laws-left-out").textContent = leftOutNote(head);
   document.getElementById("laws-section").hidden = !runs.length;
   const told = law => law.not_fitted ? `not fitted: ${law.not_fitted}`
                                      : law.parameters.map(parameterText).join(", ");
@@ -44,7 +53,8 @@ function fillLaws(head) {
 }
 
 function fillBelow(head) {
-  const runs = head.runs.filter(run => run.transmission && run.transmission.shares);
+  const runs = completeRuns(head).filter(run => run.transmission && run.transmission.shares);
+  document.getElementById("below-left-out").textContent = leftOutNote(head);
   document.getElementById("below-section").hidden = !runs.length;
   const rows = runs.map(({name, transmission}) => [
     name, digits(transmission.wall_friction),
@@ -141,13 +151,13 @@ function seedsNote(lines) {
 }
 
 // Every curve has its own x values, and a band over its seeds.
-function overlay(curve, numbers) {
+function overlay(curve, numbers, leftOut) {
   const lines = curve.lines.map(line => {
     const {x, y, low, high, deviation} = lineData(line, numbers);
     return {label: line.variation, unit: curve.y_unit, x, values: y, low, high, deviation};
   });
   return {title: titled(titleOfChart(curve.title)), x: {label: toldName(curve.x), unit: curve.x_unit, values: []},
-          y: toldName(curve.y), lines, seeds: seedsNote(curve.lines)};
+          y: toldName(curve.y), lines, note: [seedsNote(curve.lines), leftOut].filter(Boolean).join(" ")};
 }
 
 async function main() {
@@ -165,11 +175,11 @@ async function main() {
   fillBelow(head);
   fillStrength(head);
   const drawn = [...strengthPlots(head),
-                 ...head.curves.filter(curve => curve.lines.length).map(curve => overlay(curve, numbers))];
+                 ...head.curves.filter(curve => curve.lines.length).map(curve => overlay(curve, numbers, leftOutNote(head)))];
   const hosts = drawn.map(chart => card(chart.title));  // create all cards first: they share the width
   drawn.forEach((chart, i) => drawChart(hosts[i], chart, {height: 340}));
   drawn.forEach((chart, i) => {
-    if (chart.seeds) hosts[i].parentElement.append(element("p", {className: "note", textContent: chart.seeds}));
+    if (chart.note) hosts[i].parentElement.append(element("p", {className: "note", textContent: chart.note}));
   });
   document.body.dataset.effects = drawEffects(head);
   document.body.dataset.drawnLines = drawn.reduce((sum, chart) => sum + chart.lines.length, 0);
