@@ -68,14 +68,16 @@ async function driveSpace() {
   pointAt(200, 200, {buttons: 1, movementX: 60, movementY: 20});
   const offered = !document.querySelector("button.fit").hidden, dragged = hashOf(canvas());
   key("0", canvas());
-  told("turned", dragged !== first && offered && hashOf(canvas()) === first);
+  const named = box("view").value === "isometric";
+  told("turned", dragged !== first && offered && hashOf(canvas()) === first && named);
   turnedKey("ArrowLeft");
-  const views = [hashOf(canvas())];
+  const views = [hashOf(canvas())], names = [box("view").value];
   for (const axis of "xyzi") {
     key(axis, canvas());
     views.push(hashOf(canvas()));
+    names.push(box("view").value);
   }
-  told("looked", allDiffer(views) && views.at(-1) === first);
+  told("looked", names.join(" ") === " x y z isometric" && allDiffer(views) && views.at(-1) === first);
   told("tipInSpace", oneLine(tipIsRight(places(), 5)));
 
   const cuts = [first], cells = [];

@@ -19,12 +19,13 @@ function outlineEdges(cells, nodes) {
 }
 
 class FieldView {
-  // whole: initial {width, height} of the view in metres, for views with a common scale.
-  constructor(host, run, {whole = null, most = 560} = {}) {
+  // whole: initial {width, height} of the view in metres, for views with a common scale; name: of the run, beside others.
+  constructor(host, run, {whole = null, most = 560, name = ""} = {}) {
     Object.assign(this, {
       run,
       whole,
       most,
+      of: name ? ` of ${name}` : '',
       shown: '',
       contacts: false,
       bonds: false,
@@ -388,7 +389,7 @@ class FieldView {
     const bonds = this.bondLines ? this.bondsInWords() : '';
     this.note.textContent = `${name}${meaning} at ${withUnit(time, 's')}, step ${
         step.toLocaleString('en')}.${contacts}${bonds}`;
-    this.canvas.setAttribute("aria-label", `Picture of the particles. ${this.note.textContent} ` +
+    this.canvas.setAttribute("aria-label", `Picture of the particles${this.of}. ${this.note.textContent} ` +
       "Plus and minus zoom, 0 shows all.");
   }
 

@@ -122,6 +122,7 @@ class SpaceView extends FieldView {
     this.tell();
     this.tellPointer();
     this.fit.hidden = !this.isMoved();
+    this.onDraw?.();
     this.canvas.dataset.drawnIn = (performance.now() - start).toFixed(1);
     this.canvas.dataset.drawn = `${this.frame} ${this.shown}`;
     this.canvas.dataset.cracks = this.bondLines ? this.bondLines.cracks.length / 5 : "";
@@ -161,13 +162,14 @@ class SpaceView extends FieldView {
     super.tell();
     const cut = this.cutInWords();
     if (cut) this.note.textContent += ` Cut at ${cut}${this.slice ? ", the slice only" : ""}.`;
-    this.canvas.setAttribute("aria-label", `Picture of the particles in three dimensions. ${this.note.textContent} ${SPACE_KEYS}`);
+    this.canvas.setAttribute("aria-label", `Picture of the particles${this.of} in three dimensions. ${this.note.textContent} ${SPACE_KEYS}`);
   }
 
-  isMoved() {
-    const [, turn, tilt] = SPACE_VIEWS.isometric;
-    return this.zoom !== 1 || this.turn !== turn || this.tilt !== tilt || this.moved.some(part => part !== 0);
+  // The name of the direction of the view; none after turning.
+  get looks() {
+    return Object.keys(SPACE_VIEWS).find(name => SPACE_VIEWS[name][1] === this.turn && SPACE_VIEWS[name][2] === this.tilt) || "";
   }
+  isMoved() { return this.zoom !== 1 || this.looks !== "isometric" || this.moved.some(part => part !== 0); }
   showAll() { this.zoom = 1; this.moved = [0, 0]; this.lookFrom("isometric"); }
   lookFrom(name) {
     [, this.turn, this.tilt] = SPACE_VIEWS[name];
@@ -235,13 +237,17 @@ function spaceControls(view) {
     return element("label", {}, box, " " + label);
   };
   const look = select("view", Object.entries(SPACE_VIEWS).map(([value, [label]]) => [value, label]), value => view.lookFrom(value));
+  look.append(element("option", {value: "", textContent: "Turned", hidden: true}));
+  view.onDraw = () => { look.value = view.looks; };
   const at = element("input", {type: "range", id: "cut-at", min: 0, max: 1, step: 0.005, value: 0.5, disabled: true, "aria-label": "Place of the cut"});
   at.oninput = () => change({cutAt: Number(at.value)});
+  const slice = tick("slice", "slice only", "slice"), sliceBox = slice.querySelector("input");
+  sliceBox.disabled = true;
   const cut = select("cut", [["", "nothing"], ["x", "across x"], ["y", "across y"], ["z", "across z"], ["free", "facing the view"]], value => {
-    at.disabled = !value;
+    at.disabled = sliceBox.disabled = !value;
     change({cut: value, ...value === "free" ? {cutNormal: view.direction[2].map(part => -part)} : {}});
   });
   const tools = view.run.toolQuads ? [tick("tools", "tools", "showTools")] : [];
-  return [element("label", {}, "View ", look), element("label", {}, "Cut ", cut), at, note, tick("slice", "slice only", "slice"),
+  return [element("label", {}, "View ", look), element("label", {}, "Cut ", cut), at, note, slice,
           tick("edges", "element edges", "edges"), ...tools];
 }
