@@ -262,8 +262,8 @@ class Chart {
   }
 
   label() {
-    const {spec} = this;
-    return `Chart of ${spec.y} against ${spec.x.label}: ${spec.lines.map(line => line.label).join(", ")}. ` +
+    const {spec, host} = this, heading = host.parentElement?.querySelector("h2")?.textContent;
+    return `${heading ? heading + ". " : ""}Chart of ${spec.y} against ${spec.x.label}: ${spec.lines.map(line => line.label).join(", ")}. ` +
       "Plus and minus zoom, 0 shows all.";
   }
 

@@ -19,6 +19,14 @@ function contributionOf(run, title, model, x) {
   return own && {...own, x: axis.values, axis, y: group.y, hue: undefined, colour: undefined, dash: undefined};
 }
 
+// Controls that are there for every run or curve are told apart by its name.
+function nameControls(box, name) {
+  for (const one of box.querySelectorAll("select, input")) {
+    const own = one.getAttribute("aria-label") || one.labels[0]?.firstChild.textContent.trim();
+    one.setAttribute("aria-label", `${own}, ${name}`);
+  }
+}
+
 // A curve that at least two runs have, each with its own x values.
 function overlaid(runs, names, title, model, x) {
   const parts = runs.map((run, i) => {
@@ -51,9 +59,10 @@ function placeCurves(runs, names) {
   for (const [title, model, labels] of curvesOfAll(runs)) {
     const choices = [...labels].map(x => [x, overlaid(runs, names, title, model, x)]).filter(choice => choice[1]);
     if (!choices.length) continue;
-    const select = element("select", {}), first = choices[0][1];
+    const first = choices[0][1], select = element("select", {});
     choices.forEach(([label], i) => select.add(new Option(label, i)));
     const host = card(first.title, element("div", {className: "controls"}, element("label", {}, "against ", select)));
+    nameControls(host.parentElement, first.title);
     const chart = drawChart(host, first);
     select.onchange = () => chart.show(choices[select.value][1]);
     const {meaning} = runs.map(run => groupOf(run, title)).find(Boolean);
@@ -97,6 +106,7 @@ function placePanels(runs, names, timeline) {
       const host = card(`${panel.title}: ${names[i]}`);
       row.append(host.parentElement);
       panel.draw(report, host);
+      nameControls(host.parentElement, names[i]);
       ++count;
     });
   }
@@ -112,9 +122,9 @@ async function placeViews(runs, names) {
   for (const [i, run] of runs.entries()) {
     const place = element("div", {}), pane = element("div", {className: "pane"}, element("h2", {textContent: names[i]}), place);
     host.append(pane);
-    if (shown.includes(run)) views.push(new FieldView(place, run, {whole, most: 420}));
-    else if (drawn.includes(run)) views.push(new SpaceView(place, run, {whole: {radius}, most: 420}));
-    else if (run.frames.length && run.head.solid) views.push(await SolidView.load(place, run));
+    if (shown.includes(run)) views.push(new FieldView(place, run, {whole, most: 420, name: names[i]}));
+    else if (drawn.includes(run)) views.push(new SpaceView(place, run, {whole: {radius}, most: 420, name: names[i]}));
+    else if (run.frames.length && run.head.solid) views.push(await SolidView.load(place, run, names[i]));
     else place.append(element("p", {className: "note", textContent: "No picture: the scene wrote no frames."}));
   }
   return views;

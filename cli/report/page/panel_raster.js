@@ -139,7 +139,7 @@ function placeRaster({action, channels}, host, beside) {
     note.textContent = `${trace.pixels} × ${trace.lines} pixels` +
       (trace.stride > 1 ? ` (every ${trace.stride} of run.h5)` : "") +
       drawn.map(({title, range: [low, high]}) => `; ${title} from ${withUnit(low, trace.unit)} to ${withUnit(high, trace.unit)}`).join("") + ".";
-    canvas.setAttribute("aria-label", `${titled(channel.value)}, ${LEVELS[level.value][0]}. ${note.textContent}`);
+    canvas.setAttribute("aria-label", `${host.parentElement.querySelector("h2").textContent}: ${channel.value}, ${LEVELS[level.value][0]}. ${note.textContent}`);
   };
   channel.onchange = level.onchange = paint;
   [onUnits, onTheme, onMap].forEach(on => on(paint));

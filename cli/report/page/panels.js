@@ -44,6 +44,7 @@ class Report {
     const canvas = element("canvas", {className: "figure", role: "img"});
     const told = element("p", {className: "note"});
     host.append(canvas, told);
+    const heading = host.parentElement.querySelector("h2").textContent;  // with the run name, if shown beside others
     let drawn = 0;
     const paint = () => {
       const ratio = devicePixelRatio || 1, width = drawn = host.clientWidth, frame = this.frame();
@@ -57,9 +58,9 @@ class Report {
       const ends = frame && draw(ctx, width, height, frame, this.framesBeside());
       canvas.dataset.scale = ends || "";
       told.textContent = frame ? note(frame) : "";
-      canvas.setAttribute("aria-label", `${title}. ${told.textContent}`);
+      canvas.setAttribute("aria-label", `${heading}. ${told.textContent}`);
     };
-    const name = fileName(host.parentElement.querySelector("h2").textContent);  // with the run name, if shown beside others
+    const name = fileName(heading);
     host.parentElement.querySelector(".card-head").append(saveButtons(title, {
       PNG: () => saveCanvas(name + ".png", canvas),
       CSV: () => saveText(name + ".csv", csvOf(columns(this.frame())), "text/csv")}));

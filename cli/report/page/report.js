@@ -56,7 +56,7 @@ async function placePicture(report, host) {
   if (hasBonds) tick('bonds', 'bonds and cracks', bonds, 'bonds');
   if (run.inSpace) controls.append(...spaceControls(view));
   const head = element("div", {className: "card-head"}, element("h2", {textContent: solid ? "Lever" : "Particles"}),
-    saveButtons("picture", {PNG: () => saveCanvas(fileName(`${run.head.title} ${field.value} ${view.frame}`) + ".png", view.canvas)}));
+    saveButtons("picture", {PNG: () => saveCanvas(fileName(`${field.value} frame ${view.frame + 1}`) + ".png", view.canvas)}));
   host.append(head, controls, place);
   timeline.listen(share => view.showShare(share));
   await view.show({shown: field.value, bonds});

@@ -9,7 +9,8 @@ function saveBlob(name, blob) {
 
 const saveText = (name, text, type) => saveBlob(name, new Blob([text], {type}));
 const saveCanvas = (name, canvas) => canvas.toBlob(blob => saveBlob(name, blob), "image/png");
-const fileName = title => title.toLowerCase().replace(/[^a-z0-9.]+/g, "-").replace(/^-|-$/g, "");
+// Named after the page, then the figure.
+const fileName = title => `${document.title} ${title}`.toLowerCase().replace(/[^a-z0-9.]+/g, "-").replace(/^-|-$/g, "");
 
 // Converts an SVG to an image with four pixels per unit, enough for print.
 function saveAsPng(name, svg, width, height) {

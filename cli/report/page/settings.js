@@ -18,6 +18,12 @@ function placeSettings(host, units, hasMap = true) {
            value => chooseUnit(unit, value === "auto" ? null : value)));
   const menu = element("details", {className: "menu"}, element("summary", {textContent: "Units"}),
                        element("div", {}, ...choices));
+  onKey(menu, ({key}) => {
+    if (key !== "Escape" || !menu.open) return false;
+    menu.open = false;
+    menu.querySelector("summary").focus();
+    return true;
+  });
   const map = hasMap && picker("Colours", Object.keys(MAPS).map(name => [name, name]), chosenMap, chooseMap);
   const shade = element("button", {type: "button", id: "shade"});
   const tell = () => {

@@ -8,15 +8,15 @@ const shownOf = (moved, shown, node) => shown === "size" ? Math.hypot(moved[3 * 
   : moved[3 * node + Number(shown)];
 
 class SolidView {
-  static async load(host, run) {
-    const view = new SolidView(host, run);
+  static async load(host, run, name) {
+    const view = new SolidView(host, run, name);
     [view.faces, view.reference] = await Promise.all([integers(run.prefix + "faces", 4), floats(run.prefix + "reference")]);
     view.measure();
     return view;
   }
 
-  constructor(host, run) {
-    Object.assign(this, {run, frame: run.frames.length - 1, ...FIRST_VIEW, zoom: 1, larger: 0,
+  constructor(host, run, name = "") {
+    Object.assign(this, {run, of: name ? ` of ${name}` : "", frame: run.frames.length - 1, ...FIRST_VIEW, zoom: 1, larger: 0,
                          shown: "size"});
     this.canvas = element("canvas", {className: "picture", tabIndex: 0, role: "img"});
     this.note = element("p", {className: "note"});
@@ -120,7 +120,7 @@ class SolidView {
     drawScale(ctx, room + 14, 26, height - 60, {low: range[0], high: range[1], unit: "m"});
     const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `displacements × ${digits(this.larger)}`;
     this.note.textContent = `Lever, ${this.run.isCalibration ? loadCase(time) : digits(time, 3) + " actions completed"}, ${drawn}; largest displacement ${withUnit(this.most, "m")}. Drag to turn.`;
-    canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent} Shift and arrows turn, plus and minus zoom, 0 shows all.`);
+    canvas.setAttribute("aria-label", `Picture of the lever${this.of} in three dimensions. ${this.note.textContent} Shift and arrows turn, plus and minus zoom, 0 shows all.`);
     canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }
 

@@ -99,7 +99,7 @@ function drawEffects({effects = []}) {
   onResize(host, draw);
   onTheme(draw);
   onUnits(draw);
-  const name = () => `main-effects-${fileName(chosen().name)}`;
+  const name = () => fileName(`main effects ${chosen().name}`);
   host.parentElement.classList.add("wide");
   host.parentElement.querySelector(".card-head").append(saveButtons(title, {
     SVG: () => saveText(name() + ".svg", svg(LIGHT, 720), "image/svg+xml"),

@@ -12,7 +12,7 @@ class Timeline {
     this.slider = element("input", {type: "range", id: "frame", min: 0, max: Math.max(0, times.length - 1),
                                     step: 1, value: this.frame, "aria-label": "Frame"});
     this.slider.oninput = () => this.showFrame(Number(this.slider.value));
-    this.told = element("output", {className: "told", htmlFor: "frame"});
+    this.told = element("output", {className: "told", htmlFor: "frame", "aria-live": "off"});
     host.replaceChildren(this.button, this.slider, this.told);
     this.setPlaying(false);
     this.tell();

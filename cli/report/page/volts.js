@@ -130,7 +130,7 @@ function drawBars(groups, {friction}) {
   onResize(host, redraw);
   onTheme(redraw);
   host.parentElement.querySelector(".card-head").append(saveButtons(title, {
-    SVG: () => saveText("contributions.svg", svg(LIGHT, 640), "image/svg+xml")}));
+    SVG: () => saveText(fileName("contributions") + ".svg", svg(LIGHT, 640), "image/svg+xml")}));
   ++charts;
 }
 
