@@ -75,14 +75,14 @@ std::vector<double> cell_values(const hdf5::File& file, const std::string& frame
   return one;
 }
 
+void leave_out_empty(std::vector<CellField>& fields) {
+  std::erase_if(fields,
+                [](const CellField& field) { return !(field.range.low <= field.range.high); });
+}
+
 nlohmann::ordered_json described(const CellField& field, std::size_t levels) {
-  const bool any = field.range.low <= field.range.high;
-  return {{"name", field.label},
-          {"unit", field.unit},
-          {"meaning", field.meaning},
-          {"levels", levels},
-          {"low", any ? field.range.low : 0.0},
-          {"high", any ? field.range.high : 0.0}};
+  return {{"name", field.label}, {"unit", field.unit},     {"meaning", field.meaning},
+          {"levels", levels},    {"low", field.range.low}, {"high", field.range.high}};
 }
 
 }  // namespace pulvis

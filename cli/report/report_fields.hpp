@@ -41,6 +41,9 @@ struct FieldMesh {
 std::vector<double> cell_values(const hdf5::File& file, const std::string& frame,
                                 const CellField& field, const FieldMesh& mesh);
 
+// A field that has no value in any frame is not shown.
+void leave_out_empty(std::vector<CellField>& fields);
+
 // As stored in the head; `levels`: of its quantised numbers.
 nlohmann::ordered_json described(const CellField& field, std::size_t levels);
 

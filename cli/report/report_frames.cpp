@@ -103,6 +103,7 @@ class Frames {
       for (auto& field : fields_)
         for (const double value : values(frame, field)) widen(field.range, value);
     }
+    leave_out_empty(fields_);
     if (!(x_.low <= x_.high && y_.low <= y_.high)) x_ = y_ = {0, 0};
   }
 

@@ -91,6 +91,7 @@ class SpaceFrames {
       for (auto& field : fields_)
         for (const double value : values(frame, field)) widen(field.range, value);
     }
+    leave_out_empty(fields_);
     if (!(box_[0].low <= box_[0].high)) box_ = {};
   }
 

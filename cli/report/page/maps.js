@@ -53,6 +53,7 @@ function inkOn(share) {
 
 // The colour bar of a map as a strip from low to high, with ticks.
 function drawScale(ctx, left, top, tall, {low, high, unit}) {
+  if (!(low <= high)) return;  // no value
   const shown = unitFor(unit, Math.max(Math.abs(low), Math.abs(high))), colours = theme(), wide = 14;
   for (let i = 0; i < tall; ++i) {
     ctx.fillStyle = colour(1 - i / (tall - 1));
