@@ -6,15 +6,13 @@ const LAWS = {heckel: ["Heckel", "ln[1/(1 − D)] = K P + A"],
               kawakita: ["Kawakita", "P/C = P/a + 1/(a b),  C = 1 − D₀/D"],
               cooper_eaton: ["Cooper–Eaton", "C/(1 − D₀) = a₁ exp(−k₁/P) + a₂ exp(−k₂/P)"]};
 
-function parameterText({name, value, unit}) {
-  if (unit === "1/Pa") return `${words(name)} = ${digits(value * 1e6)} 1/MPa`;
-  return `${words(name)} = ${withUnit(value, unit)}`;
-}
+const parameterText = ({name, value, unit}) => `${words(name)} = ${withUnit(value, unit)}`;
 
-function fillFits({fits}) {
+function fillFits({summary: {fits}}) {
   if (!fits || !Array.isArray(fits.laws)) return;
   document.getElementById("fits-section").hidden = false;
   const body = document.querySelector("#fits tbody");
+  body.replaceChildren();
   for (const law of fits.laws) {
     const row = body.insertRow(), name = row.insertCell(), told = row.insertCell();
     const [title, formula] = LAWS[law.law] || [law.law, ""];

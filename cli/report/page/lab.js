@@ -3,12 +3,9 @@
 // Status on <body>: data-ready, data-charts, or data-error.
 "use strict";
 
-const forPeople = cell => cell.unit !== "1/Pa" ? cell
-  : {value: cell.value * 1e6, error: cell.error === undefined ? undefined : cell.error * 1e6, unit: "1/MPa"};
-
 function cellText(cell) {
   if (cell === null || cell === undefined) return "–";
-  if (typeof cell === "object") return measured(forPeople(cell), forPeople(cell).unit || "-");
+  if (typeof cell === "object") return measured(cell, cell.unit || "-");
   return typeof cell === "number" ? digits(cell) : cell;
 }
 

@@ -86,10 +86,9 @@ async function main() {
   document.getElementById("frames-note").textContent = noteOfFrames(run);
   document.getElementById("timeline").hidden = run.frames.length < 2;
   placeSettings(document.getElementById("settings"), new Set([...run.head.series, ...(run.head.fields || [])].map(s => s.unit)));
-  const tables = () => [fillFigures, fillSummary, fillQuality, fillCost].forEach(fill => fill(run));
+  const tables = () => [fillFigures, fillSummary, fillQuality, fillFits, fillCost].forEach(fill => fill(run));
   tables();
   onUnits(tables);
-  fillFits(run.summary);
   fillTransmission(run.summary);
   if (run.head.scene) {
     document.getElementById("scene-section").hidden = false;

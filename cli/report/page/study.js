@@ -18,9 +18,11 @@ function leadText(head) {
 function fillExpectations(list) {
   document.getElementById("expectations-section").hidden = !list.length;
   const body = document.querySelector("#expectations tbody");
+  body.replaceChildren();
   for (const one of list) {
     const row = body.insertRow();
-    for (const text of [one.what, one.measured, one.expected]) row.insertCell().textContent = text;
+    row.insertCell().textContent = toldExpectation(one.what);
+    for (const text of [one.measured, one.expected]) row.insertCell().append(...readable(text));
     const verdict = row.insertCell();
     verdict.textContent = one.met ? "met" : "NOT met";
     verdict.className = one.met ? "within" : "beyond";
@@ -164,16 +166,15 @@ async function main() {
   const head = JSON.parse(document.getElementById("head").textContent);
   const numbers = await floats("numbers");
   document.getElementById("lead").textContent = leadText(head);
-  fillExpectations(head.expectations);
   const units = [...head.runs.flatMap(run => run.values), ...head.curves.flatMap(({x_unit, y_unit}) => [{unit: x_unit}, {unit: y_unit}])];
   placeSettings(document.getElementById("settings"), new Set(units.map(({unit}) => unit)), false);
-  const fillTables = () => { fillRuns(head); fillVariations(head); };
+  const fillTables = () => {
+    fillExpectations(head.expectations);
+    [fillRuns, fillVariations, fillLaws, fillBelow, fillStrength].forEach(fill => fill(head));
+  };
   fillTables();
   onUnits(fillTables);
   fillThumbnails(head);
-  fillLaws(head);
-  fillBelow(head);
-  fillStrength(head);
   const drawn = [...strengthPlots(head),
                  ...head.curves.filter(curve => curve.lines.length).map(curve => overlay(curve, numbers, leftOutNote(head)))];
   const hosts = drawn.map(chart => card(chart.title));  // create all cards first: they share the width

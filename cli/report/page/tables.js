@@ -21,6 +21,26 @@ function nameScrollers() {
 new MutationObserver(nameScrollers).observe(document.body, {attributes: true, attributeFilter: ["data-ready"]});
 onResize(document.body, nameScrollers);
 
+// Numbers in a text, and values with a unit: "0.1", "9048.9, 10201 N".
+const NUMBERS = (() => {
+  const one = "-?\\d+(?:\\.\\d+)?(?:e[+-]\\d+)?";
+  return new RegExp(`(?<![\\w.])((?:${one}, )*${one})(?: ([^\\s,;]+))?`, "g");
+})();
+
+// The values of a text in the units of the page, unbroken at the ends of lines.
+function readable(text) {
+  const parts = [];
+  let from = 0;
+  for (const {0: found, 1: numbers, 2: unit, index} of text.matchAll(NUMBERS)) {
+    const values = numbers.split(", ").map(Number), isKnown = SCALED.has(unit), shown = unitFor(unit || "-", largest(values));
+    const kept = isKnown || unit === "%" ? found : numbers;
+    const told = isKnown ? `${values.map(value => digits(value * shown.factor, 6)).join(", ")} ${shown.label}` : kept;
+    parts.push(text.slice(from, index), element("span", {className: "unbroken", textContent: told}));
+    from = index + kept.length;
+  }
+  return [...parts, text.slice(from)];
+}
+
 const withError = (value, error, count = 3) =>
   error === undefined ? digits(value, count) : `${digits(value, count)} ± ${digits(error, 2)}`;
 

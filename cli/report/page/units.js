@@ -22,6 +22,10 @@ function unitFor(unit, largest) {
     const chosen = chosenPrefixes.get(unit);
     return {factor: 1 / PREFIXES.find(([, prefix]) => prefix === chosen)[0], label: chosen + unit};
   }
+  if (unit === "1/Pa") {
+    const pressure = chosenPrefixes.get("Pa") ?? "M";
+    return {factor: PREFIXES.find(([, prefix]) => prefix === pressure)[0], label: `1/${pressure}Pa`};
+  }
   if (unit === "m^2" && largest > 0) {  // m², mm², µm² ...: from 0.01 of each, or squares of a chosen unit
     const {factor, label} = unitFor("m", 10 * Math.sqrt(largest));
     return {factor: factor ** 2, label: label + "²"};

@@ -179,19 +179,20 @@ function fillQuality(run) {
   const figures = qualityFigures(run), expected = run.summary.expectations || [];
   document.getElementById("quality-section").hidden =
     !figures.length && !expected.length && !run.summary.warnings;
+  document.getElementById("quality-note").hidden = !figures.length;
   const body = document.querySelector("#quality tbody");
   body.replaceChildren();
   const add = (name, note, cells, verdict, good) => {
     const row = body.insertRow(), head = element("th", {scope: "row", textContent: titled(name)});
     head.append(element("small", {textContent: note || ""}));
     row.append(head);
-    cells.forEach(text => { row.insertCell().textContent = text; });
+    cells.forEach(text => { row.insertCell().append(...readable(text)); });
     row.append(element("td", {className: verdict && (good ? "within" : "beyond"), textContent: verdict}));
     return row;
   };
   for (const figure of figures) {
     const {name, meaning, value, limit, advice} = figure, limited = typeof limit === "number", within = !isBeyond(figure);
-    const row = add(name, meaning, [percent(value), limited ? percent(limit) : "none set"].map(text => text.replace(" ", "\u00a0")),
+    const row = add(name, meaning, [percent(value), limited ? percent(limit) : "none set"],
                     limited ? within ? "within" : "beyond" : "", within);
     if (advice) row.firstChild.append(element("small", {className: "advice", textContent: `What to do: ${advice}.`}));
   }
