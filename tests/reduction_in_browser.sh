@@ -81,7 +81,8 @@ matrix=$out/matrix
 body=$(body_of matrix "$matrix/report.html" 1200,2600 ready)
 [[ $body != *data-error* ]] || fail "$body"
 [[ $body == *'data-ready="1"'* && $body == *'data-charts="3"'* ]] || fail "not ready: $body"
-grep -q '<td>interactions</td>' "$work/page.html" || fail "no interactions on the page"
+grep -q '<th scope="row">interactions</th>' "$work/page.html" || fail "no interactions on the page"
+grep -q '>transverse</text>' "$work/page.html" || fail "the effects do not name their levels"
 picture_of "$matrix/report.html" 1200,2600 "$matrix/report.png"
 echo "ok: matrix of conditions"
 

@@ -221,18 +221,19 @@ Json curves_chart(const Matrix& m) {
   return chart;
 }
 
-// Marks over the levels, one position per level.
+// Marks over the levels, one position per level, named below it.
 Json effects_chart(const Matrix& m, const Response& r) {
-  Json chart = chart_of(fmt::format("Effects on the {} coefficient", r.name),
-                        "level, in the order of the table", "-", "effect");
-  std::size_t place = 0;
+  Json chart =
+      chart_of(fmt::format("Effects on the {} coefficient", r.name), "level", "-", "effect");
+  Json& names = chart["x"]["names"] = Json::array();
   for (const lab::Factor& factor : m.factors) {
     std::vector<double> x, y;
     Json low = Json::array(), high = Json::array();
     for (const lab::Effect& effect : r.effects.effects) {
       if (effect.factor != factor.name) continue;
       const double half = effect.half_width.value_or(0);
-      x.push_back(static_cast<double>(++place));
+      x.push_back(static_cast<double>(names.size()));
+      names.push_back(effect.level);
       y.push_back(effect.value);
       low.push_back(effect.value - half);
       high.push_back(effect.value + half);

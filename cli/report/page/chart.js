@@ -64,7 +64,8 @@ function shownChart(spec, hidden) {
   const ends = line => !line.deviation ? [] : barSamples(line).flatMap(i => [line.values[i] - line.deviation[i], line.values[i] + line.deviation[i]]);
   const fits = shown.map(line => line.fit).filter(Boolean);
   return {x, y, xLabel: labelled(spec.x.label, x.label), yLabel: labelled(spec.y, y.label),
-          whole: {x: withMargin(bounds([...shown.map(xsOf), ...fits.map(fit => fit.x)]), 0.02).map(v => v * x.factor),
+          whole: {x: spec.x.names ? [-0.5, spec.x.names.length - 0.5]
+                    : withMargin(bounds([...shown.map(xsOf), ...fits.map(fit => fit.x)]), 0.02).map(v => v * x.factor),
                   y: withMargin(bounds([...shown.flatMap(line => [...[line.values, line.low, line.high].map(values => certain(line, values)), ends(line)]),
                                         ...fits.map(fit => fit.values)]), 0.05).map(v => v * y.factor)}};
 }
@@ -153,7 +154,8 @@ function marksOf(xs, line, kx, ky, {px, py}, stroke) {
   }).join("");
 }
 
-// The x axis may be categorical.
+// The x axis may be categorical: names that are wider than their place stand in two rows.
+const inTwoRows = ({names}, [low, high], wide) => Boolean(names) && Math.max(...names.map(textWidth)) > wide / (high - low) - 6;
 const abscissaTicks = ({names}, [low, high], count) => names ? names.map((_, i) => i).filter(i => i >= low && i <= high)
   : niceTicks(low, high, Math.max(3, count));
 const abscissaText = ({names}, told = digits) => value => names ? names[Math.round(value)] ?? "" : told(value);
@@ -177,16 +179,17 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
                `fill="${colours.soft}">`];
   if (legend) out.push(`<rect width="100%" height="100%" fill="${colours.paper}"/>`);
   const across = abscissaTicks(spec.x, range.x, (right - left) / 90), acrossText = abscissaText(spec.x, tickText(across));
+  const staggered = inTwoRows(spec.x, range.x, right - left);
   for (const tick of across) {
     out.push(line(px(tick), top, px(tick), bottom, colours.grid),
-             text(Math.min(px(tick), width - 30), bottom + 16, "middle", acrossText(tick)));
+             text(Math.min(px(tick), width - 30), bottom + (staggered && tick % 2 ? 28 : 16), "middle", acrossText(tick)));
   }
   const ticks = valueTicks(range.y), told = tickText(ticks);
   for (const tick of ticks) {
     out.push(line(left, py(tick), right, py(tick), colours.grid), text(left - 7, py(tick) + 4, "end", told(tick)));
   }
   if (range.y[0] < 0 && range.y[1] > 0) out.push(line(left, py(0), right, py(0), colours.edge));
-  out.push(text((left + right) / 2, height - 8, "middle", shown.xLabel),
+  out.push(text((left + right) / 2, height - (staggered ? 3 : 8), "middle", shown.xLabel),
            axisTitleSvg(shown.yLabel, top, bottom));
   const clip = `plot-${chartSvg.count = (chartSvg.count || 0) + 1}`;
   out.push(`<clipPath id="${clip}"><rect x="${left}" y="${top}" width="${right - left}" ` +
