@@ -31,7 +31,7 @@ body=$(body_of reduction "$out/report.html" 1200,2300 ready)
 drawn=$(grep -o 'class="plot"' "$work/page.html" | wc -l)
 [[ $drawn -eq 5 ]] || fail "$drawn charts on the page, not 5"
 grep -q 'simulation sim' "$work/page.html" || fail "the simulation is not on the page"
-grep -q '<td>mean of the runs</td>' "$work/page.html" || fail "no mean of the runs"
+grep -q '<th scope="row">mean of the runs</th>' "$work/page.html" || fail "no mean of the runs"
 picture_of "$out/report.html" 1200,2300 "$out/report.png"
 echo "ok: reduction"
 
@@ -62,7 +62,7 @@ press=$out/press
 body=$(body_of press "$press/report.html" 1200,2600 ready)
 [[ $body != *data-error* ]] || fail "$body"
 [[ $body == *'data-ready="1"'* && $body == *'data-charts="4"'* ]] || fail "not ready: $body"
-grep -q '<td>yield_pressure</td><td>420' "$work/page.html" || fail "no yield pressure on the page"
+grep -q '<td>Heckel</td><td>yield pressure</td><td>420' "$work/page.html" || fail "no yield pressure on the page"
 picture_of "$press/report.html" 1200,2600 "$press/report.png"
 echo "ok: compressions"
 

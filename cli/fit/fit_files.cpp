@@ -73,7 +73,7 @@ Json curves_chart(const FitResult& r) {
 }
 
 Json misfit_chart(const FitResult& r, std::size_t parameter) {
-  const std::string& name = r.parameters[parameter].name;
+  const std::string name = for_page(r.parameters[parameter].name);
   Json chart = chart_of("Misfit of all runs against " + name, name.c_str(),
                         r.parameters[parameter].unit.c_str(), "root mean square of the residuals");
   std::vector<double> x, y;
@@ -110,7 +110,7 @@ Json sentences_table(const std::string& title, const std::vector<std::string>& s
 
 Json trials_table(const FitResult& r) {
   Json table{{"title", "Runs"}, {"head", {"run"}}, {"rows", Json::array()}};
-  for (const lab::Measured& p : r.parameters) table["head"].push_back(p.name);
+  for (const lab::Measured& p : r.parameters) table["head"].push_back(for_page(p.name));
   table["head"].push_back("misfit");
   for (const FitTrial& trial : r.trials) {
     Json row{trial.run};
@@ -131,7 +131,7 @@ void write_fit(const std::filesystem::path& folder, const FitResult& result) {
   write_own(folder / "trials.csv", role::fit, trials_csv(result));
   LabOutput page;
   page.title = result.fit.spec.title;
-  page.lead = fit_text(result);
+  page.lead = for_page(fit_text(result)) + ".";
   page.values = "fit.json";
   page.charts.push_back(curves_chart(result));
   for (std::size_t k = 0; k < result.parameters.size(); ++k)

@@ -150,12 +150,17 @@ Json densities_chart(const Compressions& all) {
   return chart;
 }
 
+const char* law_title(const std::string& law) {
+  return law == "heckel" ? "Heckel" : law == "kawakita" ? "Kawakita" : "Cooper–Eaton";
+}
+
 Json laws_chart(const lab::ReducedCurve& one) {
   Json chart = chart_of("Laws fitted to " + one.name, "axial pressure", "Pa", "relative density");
   chart["lines"].push_back(chart_line("measured", "-", one.range.pressure, one.range.density));
   for (const lab::LawFit& law : one.laws)
     if (law.fit.not_fitted.empty())
-      chart["lines"].push_back(chart_line(law.fit.law, "-", one.range.pressure, law.fit.densities));
+      chart["lines"].push_back(
+          chart_line(law_title(law.fit.law), "-", one.range.pressure, law.fit.densities));
   return chart;
 }
 
@@ -168,9 +173,11 @@ Json laws_table(const Compressions& all) {
   for (const auto& curve : all.curves)
     for (const lab::LawFit& law : curve.laws) {
       if (!law.fit.not_fitted.empty())
-        table["rows"].push_back({curve.name, law.fit.law, "not fitted: " + law.fit.not_fitted});
+        table["rows"].push_back(
+            {curve.name, law_title(law.fit.law), "not fitted: " + law.fit.not_fitted});
       for (const lab::Measured& p : law.parameters) {
-        Json row{curve.name, law.fit.law, p.name, measured_cell(p, all.confidence)};
+        Json row{curve.name, law_title(law.fit.law), for_page(p.name),
+                 measured_cell(p, all.confidence)};
         for (const char* source : {"scatter", "height", "mass", "compliance"}) {
           const auto found = std::ranges::find(p.contributions, source, &lab::Contribution::source);
           row.push_back(found == p.contributions.end() || !std::isfinite(found->error)

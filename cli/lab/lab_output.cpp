@@ -90,6 +90,12 @@ nlohmann::ordered_json measured_json(const lab::Measured& figure, double confide
   return json;
 }
 
+std::string for_page(std::string text) {
+  std::ranges::replace(text, '_', ' ');
+  for (std::size_t at; (at = text.find("+-")) != std::string::npos;) text.replace(at, 2, "±");
+  return text;
+}
+
 std::string measured_text(const lab::Measured& figure, double confidence) {
   double factor = 1;
   std::string unit = figure.unit == "-" ? "" : " " + figure.unit;

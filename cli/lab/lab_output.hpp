@@ -45,4 +45,7 @@ nlohmann::ordered_json measured_json(const lab::Measured& figure, double confide
 // "yield_pressure 420.1 +- 0.8 MPa" with the most readable prefix, "yield_pressure 420.1 MPa (no interval)".
 std::string measured_text(const lab::Measured& figure, double confidence);
 
+// Such text and names of parameters as the page writes them: "yield pressure 420.1 ± 0.8 MPa".
+std::string for_page(std::string text);
+
 }  // namespace pulvis

@@ -11,7 +11,7 @@ function cellText(cell) {
 
 function placeTable({title, head, rows, note}) {
   const table = element("table", {className: "figures"}), scroll = element("div", {className: "scroll"}, table);
-  addRow(table, head, true);
+  if (head.length) addRow(table, head, true);
   for (const row of rows) addRow(table, row.map(cellText));
   const box = element("section", {}, element("h2", {textContent: title}), scroll);
   if (note) box.append(element("p", {className: "note", textContent: note}));
@@ -31,7 +31,7 @@ function main() {
     const place = card(title);
     drawChart(place, {x: {...x, values: []}, y, lines: lines.map(inColours)});
     const cut = uncertainMarks(lines).map(({line, i}) =>
-      `${line.label}: ${withError(line.values[i], (line.high[i] - line.low[i]) / 2)} at ${digits(line.x[i])}`);
+      `${line.label}: ${withSpread(line.values[i], (line.high[i] - line.low[i]) / 2)} at ${digits(line.x[i])}`);
     const all = [note, cut.length && `Too uncertain for the scale, bar cut off: ${cut.join("; ")}.`].filter(Boolean).join(" ");
     if (all) place.parentElement.append(element("p", {className: "note", textContent: all}));
   }

@@ -109,7 +109,7 @@ function placeCurves(friction, shear, mean, summary) {
 const lead = summary => {
   const {runs, static_friction: peak, dynamic_friction: mean} = summary;
   return `${runs.length} run${runs.length > 1 ? "s" : ""}: static coefficient ` +
-    `${withError(peak.mean, peak.half_width)}, dynamic ${withError(mean.mean, mean.half_width)}.`;
+    `${withSpread(peak.mean, peak.half_width)}, dynamic ${withSpread(mean.mean, mean.half_width)}.`;
 };
 
 async function main() {

@@ -2,10 +2,11 @@
 "use strict";
 
 function addRow(table, cells, isHead) {
-  const row = table.insertRow();
-  for (const text of cells) {
-    row.append(element(isHead ? "th" : "td", {textContent: text ?? "–"}));
-  }
+  const row = (isHead ? table.createTHead() : table.tBodies[0] || table.createTBody()).insertRow();
+  cells.forEach((text, i) => {
+    const scope = isHead ? "col" : i ? "" : "row";
+    row.append(element(scope ? "th" : "td", {textContent: text ?? "–", ...scope && {scope}}));
+  });
 }
 
 // Tables that are wider than their place scroll by keys, too: such places have the focus in turn, and the name of their card.
@@ -41,15 +42,11 @@ function readable(text) {
   return [...parts, text.slice(from)];
 }
 
-const withError = (value, error, count = 3) =>
-  error === undefined ? digits(value, count) : `${digits(value, count)} ± ${digits(error, 2)}`;
-
 // {value, error} in a readable unit, the same for both.
 function measured(known, unit = "-") {
   if (!known) return "–";
   const {factor, label} = unitFor(unit, Math.abs(known.value));
-  const error = known.error === undefined ? undefined : known.error * factor;
-  return withError(known.value * factor, error, 4) + (label ? " " + label : "");
+  return withSpread(known.value * factor, known.error, factor) + (label ? " " + label : "");
 }
 
 // columns: [{title, unit, cells}]; a cell is a number, {mean, deviation}, a text, an element or null. A column of numbers

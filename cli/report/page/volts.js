@@ -173,7 +173,7 @@ function fillTables({summary, groups, loops}) {
   });
   const curves = document.getElementById("force-curves");
   addRow(curves, ["surface", "curve", "slope, approach [V/nm]", "slope, retract [V/nm]", "curvature", "pull-off", "pull-off work", "crosstalk"], true);
-  const perNm = known => known ? withError(known.value * 1e-9, known.error * 1e-9, 4) : "–";
+  const perNm = known => known ? withSpread(known.value * 1e-9, known.error, 1e-9) : "–";
   for (const [surface, set] of Object.entries(summary.force_curves)) {
     for (const one of set.curves) {
       addRow(curves, [surface, one.curve, perNm(one.approach), perNm(one.retract), percent(one.curvature),
