@@ -6,6 +6,9 @@ const MOST_SEARCHED = 100000;  // maximum number of cells searched for outline e
 const LEGEND_WIDTH = 84, MOST_LEGEND_WIDTH = 180;
 const MARGIN = 0.07;  // around the powder, as a fraction of its size
 
+// Fields that number something, with the number of none; and fields that count.
+const NUMBERED = {fragment: -1, force_chain: 0}, COUNTS = new Set(["coordination", "tools_touched"]);
+
 // Edges that belong to only one cell: the outlines of the particles. [a0, b0, a1, b1, ...]
 function outlineEdges(cells, nodes) {
   const once = new Map();
@@ -220,10 +223,10 @@ class FieldView {
       return colours.map((_, c) => packed(...mapColour(share(this.run.particleOf[c]))));
     }
     if (!this.codes) return colours;
-    if (this.showsFragments) {
+    if (this.showsNumbers) {
       for (let c = 0; c < count; ++c) {
-        if (this.codes[c] !== NO_NUMBER)
-          colours[c] = packed(...fragmentColour(Math.round(this.valueOf(this.codes[c]))));
+        const number = this.codes[c] === NO_NUMBER ? NaN : Math.round(this.valueOf(this.codes[c]));
+        if (number !== NUMBERED[this.field.name] && number >= 0) colours[c] = packed(...fragmentColour(number));
       }
       return colours;
     }
@@ -243,8 +246,8 @@ class FieldView {
     return tag.names.map(name => tagColour(all.indexOf(name), all.length));
   }
 
-  get showsFragments() {
-    return this.codes && this.field.name === 'fragment';
+  get showsNumbers() {
+    return this.codes && this.field.name in NUMBERED;
   }
 
   // Thin lines along the bonds; cracks coloured by fracture mode.
@@ -370,10 +373,11 @@ class FieldView {
   drawLegend(ctx) {
     const {width, room, height} = this.place, density = this.shown === "density", {tag} = this;
     if (tag && tag.names.length) { drawTagLegend(ctx, room + 14, 16, tag, this.tagColours(), width - room - 14); return; }
-    if (!density && !tag && (!this.codes || this.showsFragments)) return;
+    if (!density && !tag && (!this.codes || this.showsNumbers)) return;
     const [low, high] = this.range();
     if (!(low <= high)) return;  // no cell has a value
-    drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density || tag ? "-" : this.field.unit});
+    drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density || tag ? "-" : this.field.unit,
+      isWhole: Boolean(tag) || !density && COUNTS.has(this.field.name)});
   }
 
   bondsInWords() {

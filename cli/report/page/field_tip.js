@@ -29,7 +29,7 @@ Object.assign(FieldView.prototype, {
     }
     const code = cell >= 0 && this.codes ? this.codes[cell] : NO_NUMBER;
     if (code === NO_NUMBER) return "";
-    return this.showsFragments ? `fragment ${Math.round(this.valueOf(code))}`
+    return this.showsNumbers ? `${nameOf(this.field.name).words} ${Math.round(this.valueOf(code))}`
       : `${nameOf(this.field.name).words} ${withUnit(this.valueOf(code), this.field.unit)}`;
   },
 

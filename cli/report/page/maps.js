@@ -51,8 +51,8 @@ function inkOn(share) {
   return 0.299 * red + 0.587 * green + 0.114 * blue > 140 ? "#1d2733" : "#ffffff";
 }
 
-// The colour bar of a map as a strip from low to high, with ticks.
-function drawScale(ctx, left, top, tall, {low, high, unit}) {
+// The colour bar of a map as a strip from low to high, with ticks; of whole numbers only, if all values are.
+function drawScale(ctx, left, top, tall, {low, high, unit, isWhole = false}) {
   if (!(low <= high)) return;  // no value
   const shown = unitFor(unit, Math.max(Math.abs(low), Math.abs(high))), colours = theme(), wide = 14;
   for (let i = 0; i < tall; ++i) {
@@ -62,12 +62,12 @@ function drawScale(ctx, left, top, tall, {low, high, unit}) {
   ctx.fillStyle = colours.ink;
   ctx.textAlign = "left";
   ctx.textBaseline = "alphabetic";
-  ctx.fillText(shown.label || "–", left, top - 10);
+  ctx.fillText(shown.label, left, top - 10);
   if (!(high > low)) {
     ctx.fillText(digits(low * shown.factor), left + wide + 6, top + 8);
     return;
   }
-  const ticks = niceTicks(low * shown.factor, high * shown.factor, Math.max(2, tall / 50)), told = tickText(ticks);
+  const ticks = niceTicks(low * shown.factor, high * shown.factor, Math.max(2, tall / 50)).filter(tick => !isWhole || Math.abs(tick - Math.round(tick)) < 1e-9), told = tickText(ticks);
   for (const tick of ticks) {
     const y = top + tall * (1 - (tick / shown.factor - low) / (high - low));
     ctx.fillRect(left + wide, y - 0.5, 4, 1);
