@@ -152,6 +152,8 @@ async function drive() {
   const bars = {family: "compaction", head: {mesh: {particles: 4}}, times: [0, 1], values: () => [1, 0.98], summary: {}};
   const parts = readable("largest 9048.9, 10201 N at 3 %").map(part => part.textContent ?? part).join("|");
   told("readable", parts === "largest |9.0489, 10.201 kN| at |3 %|" || parts);
+  const twice = distinct({lines: [[1, 2], [1, 2], [1, 3]].map(values => ({values}))}).lines.map(({dash}) => Boolean(dash));
+  told("uncovered", String(twice) === "false,true,false");
   const slid = far => did({...bars, family: "shear", values: name => name === "shear/distance" ? [0, far] : bars.values()});
   told("unslid", slid(0) === did(bars) && /slid under/.test(slid(1e-3)));
   const damped = materialRows([{name: "steel", damping: {mass_proportional: 5, stiffness_proportional: 2e-7}}])[0][1];

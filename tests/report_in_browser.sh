@@ -55,7 +55,7 @@ check ShowsLocalDensitiesAndContactsOfEveryFrame "${particles[@]}" contacts
 check ShowsBondsCracksAndFragmentsOfEveryFrame "${particles[@]}" bonds
 check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
 check compaction "${particles[@]}" unmeasured material contacts whole near-zero-off named
-check cell "${particles[@]}" cell-first pulled unslid damped readable
+check cell "${particles[@]}" cell-first pulled unslid damped readable uncovered
 check lever "${everything[@]}" named
 check ShowsTheCurvesOfARunWithoutFrames has-curves
 

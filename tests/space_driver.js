@@ -68,8 +68,8 @@ async function driveSpace() {
   pointAt(200, 200, {buttons: 1, movementX: 60, movementY: 20});
   const offered = !document.querySelector("button.fit").hidden, dragged = hashOf(canvas());
   key("0", canvas());
-  const named = box("view").value === "isometric";
-  told("turned", dragged !== first && offered && hashOf(canvas()) === first && named);
+  const isNamed = box("view").value === "isometric";
+  told("turned", dragged !== first && offered && hashOf(canvas()) === first && isNamed);
   turnedKey("ArrowLeft");
   const views = [hashOf(canvas())], names = [box("view").value];
   for (const axis of "xyzi") {

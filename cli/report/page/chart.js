@@ -35,6 +35,8 @@ const bounds = lists => lists.reduce((range, list) => {
   return range;
 }, [Infinity, -Infinity]);
 
+const isRoundOff = (value, range) => Math.abs(value) < 1e-9 * Math.max(...range.map(Math.abs));
+
 // A limit of zero is kept: force curves start on the axis.
 function withMargin([low, high], share) {
   if (!(low <= high) || (low === 0 && high === 0)) return [0, 1];
@@ -236,8 +238,23 @@ function dashOf(i) {
   return around ? [...(dash || [14, 3]), 2 + around, 3] : dash;
 }
 
-const distinct = spec => ({...spec, lines: spec.lines.map((line, i) =>
-  line.dash || line.colour || line.hue !== undefined || line.isMarks ? line : {...line, dash: dashOf(i)})});
+function coincide(line, other) {
+  const scale = 0.005 * largest(line.values);
+  return line.x === other.x && line.values.length === other.values.length &&
+    line.values.every((value, i) => !(Math.abs(value - other.values[i]) > scale));
+}
+
+// A line that covers an earlier one of the same pattern has gaps in which that is seen.
+function distinct(spec) {
+  const lines = [];
+  spec.lines.forEach((line, i) => {
+    const isGiven = line.dash || line.colour || line.hue !== undefined || line.isMarks, own = isGiven ? line.dash : dashOf(i);
+    const covered = isGiven ? [] : lines.filter(other => coincide(line, other)).map(({dash}) => String(dash));
+    const dash = covered.includes(String(own)) ? DASHES.find(one => one && !covered.includes(String(one))) || own : own;
+    lines.push(isGiven ? line : {...line, dash});
+  });
+  return {...spec, lines};
+}
 
 const NEAR_ZERO = 0.01;  // fraction of the largest line
 
@@ -347,12 +364,12 @@ class Chart {
   tell(sample) {
     const {spec, shown} = this;
     if (sample === null || sample === undefined) { this.readout.textContent = ""; return; }
-    const value = (v, unit) => digits(v * unit.factor) + (unit.label ? " " + unit.label : "");
+    const value = (v, unit, range) => digits(isRoundOff(v * unit.factor, range) ? 0 : v * unit.factor) + (unit.label ? " " + unit.label : "");
     const read = spec.lines.filter((line, i) => !this.hidden.has(i) && !Number.isNaN(line.values[Math.min(sample, line.values.length - 1)]));
     const lines = (read.length ? read : spec.lines.filter((_, i) => !this.hidden.has(i)))
-      .map(line => `${line.label} ${value(line.values[Math.min(sample, line.values.length - 1)], shown.y)}`);
+      .map(line => `${line.label} ${value(line.values[Math.min(sample, line.values.length - 1)], shown.y, shown.whole.y)}`);
     const xs = spec.x.values || [];
-    this.readout.textContent = (xs.length ? `${spec.x.label} ${spec.x.names ? abscissaText(spec.x)(xs[sample]) : value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
+    this.readout.textContent = (xs.length ? `${spec.x.label} ${spec.x.names ? abscissaText(spec.x)(xs[sample]) : value(xs[sample], shown.x, shown.whole.x)}: ` : "") + lines.join(", ");
   }
 
   // Marks the sample of the frame shown elsewhere.

@@ -22,7 +22,8 @@ function onlySamples(series, label, kept, more = {}) {
 function verticalMotion(run) {
   const [x, y, z] = ["x", "y", "z"].map(axis => run.values(`scanner/${axis}`));
   const still = (values, i) => !values.length || values[i] === values[i - 1];
-  const moves = (i, sign) => i > 0 && still(x, i) && still(y, i) && sign * (z[i] - z[i - 1]) > 0;
+  const isVertical = i => i > 0 && i < z.length && still(x, i) && still(y, i) && z[i] !== z[i - 1];
+  const moves = (i, sign) => isVertical(i) && (isVertical(i - 1) || isVertical(i + 1)) && sign * (z[i] - z[i - 1]) > 0;
   return z.length ? {approach: i => moves(i, 1), retract: i => moves(i, -1)} : null;
 }
 

@@ -16,8 +16,10 @@ addPanel({
                                        Object.keys(LAWS).some(law => fits.curve[law])),
   draw({run}, host) {
     const {curve} = run.summary.fits, drawn = Object.keys(LAWS).filter(law => curve[law]);
-    const lines = [["measured", curve.relative_density], ...drawn.map(law => [LAWS[law][0], curve[law]])]
-      .map(([label, values], i) => ({label, unit: "-", values, dash: i ? [7, 4] : undefined}));
+    const order = Array.from(curve.pressure.keys()).sort((i, j) => curve.pressure[i] - curve.pressure[j]);
+    const sorted = values => order.map(i => values[i]), x = sorted(curve.pressure);
+    const lines = [...drawn.map((law, i) => ({label: LAWS[law][0], unit: "-", x, values: sorted(curve[law]), hue: i + 1, dash: [7, 4]})),
+                   {label: "measured", unit: "-", values: curve.relative_density, hue: 0}];
     drawChart(host, {x: {label: "pressure", unit: "Pa", values: curve.pressure}, y: "relative density", lines});
   },
 });
