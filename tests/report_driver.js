@@ -148,7 +148,7 @@ async function drive() {
   told("nearZeroOff", hidesWhatIsNearZero());
   told("network", performance.getEntriesByType("resource").filter(entry => !entry.name.startsWith("data:")).length);
   const shown = document.querySelector("#curve option");
-  told("cellFirst", Boolean(shown) && shown.textContent === "Stresses of the cell" && unitFor("J/m^3", 2.88e7).label === "MJ/m^3");
+  told("cellFirst", Boolean(shown) && shown.textContent === "Stresses of the cell" && unitFor("J/m^3", 2.88e7).label === "MJ/m³");
   const bars = {family: "compaction", head: {mesh: {particles: 4}}, times: [0, 1], values: () => [1, 0.98], summary: {}};
   const parts = readable("largest 9048.9, 10201 N at 3 %").map(part => part.textContent ?? part).join("|");
   told("readable", parts === "largest |9.0489, 10.201 kN| at |3 %|" || parts);

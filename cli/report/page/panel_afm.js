@@ -10,7 +10,7 @@ addFigures(({summary: {calibration, loops, force_curves: curves}}) => [
     loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null]),
   ...(curves || []).slice(0, 1).flatMap(curve => [["pull-off force", withUnit(curve.pull_off, "N"), "of the force curve"],
     ["pull-off work", withUnit(curve.work, "J"), "over the travel of the scanner"],
-    curve.work_of_adhesion ? ["work of adhesion", `${digits(1e3 * curve.work_of_adhesion)} mJ/m²`, "from pull-off and radius"] : null])]);
+    curve.work_of_adhesion ? ["work of adhesion", withUnit(curve.work_of_adhesion, "J/m^2"), "from pull-off and radius"] : null])]);
 
 // A series restricted to samples with `kept(sample)` and their neighbours: a separate line on the common axis.
 function onlySamples(series, label, kept, more = {}) {
@@ -18,7 +18,7 @@ function onlySamples(series, label, kept, more = {}) {
   return {...series, label, values, ...more};
 }
 
-// Samples of approach and retract: the scanner moves only up or only down.
+// Samples of approach and retract: the scanner moves only up or only down. A single such sample is the turn of a raster line.
 function verticalMotion(run) {
   const [x, y, z] = ["x", "y", "z"].map(axis => run.values(`scanner/${axis}`));
   const still = (values, i) => !values.length || values[i] === values[i - 1];

@@ -58,11 +58,12 @@ function fillBelow(head) {
   const runs = completeRuns(head).filter(run => run.transmission && run.transmission.shares);
   document.getElementById("below-left-out").textContent = leftOutNote(head);
   document.getElementById("below-section").hidden = !runs.length;
+  const some = runs.some(({transmission}) => transmission.not_compared);
   const rows = runs.map(({name, transmission}) => [
     name, digits(transmission.wall_friction),
     ...TRANSMISSION.map(([key]) => digits(transmission.shares.at(-1)[key])),
-    transmission.not_compared || ""]);
-  fillTexts("below", ["run", "wall µ", ...TRANSMISSION.map(([, title]) => title), ""], rows);
+    ...some ? [transmission.not_compared || ""] : []]);
+  fillTexts("below", ["run", "wall µ", ...TRANSMISSION.map(([, title]) => title), ...some ? ["not compared because"] : []], rows);
 }
 
 const strengthLaws = head => Array.isArray(head.fits) ? head.fits : [];

@@ -15,12 +15,14 @@ function chooseUnit(unit, prefix) {
   unitListeners.forEach(listener => listener());
 }
 
+const superscripts = unit => unit.replace("^2", "²").replace("^3", "³");
+
 // {factor, label}: multiply an SI number by the factor to show it in the labelled unit.
 function unitFor(unit, largest) {
   if (unit === "-" || unit === "") return {factor: 1, label: ""};
   if (chosenPrefixes.has(unit)) {
     const chosen = chosenPrefixes.get(unit);
-    return {factor: 1 / PREFIXES.find(([, prefix]) => prefix === chosen)[0], label: chosen + unit};
+    return {factor: 1 / PREFIXES.find(([, prefix]) => prefix === chosen)[0], label: chosen + superscripts(unit)};
   }
   if (unit === "1/Pa") {
     const pressure = chosenPrefixes.get("Pa") ?? "M";
@@ -30,10 +32,10 @@ function unitFor(unit, largest) {
     const {factor, label} = unitFor("m", 10 * Math.sqrt(largest));
     return {factor: factor ** 2, label: label + "²"};
   }
-  if (!SCALED.has(unit) || !(largest > 0)) return {factor: 1, label: unit};
+  if (!SCALED.has(unit) || !(largest > 0)) return {factor: 1, label: superscripts(unit)};
   const fits = ([size, prefix]) => largest >= size * 0.9995 && !(unit[0] === "m" && size > 1);
   const [size, prefix] = PREFIXES.find(fits) || PREFIXES[PREFIXES.length - 1];
-  return {factor: 1 / size, label: prefix + unit};
+  return {factor: 1 / size, label: prefix + superscripts(unit)};
 }
 
 function largest(values) {
