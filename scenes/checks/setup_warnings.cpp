@@ -108,6 +108,8 @@ FastTool fastest_tool(const Scene& scene) {
 
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::vector<std::string> lines = travel_warnings(scene, bodies);
+  for (std::string& line : until_warnings(scene, density_at_start(scene, bodies)))
+    lines.push_back(std::move(line));
   const FastTool fast = fastest_tool(scene);
   const std::string tool =
       fast.speed > 0 ? scene.tools[static_cast<std::size_t>(fast.tool)].name : "";

@@ -166,6 +166,17 @@ void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
   }
 }
 
+std::vector<std::string> until_warnings(const Scene& scene, const std::optional<double>& density) {
+  if (!density || scene.stages.empty() || !scene.stages.front().until) return {};
+  const StageSpec& first = scene.stages.front();
+  const std::optional<double>& wanted = first.until->relative_density;
+  if (!wanted || *density < *wanted) return {};
+  return {fmt::format(
+      "stage '{}' ends as soon as it begins: its relative density is {:.3g} at the start, and it "
+      "ends at {:.3g} (stage.until)",
+      first.name, *density, *wanted)};
+}
+
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
   const auto full = full_density(scene, bodies);
   if (!full) return {};

@@ -36,4 +36,7 @@ void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies);
 // One line if the pressure beyond full density exceeds the yield stress of the particles.
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);
 
+// If the first stage is to end at a relative density that the powder, with `density` at the start, already has.
+std::vector<std::string> until_warnings(const Scene& scene, const std::optional<double>& density);
+
 }  // namespace pulvis

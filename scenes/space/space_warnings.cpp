@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scenes/checks/setup_warnings.hpp"
+#include "scenes/checks/travel.hpp"
 #include "scenes/space/class_shape.hpp"
 #include "scenes/space/overlaps.hpp"
 #include "scenes/space/thin_walls.hpp"
@@ -52,6 +53,8 @@ std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<Bo
   for (std::string& line : contact_overlap_warnings(scene, bodies))
     lines.push_back(std::move(line));
   for (std::string& line : travel_warnings(scene, bodies)) lines.push_back(std::move(line));
+  for (std::string& line : until_warnings(scene, density_at_start(scene, bodies)))
+    lines.push_back(std::move(line));
   for (std::string& line : mouth_warnings(scene, bodies)) lines.push_back(std::move(line));
   for (std::string& line : thin_wall_warnings(scene)) lines.push_back(std::move(line));
   const FastTool fast = fastest_in_space(scene);

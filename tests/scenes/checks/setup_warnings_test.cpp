@@ -1,14 +1,19 @@
 // What `check` says of scenes whose values are all allowed, and yet not what anybody wants.
 #include "scenes/checks/setup_warnings.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "scenes/build.hpp"
 #include "scenes/checks/lever_warnings.hpp"
 #include "scenes/checks/travel.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/space/packing/place.hpp"
+#include "scenes/space/space_warnings.hpp"
 #include "tests/helpers/afm_run.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/wrong.hpp"
@@ -64,6 +69,27 @@ TEST(SetupWarnings, ATravelBeyondFullDensityIsRefusedWithTheOneThatReachesIt) {
   const std::string refused = refusal_of_25(to("30 mm"));
   EXPECT_THAT(refused, HasSubstr("stage[0].move[0].displacement"));
   EXPECT_THAT(refused, HasSubstr("allowed: a travel of up to about 0.0107"));
+}
+
+// 25 discs touch at a relative density of pi/4, four spheres in a cell at pi/6.
+TEST(SetupWarnings, AStageThatIsOverBeforeItBeginsIsTold) {
+  const auto until = [](double density) {
+    return std::vector{fmt::format("stage[0].until.relative_density={}", density)};
+  };
+  EXPECT_THAT(warnings_of_25(until(0.7)),
+              ElementsAre(HasSubstr("is 0.785 at the start, and it ends at 0.7 (stage.until)")));
+  EXPECT_THAT(warnings_of_25(until(0.8)), IsEmpty());
+  const std::string cell = paths::source_dir() + "/scenes/compaction-3d/unit-cell-sc.toml";
+  for (const auto& [density, told] : {std::pair(0.5, true), {0.6, false}}) {
+    const Scene scene = read_scene(cell, until(density));
+    const auto lines = space::setup_warnings(scene, space::place_bodies(scene));
+    EXPECT_EQ(std::ranges::any_of(lines,
+                                  [](const std::string& line) {
+                                    return line.find("ends as soon as it begins") !=
+                                           std::string::npos;
+                                  }),
+              told);
+  }
 }
 
 TEST(SetupWarnings, AToolThatFacesAwayIsNamedOnceWithTheNormalThatWouldDo) {
