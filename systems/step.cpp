@@ -258,8 +258,8 @@ void Step::run() {
   whole_.run();
   try {
     end_of_step();
-  } catch (
-      const RunFailure&) {  // the other ranks have completed the step; the run stops in it, as it does alone
+  } catch (const RunFailure&) {
+    // The other ranks have completed the step; the run stops in it, as it does alone.
     world_.resource<Clock>() = before;
     throw;
   }

@@ -446,13 +446,7 @@ class Chart {
     }, {passive: false});
     onKey(picture, event => this.key(event));
   }
-  key({key}) {
-    if (key === "+" || key === "=") this.zoom(0.8);
-    else if (key === "-") this.zoom(1.25);
-    else if (key === "0") this.showAll();
-    else return false;
-    return true;
-  }
+  key({key}) { return zoomKey(key, factor => this.zoom(factor), () => this.showAll()); }
   showAll() { this.view = null; this.draw(); }
 
   columns() {

@@ -429,11 +429,5 @@ class FieldView {
     canvas.addEventListener("dblclick", () => this.showAll());
     onKey(canvas, event => this.key(event));
   }
-  key({key}) {
-    if (key === "+" || key === "=") this.zoomBy(0.8);
-    else if (key === "-") this.zoomBy(1.25);
-    else if (key === "0") this.showAll();
-    else return false;
-    return true;
-  }
+  key({key}) { return zoomKey(key, factor => this.zoomBy(factor), () => this.showAll()); }
 }

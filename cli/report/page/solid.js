@@ -183,11 +183,8 @@ class SolidView {
   }
   key({key, shiftKey}) {
     const turns = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]};
-    if (key === "+" || key === "=") this.zoomBy(1.25);
-    else if (key === "-") this.zoomBy(0.8);
-    else if (key === "0") this.showAll();
-    else if (shiftKey && turns[key]) this.turnBy(...turns[key]);
-    else return false;
+    if (!shiftKey || !turns[key]) return zoomKey(key, factor => this.zoomBy(1 / factor), () => this.showAll());
+    this.turnBy(...turns[key]);
     return true;
   }
   showAll() { Object.assign(this, {zoom: 1, ...FIRST_VIEW}); this.draw(); }

@@ -77,6 +77,13 @@ const onKey = (host, action) => host.addEventListener("keydown", event => {
   event.preventDefault();
   event.stopPropagation();
 });
+// Of pictures and charts: + and − zoom, 0 shows all. zoom(factor): of the width that is seen.
+function zoomKey(key, zoom, showAll) {
+  const factor = {"+": 0.8, "=": 0.8, "-": 1.25}[key];
+  if (factor) zoom(factor);
+  else if (key === "0") showAll();
+  return Boolean(factor) || key === "0";
+}
 const percent = value => digits(100 * value, 3) + " %";
 // "1 run", "2 runs".
 const counted = (count, one) => `${count.toLocaleString("en")} ${one}${count === 1 ? "" : "s"}`;

@@ -44,9 +44,11 @@ def stress_ratio(run, options=None, axes=None):
 
 def friction(run, options=None, axes=None):
     """Friction of the target of a shear stage over its distance, with the static and dynamic coefficients."""
-    if not run.has("shear/friction") or not np.any(run.series("shear/distance")):
+    if not run.has("shear/friction"):
         return None
     slides = run.series("shear/distance") != 0  # before that the powder is loaded
+    if not np.any(np.isfinite(run.series("shear/friction")[slides])):
+        return None
     distance, values = run.series("shear/distance")[slides], run.series("shear/friction")[slides]
     figure = draw_lines(run, ("shear/distance", distance, run.unit("shear/distance")),
                         [(r"measured $\mu$", values, run.unit("shear/friction"))], "shear/friction", "Friction of the target",
