@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/contact.hpp"
+#include "components/servo.hpp"
 #include "components/shape.hpp"
 
 namespace pulvis {
@@ -92,19 +93,22 @@ struct MixedControl {
     double rotation = 0;                 // rad, over the stage
     double mass = 0;                     // kg m^2, minimum for a servo
     double damping = 0;                  // N m s, of its dashpot at that mass
+    double wave = 0;         // N m s, work of a wave into a solid block, over strain rate
+    double powder_mass = 0;  // kg m^2
 
     bool holds_stress() const {
       return law[xx] != Law::strain || law[yy] != Law::strain || law[xy] != Law::strain;
     }
   };
-  struct Servo {          // of one stress-controlled component (systems/tools/servo_kernel.hpp)
-    double mass = 0;      // kg m^2
-    double speed = 0;     // 1/s
-    double dragged = 0;   // 1/s, of the mass coupled through the dashpot
-    double at_begin = 0;  // Pa, at the start of the stage
+  struct Servo {             // of one stress-controlled component (systems/tools/servo_kernel.hpp)
+    double mass = 0;         // kg m^2
+    double speed = 0;        // 1/s
+    double dragged = 0;      // 1/s, of the mass coupled through the dashpot
+    double at_begin = 0;     // Pa, at the start of the stage
+    ServoResponse response;  // N m, -, N m
     template <class Bytes>
     void state(Bytes& bytes) {
-      bytes(mass, speed, dragged, at_begin);
+      bytes(mass, speed, dragged, at_begin, response);
     }
   };
 
@@ -117,12 +121,13 @@ struct MixedControl {
   std::array<double, parts> stress{};  // Pa
   std::array<double, parts> asked{};   // Pa, target
   std::array<Servo, parts> servos{};
+  std::array<ServoWatch, parts> watches{};
   std::size_t stage = static_cast<std::size_t>(-1);      // stage of the last step
   double cut = std::numeric_limits<double>::infinity();  // s: when its strain rates start to fall
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(strain, rotation, stress, asked, servos, stage, cut);
+    bytes(strain, rotation, stress, asked, servos, watches, stage, cut);
   }
 };
 

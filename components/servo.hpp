@@ -9,6 +9,7 @@
 
 #include "components/die_room.hpp"
 #include "components/relief.hpp"
+#include "components/run_state.hpp"
 #include "components/shape.hpp"
 
 namespace pulvis {
@@ -34,6 +35,43 @@ struct ServoForce : Component<Tool, double, 2> {
       "the tool bore when its stage began"};
 };
 
+// How a powder has answered its servo of late: force and travel relative to themselves a lag ago, and the secant stiffness
+// between the two (systems/tools/servo_kernel.hpp). For a cell, force and travel are work and strain.
+struct ServoResponse {
+  double force = 0;      // N, what it was
+  double travel = 0;     // m, since then
+  double stiffness = 0;  // N/m, highest secant of late
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(force, travel, stiffness);
+  }
+};
+
+// How well a servo has kept to its target. N; for a cell Pa.
+struct ServoWatch {
+  double overshoot = 0;  // -, largest excess over the larger of the forces
+                         // at the start and the end of a stage
+  double lowest = std::numeric_limits<double>::infinity();  // error in the last part of the stage
+  double highest = -std::numeric_limits<double>::infinity();
+
+  void see_force(double force, double largest) {
+    if (largest > 0) overshoot = std::max(overshoot, force / largest - 1);
+  }
+  void see_error(double error) {
+    lowest = std::min(lowest, error);
+    highest = std::max(highest, error);
+  }
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(overshoot, lowest, highest);
+  }
+};
+// Whether the force of a stage is judged at this time: over the last tenth of its duration.
+inline bool is_judged(const ToolProgram::Stage& stage, double time) {
+  return time >= stage.end - 0.1 * (stage.end - stage.begin);
+}
+
 // What drives a tool during a stage: the prescribed force, a servo mass, and a second mass coupled to it
 // through a dashpot (systems/tools/servo_kernel.hpp).
 struct ToolServos {
@@ -48,7 +86,9 @@ struct ToolServos {
     double mass = 0;          // kg, minimum mass of the tool
     double damping = 0;       // N s/m, of its dashpot at that mass; scales with its square root
     double max_speed = 0;     // m/s
-    double tolerance = 0.05;  // -, of the force, at the end of the stage
+    double tolerance = 0.05;  // -, of the force, over the last part of the stage
+    double wave = 0;          // N s/m, force of a wave into a solid block of the powder, over speed
+    double powder_mass = 0;   // kg
     // A compliant drive instead of a constant force: 0, or N/m; `damping` is then that of its dashpot.
     double stiffness = 0;
     bool holds_force() const { return stiffness == 0; }
@@ -64,6 +104,8 @@ struct ToolServos {
   };
   std::vector<Servo> servos;
   std::vector<Driven> driven;
+  std::vector<ServoResponse> responses;              // [tools]
+  std::vector<ServoWatch> watches;                   // [servos]
   std::size_t stage = static_cast<std::size_t>(-1);  // stage of the last step
 
   const Driven* driven_force(int of_tool) const {
@@ -72,10 +114,15 @@ struct ToolServos {
     return nullptr;
   }
 
+  void make_room(std::size_t tools) {
+    responses.resize(tools);
+    watches.resize(servos.size());
+  }
+
   // The servos come from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(stage, driven);
+    bytes(stage, driven, responses, watches);
   }
 };
 

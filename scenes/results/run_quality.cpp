@@ -5,7 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include "components/cell.hpp"
 #include "components/contact.hpp"
+#include "components/servo.hpp"
 #include "scenes/spec/yield.hpp"
 
 namespace pulvis {
@@ -19,6 +21,11 @@ constexpr const char* of_energy_balance =
     "use smaller steps (a lower time.safety), or more elements where they are most distorted";
 constexpr const char* of_kinetic_energy =
     "move the tools more slowly: longer stages, or a longer ramp of their moves";
+constexpr const char* of_overshoot =
+    "the powder keeps what it was pressed by: use a longer stage, or a smaller "
+    "stage.servo.max_speed";
+constexpr const char* of_stress_overshoot =
+    "the powder keeps what it was pressed by: use a longer stage, or a smaller stage.cell.response";
 constexpr const char* of_projections =
     "outlines turn too sharply for their boundary edges: use more of them (boundary_edges)";
 constexpr const char* of_projections_in_space =
@@ -81,6 +88,41 @@ void add_lost_force(Figures& figures, const Scene& scene, const ContactFindings&
               "error of the largest force, too low because surfaces penetrate each other",
               std::max(0.0, -*contacts.force_error), ContactFindings::max_force_error,
               stiffer(scene, contacts));
+}
+
+// The servo that passed its target most, relative to its tolerance.
+struct Overshoot {
+  double value = 0, tolerance = 1;  // -
+
+  void see(const ServoWatch& watch, double of_tolerance) {
+    if (watch.overshoot * tolerance > value * of_tolerance)
+      value = watch.overshoot, tolerance = of_tolerance;
+  }
+  void see(const MixedControl& control) {
+    for (const MixedControl::Stage& stage : control.stages)
+      if (stage.holds_stress())
+        for (const ServoWatch& watch : control.watches) see(watch, stage.tolerance);
+  }
+};
+
+void add_overshoots(Figures& figures, const World& world) {
+  constexpr const char* meaning =
+      "largest force of a servo, or stress of a cell, beyond both its target and where it began, "
+      "relative to the larger of these";
+  Overshoot of_tools, of_cells;
+  if (world.has<ToolServos>()) {
+    const ToolServos& servos = world.resource<ToolServos>();
+    for (std::size_t i = 0; i < servos.servos.size(); ++i)
+      if (servos.servos[i].holds_force())
+        of_tools.see(servos.watches[i], servos.servos[i].tolerance);
+  }
+  if (world.has<PeriodicCell>()) of_cells.see(world.resource<PeriodicCell>().control);
+  if (world.has<DrivenWalls>()) of_cells.see(world.resource<DrivenWalls>().control);
+  const bool of_cell = of_cells.value > 0;
+  const Overshoot& worst = of_cell ? of_cells : of_tools;
+  if (worst.value > 0)
+    figures.add("Overshoot", meaning, worst.value, worst.tolerance,
+                of_cell ? of_stress_overshoot : of_overshoot);
 }
 
 // Contact figures in three dimensions.
@@ -148,6 +190,7 @@ std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
               results.energy_balance_error(), limits.energy_balance, of_energy_balance);
   figures.add("Kinetic energy", "kinetic energy, relative to the internal energy",
               results.kinetic_ratio(), limits.kinetic_energy, of_kinetic_energy);
+  add_overshoots(figures, world);
   if (const double internal = std::max(peaks.elastic, peaks.plastic); internal > 0)
     figures.add(
         "Hourglass energy",

@@ -79,6 +79,7 @@ ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) 
                                           {direction.x(), direction.y(), 0}, {powder.mass, wave}));
     }
   add_elastic_drives(scene, servos);
+  servos.make_room(scene.tools.size());
   return servos;
 }
 

@@ -45,7 +45,9 @@ ToolServos::Servo force_servo(const Spec& spec, int stage, double duration, cons
           .mass = tool * powder.mass,
           .damping = 0.5 * std::sqrt(kernels::dragged_mass * tool) * powder.wave,
           .max_speed = spec.max_speed,
-          .tolerance = spec.tolerance};
+          .tolerance = spec.tolerance,
+          .wave = powder.wave,
+          .powder_mass = powder.mass};
 }
 
 // `direction_of(tool)`: direction from a tool into the powder, zero where its force may point anywhere.

@@ -30,23 +30,32 @@ double aim(const MixedControl& control, const Stage& stage, int part) {
   }
 }
 
-void check_held(const Stage& stage, const std::string& name, const MixedControl& control,
-                const Clock& clock) {
+// Pa: to which errors of the stage's stresses are relative.
+double largest_target(const MixedControl& control, const Stage& stage) {
   double largest = 0;
   for (int k = 0; k < MixedControl::parts; ++k)
     if (entry(stage.law, k) != Law::strain)
       largest =
           std::max({largest, std::abs(aim(control, stage, k)), std::abs(entry(stage.stress, k))});
+  return largest;
+}
+
+void check_held(const Stage& stage, const std::string& name, const MixedControl& control,
+                const Clock& clock) {
+  const double allowed = stage.tolerance * largest_target(control, stage);
   for (int k = 0; k < MixedControl::parts; ++k) {
     if (entry(stage.law, k) == Law::strain) continue;
     const double asked = aim(control, stage, k), reached = entry(control.stress, k);
-    if (std::abs(reached - asked) <= stage.tolerance * largest) continue;
+    ServoWatch watch = entry(control.watches, k);
+    watch.see_error(reached - asked);
+    if (watch.lowest >= -allowed && watch.highest <= allowed) continue;
     throw RunFailure(fmt::format(
         "mixed_control: the stress {} is {:.6g} Pa at the end of stage '{}', step {}, t = "
-        "{:.6g} s; target {:.6g} Pa, allowed: within {:.3g} Pa of it (stage.cell.tolerance); use a "
-        "longer stage, a smaller stage.cell.response (less inertia: the stress is followed faster) "
-        "or a denser powder",
-        entry(names, k), reached, name, clock.step, clock.time, asked, stage.tolerance * largest));
+        "{:.6g} s; target {:.6g} Pa; its error is {:.6g} to {:.6g} Pa over the last tenth of the "
+        "stage, allowed: within {:.3g} Pa (stage.cell.tolerance); use a longer stage, a smaller "
+        "stage.cell.response (less inertia: the stress is followed faster) or a denser powder",
+        entry(names, k), reached, name, clock.step, clock.time, asked, watch.lowest, watch.highest,
+        allowed));
   }
 }
 
@@ -64,24 +73,49 @@ double asked_for(const MixedControl& control, const Stage& stage, int part, doub
   return at_begin + share * (aim(control, stage, part) - at_begin);
 }
 
+// The stress that counts while the component is on its way, as work: N m.
+kernels::ServoAim aim_of(const MixedControl& control, const Stage& stage, int part, double volume) {
+  const double target = aim(control, stage, part) * volume;
+  const double scale =
+      std::max(largest_target(control, stage), std::abs(entry(control.servos, part).at_begin)) *
+      volume;
+  return {target, scale, std::min(stage.tolerance, kernels::reached) * scale};
+}
+
 // Rate of the component over the next step, 1/s.
 double driven_by_stress(const Stage& stage, int part, double volume,
                         const kernels::TouchSums& touching, const Clock& clock,
                         MixedControl& control) {
   MixedControl::Servo& servo = entry(control.servos, part);
   const double sides = part == MixedControl::xy ? 2 : 1;  // xy and yx
-  const double missing =
-      sides * (entry(control.asked, part) - entry(control.stress, part)) * volume;
+  const double stress = entry(control.stress, part);
+  const double missing = sides * (entry(control.asked, part) - stress) * volume;
   const double minimum = sides * kernels::min_tool_mass(touching, clock.dt, clock.safety);
+  const kernels::ServoPowder powder{stage.powder_mass, stage.wave};
+  servo.response = kernels::with_step(servo.response, stress * volume,
+                                      servo.speed * clock.dt_before, clock.dt_before, powder);
   const kernels::ServoState now = kernels::with_mass({servo.mass, servo.speed, servo.dragged},
                                                      std::max(sides * stage.mass, minimum));
   const double damping = sides * stage.damping * std::sqrt(now.mass / (sides * stage.mass));
+  const kernels::SpeedLimits limits =
+      kernels::speed_limits(servo.response, stress * volume, aim_of(control, stage, part, volume),
+                            now.mass / sides, 1e300, powder);
   const kernels::ServoState next =
-      kernels::servo_step(now, missing, damping, 1e300, 0.5 * (clock.dt_before + clock.dt));
+      kernels::servo_step(now, missing, damping, limits, 0.5 * (clock.dt_before + clock.dt));
   servo.mass = next.mass;
   servo.speed = next.speed;
   servo.dragged = next.dragged;
   return next.speed;
+}
+
+// How well the component keeps to its target. A ratio or a mean follows another stress and has no overshoot of its own.
+void watch(const Stage& stage, int part, bool judged, MixedControl& control) {
+  ServoWatch& seen = entry(control.watches, part);
+  const double stress = entry(control.stress, part), target = aim(control, stage, part);
+  if (entry(stage.law, part) == Law::stress)
+    seen.see_force(target < 0 ? -stress : stress,
+                   std::max(std::abs(target), std::abs(entry(control.servos, part).at_begin)));
+  if (judged) seen.see_error(stress - entry(control.asked, part));
 }
 
 void begin_stage(const Stage* last, const Stage* stage, MixedControl& control) {
@@ -91,6 +125,7 @@ void begin_stage(const Stage* last, const Stage* stage, MixedControl& control) {
     if (entry(stage->law, k) == Law::strain) continue;
     MixedControl::Servo& servo = entry(control.servos, k);
     servo.at_begin = entry(control.stress, k);
+    entry(control.watches, k) = {.overshoot = entry(control.watches, k).overshoot};
     if (last == nullptr || entry(last->law, k) == Law::strain) servo.mass = stage->mass;
   }
 }
@@ -121,6 +156,7 @@ Rates rates_of(MixedControl& control, const ToolProgram& program, const Clock& c
       entry(control.asked, k) = 0;
     } else {
       entry(control.asked, k) = asked_for(control, *stage, k, since);
+      watch(*stage, k, is_judged(program.stages[number], clock.time), control);
       entry(rates.deformation, k) =
           driven_by_stress(*stage, k, volume, entry(touching, k), clock, control);
     }

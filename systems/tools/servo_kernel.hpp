@@ -26,6 +26,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/servo.hpp"
+
 namespace pulvis::kernels {
 
 // ---- what touches the tool ------------------------------------------------------------------------------
@@ -67,15 +69,83 @@ inline ServoState with_mass(const ServoState& s, double minimum) {
   return {minimum, kept * s.speed, kept * s.dragged};
 }
 
-// `missing`: F_set - F, N. No faster than `max_speed`.
-inline ServoState servo_step(const ServoState& s, double missing, double damping, double max_speed,
-                             double h) {
+// Speeds allowed in the two directions, m/s.
+struct SpeedLimits {
+  double backward, forward;
+};
+
+// `missing`: F_set - F, N.
+inline ServoState servo_step(const ServoState& s, double missing, double damping,
+                             const SpeedLimits& limits, double h) {
   const double m = dragged_mass * s.mass;
   const double through = damping * m / (m + damping * h);  // force on W over V+ - W
   const double speed =
       (s.mass * s.speed + h * (missing + through * s.dragged)) / (s.mass + through * h);
-  const double next = std::clamp(speed, -max_speed, max_speed);
+  const double next = std::clamp(speed, -limits.backward, limits.forward);
   return {s.mass, next, s.dragged + through * h / m * (next - s.dragged)};
+}
+
+// ---- the approach to its force ----------------------------------------------------------------------------
+// A powder keeps what it was pressed by: the force may not pass F_set on its way up. On a spring K and a mass m, a
+// tool of the speed V = (F_set - F)/R reaches F_set without passing it if R >= 2 sqrt(K m) (critical damping); here
+// R = 3 sqrt(K m). m: of the tool and all of the powder m_p, which may fly freely before it is pressed. K: the highest secant
+// of force over travel of late. A powder stiffens as it is pressed: K sqrt(F_set/F) is expected at F_set, up to Z^2/m_p of a
+// solid block, where Z is the force of a wave into it over the wave's speed. Before the powder resists, V <= 2 F_set/Z.
+// Forces and speeds may also be those of a cell: stress times volume, and strain rate.
+// (With 1, 2 and 4 in place of the factors 2 and 3, K F_set/F and K in place of K sqrt(F_set/F), and a third of m_p, more
+// columns of 480 passed their force, or more were late: docs/stability.md.)
+
+// What the powder can do, from its materials and its size.
+struct ServoPowder {
+  double mass, wave;                                      // kg, N s/m
+  double stiffest() const { return wave * wave / mass; }  // N/m
+};
+
+// Error within which a force counts as reached, relative to it, if its tolerance is larger.
+inline constexpr double reached = 0.05;
+// Time over which the response is measured, in passages of a wave through the block.
+inline constexpr double passages = 4;
+
+// `moved`: m, in the direction of the force, over the last step of length `dt`.
+inline ServoResponse with_step(const ServoResponse& r, double force, double moved, double dt,
+                               const ServoPowder& powder) {
+  const double share = std::min(1.0, dt * powder.wave / (passages * powder.mass));
+  const double lagging = r.force + share * (force - r.force);
+  const double travel = (1 - share) * (r.travel + moved);
+  const double rise = force - lagging;
+  const bool resists = rise != 0 && rise * travel >= 0;
+  const double secant =
+      resists ? std::min(powder.stiffest(), std::abs(rise) / std::abs(travel)) : 0;
+  return {lagging, travel, std::max(secant, (1 - share) * r.stiffness)};
+}
+
+// Where a servo is to arrive, N.
+struct ServoAim {
+  double target;  // at the end of its stage
+  double scale;   // largest force of the stage
+  double near;    // within which the force counts as reached
+};
+
+// Fastest approach, m/s; `left`: N, to the target. `tool_mass`: kg.
+inline double approach_speed(const ServoResponse& r, double left, const ServoAim& aim,
+                             double tool_mass, const ServoPowder& powder) {
+  const double target = std::abs(aim.target), force = std::max(target - left, aim.near);
+  const double ahead =
+      std::min(powder.stiffest(), r.stiffness * std::sqrt(std::max(1.0, target / force)));
+  const double resistance = 3 * std::sqrt(ahead * (powder.mass + tool_mass));
+  const double unresisted = 2 * aim.scale / powder.wave;
+  return resistance > 0 ? std::min(unresisted, left / resistance) : unresisted;
+}
+
+// Once a force is reached, or where the target lies below it, only `max_speed` applies.
+inline SpeedLimits speed_limits(const ServoResponse& r, double force, const ServoAim& aim,
+                                double tool_mass, double max_speed, const ServoPowder& powder) {
+  SpeedLimits limits{max_speed, max_speed};
+  const double left = std::abs(aim.target) - (aim.target < 0 ? -force : force);
+  if (aim.target == 0 || left <= aim.near) return limits;
+  double& towards = aim.target < 0 ? limits.backward : limits.forward;
+  towards = std::min(max_speed, approach_speed(r, left, aim, tool_mass, powder));
+  return limits;
 }
 
 // ---- an elastic drive -----------------------------------------------------------------------------------

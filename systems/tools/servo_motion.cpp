@@ -36,16 +36,27 @@ const Servo* servo_of(const ToolServos& servos, int tool, std::size_t stage) {
   return nullptr;
 }
 
-void check_held(const Servo& servo, const ToolProgram& program, const Clock& clock, double force) {
+ServoWatch& watch_of(ToolServos& servos, const Servo& servo) {
+  return servos.watches[static_cast<std::size_t>(&servo - servos.servos.data())];
+}
+
+// `force`: at the end of the stage, N.
+void check_held(const Servo& servo, ServoWatch watch, double force, const ToolProgram& program,
+                const Clock& clock) {
   if (!servo.holds_force()) return;
-  if (std::abs(force - servo.force) <= servo.tolerance * std::abs(servo.force)) return;
-  throw RunFailure(
-      fmt::format("tool_servo: '{}' carries {:.6g} N at the end of stage '{}', step {}, t = {:.6g} "
-                  "s; target {:.6g} N, allowed: within {:g} of it (stage.servo.tolerance); use a "
-                  "longer stage, a higher max_speed or a stronger powder",
-                  entry(program.names, servo.tool), force + 0.0 /* not -0 */,
-                  entry(program.stages, servo.stage).name, clock.step, clock.time, servo.force,
-                  servo.tolerance));
+  watch.see_error(force - servo.force);
+  const double allowed = servo.tolerance * std::abs(servo.force);
+  if (watch.lowest >= -allowed && watch.highest <= allowed) return;
+  throw RunFailure(fmt::format(
+      "tool_servo: '{}' carries {:.6g} N at the end of stage '{}', step {}, t = {:.6g} s; target "
+      "{:.6g} N; its force error is {:.6g} to {:.6g} N over the last tenth of the stage, allowed: "
+      "within {:g} of the target (stage.servo.tolerance); use {}",
+      entry(program.names, servo.tool), force + 0.0 /* not -0 */,
+      entry(program.stages, servo.stage).name, clock.step, clock.time, servo.force, watch.lowest,
+      watch.highest, servo.tolerance,
+      watch.highest < 0 ? "a longer stage, a higher max_speed or a stronger powder"
+                        : "a longer stage, or more damping of what oscillates (contact.damping, "
+                          "material.damping)"));
 }
 
 // Current target: ramped smoothly from the tool's force at the start of the stage.
@@ -87,6 +98,74 @@ void check_mass(const Servo& servo, const ToolProgram& program, const Clock& clo
       entry(program.names, servo.tool), servo.mass, clock.step, clock.time, needed));
 }
 
+kernels::ServoPowder powder_of(const Servo& servo) { return {servo.powder_mass, servo.wave}; }
+
+// The forces that count while the servo is on its way: `asked(tool, 1)` is that at the start of the stage.
+kernels::ServoAim aim_of(const Servo& servo, const ToolServos::Driven* driven, double at_begin) {
+  const double target = driven != nullptr ? driven->force : servo.force;
+  const double scale = std::max(std::abs(target), std::abs(at_begin));
+  return {target, scale, std::min(servo.tolerance, kernels::reached) * scale};
+}
+
+class ForceServo {
+ public:
+  ForceServo(const Servos& s, const Servo& servo, Row<Tool> tool)
+      : s_(s),
+        servo_(servo),
+        tool_(tool),
+        bears_(borne(servo, s.force)),
+        response_(entry(s.servos->responses, servo.tool)),
+        watch_(watch_of(*s.servos, servo)) {}
+
+  void begin_stage(bool had_servo) {
+    s_.drive.asked(tool_, 1) = bears_;
+    watch_ = {.overshoot = watch_.overshoot};
+    if (had_servo) return;
+    s_.drive.mass(tool_) = servo_.mass;
+    response_ = {.force = bears_};
+  }
+
+  void drive(const ToolProgram::Stage& stage, const kernels::TouchSums& touching) {
+    const Clock& clock = *s_.clock;
+    const ToolServos::Driven* driven = s_.servos->driven_force(servo_.tool);
+    const double at_begin = s_.drive.asked(tool_, 1);
+    const double asked =
+        driven != nullptr ? driven->force : asked_for(servo_, at_begin, clock.time - stage.begin);
+    const kernels::ServoAim aim = aim_of(servo_, driven, at_begin);
+    s_.drive.asked(tool_, 0) = asked;
+    if (driven == nullptr) watch_.see_force(bears_, aim.scale);
+    if (is_judged(stage, clock.time)) watch_.see_error(bears_ - asked);
+    move(asked, aim, touching);
+  }
+
+ private:
+  void move(double asked, const kernels::ServoAim& aim, const kernels::TouchSums& touching) {
+    const Clock& clock = *s_.clock;
+    const double minimum = kernels::min_tool_mass(touching, clock.dt, clock.safety);
+    const kernels::ServoState last{s_.drive.mass(tool_),
+                                   along(s_.drive.velocity, tool_, servo_.direction),
+                                   along(s_.drive.dragged, tool_, servo_.direction)};
+    response_ = kernels::with_step(response_, bears_, last.speed * clock.dt_before, clock.dt_before,
+                                   powder_of(servo_));
+    const kernels::ServoState now = kernels::with_mass(last, std::max(servo_.mass, minimum));
+    const kernels::ServoState next =
+        kernels::servo_step(now, asked - bears_, servo_.damping * std::sqrt(now.mass / servo_.mass),
+                            kernels::speed_limits(response_, bears_, aim, now.mass,
+                                                  servo_.max_speed, powder_of(servo_)),
+                            0.5 * (clock.dt_before + clock.dt));
+    s_.drive.mass(tool_) = next.mass;
+    set_along(s_.drive.velocity, tool_, servo_.direction, next.speed);
+    set_along(s_.drive.dragged, tool_, servo_.direction, next.dragged);
+  }
+
+  const Servos& s_;
+  const Servo& servo_;
+  Row<Tool> tool_;
+  double bears_;
+  ServoResponse& response_;
+  ServoWatch& watch_;
+};
+
 }  // namespace
 
 void drive_tools(const Servos& s, const Touching& touching) {
@@ -99,41 +178,24 @@ void drive_tools(const Servos& s, const Touching& touching) {
     const Row<Tool> tool(t);
     const Servo* servo = servo_of(*servos, t, stage);
     const Servo* last = servo_of(*servos, t, servos->stage);
-    const ToolServos::Driven* driven = servos->driven_force(t);
-    if (new_stage && last != nullptr && driven == nullptr && !ended_early)
-      check_held(*last, *program, *clock, borne(*last, force));
+    if (new_stage && last != nullptr && servos->driven_force(t) == nullptr && !ended_early)
+      check_held(*last, watch_of(*servos, *last), borne(*last, force), *program, *clock);
     if (servo == nullptr) {
       set_along(drive.velocity, tool, {}, 0), set_along(drive.dragged, tool, {}, 0);
       // It has no target any more; at the very end of the run it still does.
       if (last != nullptr && stage < program->stages.size()) drive.asked(tool, 0) = 0;
       continue;
     }
-    const double bears = borne(*servo, force);
     if (!servo->holds_force()) {
       kernels::TouchSums sums = touching(t);
       sums.stiffness += servo->stiffness;
       check_mass(*servo, *program, *clock, kernels::min_tool_mass(sums, clock->dt, clock->safety));
-      follow(*servo, tool, *clock, *program, drive, bears);
+      follow(*servo, tool, *clock, *program, drive, borne(*servo, force));
       continue;
     }
-    if (new_stage) drive.asked(tool, 1) = bears;
-    if (new_stage && last == nullptr) drive.mass(tool) = servo->mass;
-    drive.asked(tool, 0) =
-        driven != nullptr
-            ? driven->force
-            : asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
-
-    const double minimum = kernels::min_tool_mass(touching(t), clock->dt, clock->safety);
-    const kernels::ServoState now =
-        kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
-                            along(drive.dragged, tool, servo->direction)},
-                           std::max(servo->mass, minimum));
-    const kernels::ServoState next = kernels::servo_step(
-        now, drive.asked(tool, 0) - bears, servo->damping * std::sqrt(now.mass / servo->mass),
-        servo->max_speed, 0.5 * (clock->dt_before + clock->dt));
-    drive.mass(tool) = next.mass;
-    set_along(drive.velocity, tool, servo->direction, next.speed);
-    set_along(drive.dragged, tool, servo->direction, next.dragged);
+    ForceServo now(s, *servo, tool);
+    if (new_stage) now.begin_stage(last != nullptr);
+    now.drive(program->stages[stage], touching(t));
   }
   servos->stage = stage;
 }

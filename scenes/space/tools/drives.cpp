@@ -57,6 +57,7 @@ ToolServos servos_of(const World& world, const Scene& scene, const std::vector<B
                                           values_of(direction), {powder.mass, wave}));
     }
   add_elastic_drives(*scene.space, servos);
+  servos.make_room(scene.space->tools.size());
   return servos;
 }
 

@@ -94,7 +94,7 @@ class Pressed {
     // It pushes towards lower x.
     ServoState down = servo_;
     down.speed *= -1, down.dragged *= -1;
-    down = servo_step(down, asked - borne_, damping_, 1e300, chain_.dt);
+    down = servo_step(down, asked - borne_, damping_, {1e300, 1e300}, chain_.dt);
     servo_ = {down.mass, -down.speed, -down.dragged};
     tool_ += servo_.speed * chain_.dt;
   }
@@ -199,13 +199,13 @@ TEST(Servo, TheTangentOfTheContactIsNeverTakenTooSmall) {
 TEST(Servo, KeepsToItsSpeedAndDoesNotRunUp) {
   ServoState state{1, 0, 0};
   for (int i = 0; i < 1000; ++i) {
-    state = servo_step(state, 1e9, 1, 2.0, 0.1);
+    state = servo_step(state, 1e9, 1, {2.0, 2.0}, 0.1);
     ASSERT_LE(state.speed, 2.0);
     ASSERT_LE(state.dragged, 2.0);
   }
   EXPECT_DOUBLE_EQ(state.speed, 2.0);
   // Turned round at once by what is missing now.
-  EXPECT_LT(servo_step(state, -100, 1, 2.0, 0.1).speed, 0);
+  EXPECT_LT(servo_step(state, -100, 1, {2.0, 2.0}, 0.1).speed, 0);
 }
 
 }  // namespace
