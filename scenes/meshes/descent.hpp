@@ -63,18 +63,20 @@ inline double bound_for(double min_determinant) {
   return min_determinant > open_corner ? min_bound : portable::hypot(0.1, 0.2 * min_determinant);
 }
 
-// Backtracks along the direction until the value is low enough (Armijo); false: no such step.
+// Backtracks along the direction until the value is low enough (Armijo); false: no such step. No node moves by
+// more than `most`, as the quality measures moves. `round_off` is the relative error of the value, below which it does not judge a step.
 template <class Quality>
-bool advance(const Quality& quality, double bound, const Eigen::VectorXd& direction,
-             Descent& state) {
+bool advance(const Quality& quality, double bound, const Eigen::VectorXd& direction, double most,
+             Descent& state, double round_off = 0) {
   const double slope = direction.dot(state.gradient);
   if (!(slope < 0)) return false;
-  const double largest = direction.cwiseAbs().maxCoeff();
+  const double largest = quality.longest_move(direction);
   Descent next = state;
-  for (double share = std::min(1.0, 0.3 / largest); share * largest > 1e-12; share *= 0.5) {
+  for (double share = std::min(1.0, most / largest); share * largest > 1e-12; share *= 0.5) {
     next.x = state.x + share * direction;
     next.value = quality.value(next.x, bound, next.gradient);
-    if (!(next.value <= state.value + 1e-4 * share * slope)) continue;
+    const double highest = state.value + 1e-4 * share * slope + round_off * state.value;
+    if (!(next.value <= highest)) continue;
     state = std::move(next);
     return true;
   }
@@ -83,17 +85,19 @@ bool advance(const Quality& quality, double bound, const Eigen::VectorXd& direct
 
 }  // namespace descent
 
-// Quality has start(), min_determinant(x) and value(x, bound, gradient), where `bound` regularises 1/determinant.
+// Quality has start(), longest_move(direction), min_determinant(x) and value(x, bound, gradient), where `bound` regularises
+// 1/determinant.
 template <class Quality>
 Descent descend(const Quality& quality, int max_iterations) {
   using namespace descent;
   Descent state{quality.start(), {}, 0};
   double bound = bound_for(quality.min_determinant(state.x));
   state.value = quality.value(state.x, bound, state.gradient);
+  constexpr double most = 0.3;
   Lbfgs memory_of;
   for (int i = 1; i <= max_iterations; ++i) {
     const Descent before = state;
-    if (!advance(quality, bound, memory_of.direction(state.gradient), state)) break;
+    if (!advance(quality, bound, memory_of.direction(state.gradient), most, state)) break;
     memory_of.learn(state.x - before.x, state.gradient - before.gradient);
     const bool still = before.value - state.value < converged * state.value;
     const bool folded = bound > min_bound;

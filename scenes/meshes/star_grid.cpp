@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
+#include "engine/entry.hpp"
 #include "engine/portable_math.hpp"
 #include "engine/result_cache.hpp"
 #include "scenes/meshes/smooth_mesh.hpp"
@@ -96,6 +99,19 @@ double size_share(const std::vector<Point>& boundary) {
   return 0.6 * minimum / maximum;
 }
 
+// Corners of a core by their distances from node 0 along the outline: does not depend on the sense of the outline.
+std::array<int, 4> places_of(const Split& split, int n) {
+  std::array<int, 4> places{};
+  const auto half = static_cast<std::size_t>(n / 2);
+  for (int k = 0; k < 4; ++k) {
+    const int corner = split.start + (k % 2) * split.columns + k / 2 * n / 2;
+    entry(places, k) = std::min(static_cast<int>(wrapped(corner, 2 * half)),
+                                static_cast<int>(wrapped(-corner, 2 * half)));
+  }
+  std::ranges::sort(places);
+  return places;
+}
+
 class Search {
  public:
   Search(const std::vector<Point>& boundary, const Point& centre, int rings, int iterations)
@@ -107,37 +123,57 @@ class Search {
         lines_(mirror_lines(boundary, centre)) {}
 
   void look_at(const Split& split) {
+    const int n = static_cast<int>(boundary_.size());
+    if (split.columns < 1 || split.columns >= n / 2) return;
+    const StarGrid grid = grid_of(boundary_, centre_, rings_, split);
+    const double measure =
+        rough_measure(grid.nodes, grid.quads, boundary_.size(), share_, iterations_);
+    found_.push_back(worth_of(split, measure - 2));
+  }
+
+  // Round-off must not decide between splits that are as good because the outline is symmetric.
+  Split best() const {
+    constexpr double as_good = 1 + 1e-6;
+    if (found_.empty()) return {0, 1};
+    const int n = static_cast<int>(boundary_.size());
+    const double least = std::ranges::min(found_, {}, &Found::score).score;
+    const auto rank = [n](const Found& f) {
+      return std::tuple(-f.axes, !keeps(f.split, 0, n), places_of(f.split, n));
+    };
+    const Found* best = nullptr;
+    for (const Found& found : found_)
+      if (found.score <= as_good * least && (best == nullptr || rank(found) < rank(*best)))
+        best = &found;
+    return best->split;
+  }
+
+ private:
+  struct Found {
+    double score;
+    int axes;  // mirror lines along x or y that it keeps
+    Split split;
+  };
+
+  Found worth_of(const Split& split, double excess) const {
     // By number of mirror lines kept (a rectangular core has two, a square one four): factor on the measure's
     // excess over that of equal squares, compared with a grid without symmetry.
     constexpr std::array<double, 5> worth{1, 0.75, 0.65, 0.65, 0.6};
-    constexpr double worth_of_an_axis = 0.95, worth_of_a_change = 1e-3;
-    const int n = static_cast<int>(boundary_.size());
-    if (split.columns < 1 || split.columns >= n / 2) return;
-    StarGrid grid = grid_of(boundary_, centre_, rings_, split);
-    const double measure =
-        smooth_mesh(grid.nodes, grid.quads, boundary_.size(), share_, iterations_);
     std::size_t kept = 0;
-    double score = measure - 2;
+    int axes = 0;
     for (const MirrorLine& line : lines_) {
-      if (!keeps(split, line.sum, n)) continue;
+      if (!keeps(split, line.sum, static_cast<int>(boundary_.size()))) continue;
       ++kept;
-      if (line.along_axis) score *= worth_of_an_axis;
+      if (line.along_axis) ++axes;
     }
-    score *= worth[std::min<std::size_t>(kept, 4)];
-    if (score >= min_ * (1 - worth_of_a_change)) return;
-    min_ = score;
-    best_ = split;
+    return {excess * worth[std::min<std::size_t>(kept, 4)], axes, split};
   }
-  Split best() const { return best_; }
 
- private:
   const std::vector<Point>& boundary_;
   Point centre_;
   int rings_, iterations_;
   double share_;
   std::vector<MirrorLine> lines_;
-  double min_ = std::numeric_limits<double>::max();
-  Split best_{0, 1};
+  std::vector<Found> found_;
 };
 
 // On so few boundary nodes that all splits can be tried.
@@ -155,6 +191,14 @@ Split coarse_split(const std::vector<Point>& boundary, const Point& centre, int 
   return search.best();
 }
 
+// The whole numbers at most `reach` from a place: the same ones in both senses of the outline, which rounded places
+// are not.
+std::pair<int, int> around(double place, double reach) {
+  constexpr double round_off = 1e-9;
+  return {static_cast<int>(std::ceil(place - reach - round_off)),
+          static_cast<int>(std::floor(place + reach + round_off))};
+}
+
 Split best_split(const std::vector<Point>& boundary, const Point& centre, int rings) {
   constexpr int most_for_all = 24, most_for_many = 256;
   const int n = static_cast<int>(boundary.size());
@@ -163,13 +207,13 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
   if (n == coarse && rings == 1) return rough;
   const double more = static_cast<double>(n) / coarse;
   // The rough split is known to within half a coarse edge.
-  const int around = n <= most_for_many ? std::min(2, static_cast<int>(std::ceil(more / 2))) : 1;
-  const int start = static_cast<int>(std::lround(more * rough.start));
-  const int columns = static_cast<int>(std::lround(more * rough.columns));
+  const double reach = n <= most_for_many ? std::min(2.0, std::ceil(more / 2)) : 1.0;
   Search search(boundary, centre, rings, 40);
-  for (int c = columns - around; c <= columns + around; ++c)
-    for (int s = start - around; s <= start + around; ++s)
-      search.look_at({static_cast<int>(wrapped(s, boundary.size())), c});
+  const auto [first, last] = around(more * rough.start, reach);
+  const auto [first_end, last_end] = around(more * (rough.start + rough.columns), reach);
+  for (int start = first; start <= last; ++start)
+    for (int end = first_end; end <= last_end; ++end)
+      search.look_at({static_cast<int>(wrapped(start, boundary.size())), end - start});
   return search.best();
 }
 
@@ -181,10 +225,9 @@ struct GridKey {
 };
 
 StarGrid smoothed_grid(const GridKey& key) {
-  constexpr int max_iterations = 2000;
   const auto& [boundary, centre, rings] = key;
   StarGrid grid = grid_of(boundary, centre, rings, best_split(boundary, centre, rings));
-  smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary), max_iterations);
+  smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary));
   return grid;
 }
 

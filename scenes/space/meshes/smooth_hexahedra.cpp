@@ -36,6 +36,9 @@ class HexahedraQuality {
 
   const Eigen::VectorXd& start() const { return x_; }
   double scale() const { return scale_; }
+  static double longest_move(const Eigen::VectorXd& direction) {
+    return direction.cwiseAbs().maxCoeff();
+  }
 
   double min_determinant(const Eigen::VectorXd& x) const {
     double minimum = std::numeric_limits<double>::max();

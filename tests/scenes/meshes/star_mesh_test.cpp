@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -161,7 +163,7 @@ TEST(StarMesh, HasTheMomentOfInertiaOfTheOutline) {
   EXPECT_NEAR(moments_of(hexagon).polar / (hexagon.area * 25e-6 * 2.5 / 6), 1, 1e-12);
 }
 
-// Mirror images of all nodes are nodes, as far as the smoothing has converged.
+// How far the mirror images of nodes are from nodes.
 double asymmetry(const Shape& shape, double sign_x, double sign_y) {
   double maximum = 0;
   for (const Point& p : shape.nodes) {
@@ -179,11 +181,11 @@ TEST(StarMesh, IsAsSymmetricAsItsOutline) {
                         {"superellipse", SuperellipseOutline{12e-3, 9e-3, 4}, 64},
                         {"hexagon", regular(6, 1), 48}}) {
     const Shape shape = meshed(c);
-    EXPECT_LT(asymmetry(shape, -1, 1), 1e-3) << c.name;
-    EXPECT_LT(asymmetry(shape, 1, -1), 1e-3) << c.name;
+    EXPECT_LT(asymmetry(shape, -1, 1), 1e-10) << c.name;
+    EXPECT_LT(asymmetry(shape, 1, -1), 1e-10) << c.name;
   }
-  EXPECT_LT(asymmetry(meshed(regular(5), 40), -1, 1), 1e-3);
-  EXPECT_LT(asymmetry(meshed(regular(3), 48), -1, 1), 1e-3);
+  EXPECT_LT(asymmetry(meshed(regular(5), 40), -1, 1), 1e-10);
+  EXPECT_LT(asymmetry(meshed(regular(3), 48), -1, 1), 1e-10);
 }
 
 // Distance of the contact curve from the ellipse, to first order, in half heights.
@@ -285,7 +287,60 @@ TEST(StarMesh, AMirroredOutlineHasTheMirroredMesh) {
     const auto polygon = outline_polygon(mirrored[i], 1e-9);
     for (const Vec2& p : outline_polygon(straight[i], 1e-6))
       EXPECT_LT(distance_to(polygon, {-p.x(), p.y()}), 2e-9);
-    EXPECT_NEAR(min_corner_sine(a), min_corner_sine(b), 0.1);
+    EXPECT_NEAR(min_corner_sine(a), min_corner_sine(b), 1e-10);
+  }
+}
+
+using Map = std::function<Vec2(const Vec2&)>;
+
+// Of rounded polygons and of traced outlines: all lengths times `factor`, all points mapped.
+Outline mapped(Outline outline, double factor, const Map& map) {
+  if (auto* polygon = std::get_if<PolygonOutline>(&outline)) {
+    for (Vec2& corner : polygon->corners) corner = map(factor * corner);
+    polygon->rounding *= factor;
+  } else {
+    for (Vec2& point : std::get<PointsOutline>(outline).points) point = map(factor * point);
+  }
+  return outline;
+}
+
+// The largest distance of the mapped nodes of a mesh from those of the other one, over its size.
+double disagreement(const Shape& shape, const Shape& other, double factor, const Map& map) {
+  if (shape.nodes.size() != other.nodes.size()) return 1;
+  double maximum = 0;
+  for (const Point& p : shape.nodes) {
+    const Vec2 wanted = map(factor * Vec2(p[0], p[1]));
+    double nearest = std::numeric_limits<double>::max();
+    for (const Point& q : other.nodes)
+      nearest = std::min(nearest, std::hypot(q[0] - wanted.x(), q[1] - wanted.y()));
+    maximum = std::max(maximum, nearest);
+  }
+  return maximum / std::sqrt(other.area);
+}
+
+TEST(StarMesh, AScaledMirroredOrTurnedOutlineHasThatMeshToRoundOff) {
+  const Map same = [](const Vec2& p) { return p; };
+  const Map mirrored = [](const Vec2& p) { return Vec2(-p.x(), p.y()); };
+  const Map turned = [](const Vec2& p) {
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    return Vec2(c * p.x() - s * p.y(), s * p.x() + c * p.y());
+  };
+  const std::vector<Vec2> six{{0, 0}, {6, -2}, {11, 1}, {10, 6}, {5, 9}, {-1, 5}};
+  for (const Case& c : {Case{"five", polygon(five, 1), 24},
+                        {"five", polygon(five, 1), 96},
+                        {"five, two rings", polygon(five, 1), 80, 2},
+                        {"six", polygon(six, 1.5), 40},
+                        {"six", polygon(six, 1.5), 64},
+                        {"notched", polygon(notched, 0.8), 64},
+                        {"angle", polygon(angle, 1), 64},
+                        {"sharp", polygon(five, 0), 40},
+                        {"grain", grain(60), 48}}) {
+    const Shape shape = meshed(c);
+    for (const auto& [factor, map] :
+         {std::pair{1.0 / 3, same}, {1e-3, same}, {1.0, mirrored}, {1.0, turned}}) {
+      const Shape other = meshed(mapped(c.outline, factor, map), c.edges, c.rings);
+      EXPECT_LT(disagreement(shape, other, factor, map), 1e-10) << c.name << ' ' << c.edges;
+    }
   }
 }
 
