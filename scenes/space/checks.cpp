@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::int64_t max_particles_in_space = 1'000'000;
 constexpr std::int64_t max_hexahedra = 100'000'000;  // at 1.5 kB each: 150 GB
+// Of a particle. Its nodes are smoothed all at once, in some ten seconds; the cache of shapes has room for two of them.
+constexpr std::int64_t max_hexahedra_of_one = 100'000;
 
 bool is_lattice_kind(const PackingSpec& packing) {
   return packing.kind != PackingSpec::Kind::random && packing.kind != PackingSpec::Kind::csv;
@@ -94,6 +96,11 @@ class SpaceChecks {
     // Either there is a four-face node between two corners of the cube, or on none of its edges.
     if (of.mesh.axial_divisions && of.mesh.divisions < 2)
       refuse(path + ".mesh.axial_divisions", "needs divisions of at least 2");
+    if (of.mesh.hexahedra() > max_hexahedra_of_one)
+      refuse(path + ".mesh.divisions",
+             fmt::format("the mesh has {} elements with rings = {}, and takes too long to make, "
+                         "allowed: at most {}, as with divisions = 24 and rings = 24",
+                         of.mesh.hexahedra(), of.mesh.rings, max_hexahedra_of_one));
     const auto* cylinder = std::get_if<CylinderShape>(&of.shape);
     if (cylinder != nullptr && of.mesh.grid == MeshSpec::Grid::extruded)
       check_extruded(*cylinder, of.mesh, path, refusal());

@@ -194,7 +194,8 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
                    "elements and the surface 6 divisions^2 faces (with `axial_divisions` m: "
                    "divisions^2 m and 2 divisions^2 + 4 divisions m). The cube is aligned with "
                    "the axes of the shape; for polyhedra and STL shapes it is oriented for the "
-                   "best contact resolution unless `axial_divisions` is given.",
+                   "best contact resolution unless `axial_divisions` is given. A particle has at "
+                   "most 100,000 elements.",
             .fallback_doc = "set by `accuracy`; 4 if `rings` is given"},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.divisions = static_cast<int>(value.integer);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -229,6 +230,21 @@ TEST(SpaceMesh, OfASharpShapeHasNoSpikes) {
       EXPECT_LT(off, 0.2 * radius) << n << " divisions, node " << i;
     }
   }
+}
+
+double seconds_to_make(const ParticleSpec& particle) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(make_shape(particle).elements(), 16 * 16 * 16 + 6 * 16 * 16 * 16);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// A scene asks for each of its shapes some ten times.
+TEST(SpaceMesh, AFineMeshIsMadeOnce) {
+  ParticleSpec particle;
+  particle.shape = SphereShape{1};
+  particle.mesh.divisions = particle.mesh.rings = 16;
+  const double first = seconds_to_make(particle);
+  EXPECT_LT(seconds_to_make(particle), first / 5);
 }
 
 }  // namespace
