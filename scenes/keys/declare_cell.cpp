@@ -138,8 +138,8 @@ const TableDeclaration<CellDriveSpec>& cell_drive() {
        {{.name = "tolerance",
          .kind = Kind::number,
          .range = above(0, 1e9),
-         .doc = "Allowed error of each stress at the end of the stage, as a fraction of the "
-                "largest target stress. If it is exceeded, the run stops and reports the "
+         .doc = "Allowed error of each stress over the last tenth of the stage, as a fraction of "
+                "the largest target stress. If it is exceeded, the run stops and reports the "
                 "stresses reached.",
          .fallback_doc = "0.05"},
         to(&CellDriveSpec::tolerance)}}};

@@ -55,14 +55,17 @@ std::vector<Key<ServoSpec>> manners() {
             .unit = "m/s",
             .range = within(1e-9, 1e4),
             .fallback = value_of("10 m/s"),
-            .doc = "Maximum speed of the servo, whatever the force error."},
+            .doc = "Maximum speed of the servo, whatever the force error. On the way to a higher "
+                   "force the speed is also limited by the stiffness of the powder, so that the "
+                   "force is not passed."},
            to(&ServoSpec::max_speed)},
           {{.name = "tolerance",
             .kind = Kind::number,
             .range = above(0, 1e9),
             .fallback = value_of(0.05),
-            .doc = "Allowed force error at the end of the stage, as a fraction of the force. If "
-                   "it is exceeded, the run stops and reports the force reached."},
+            .doc = "Allowed force error over the last tenth of the stage, as a fraction of the "
+                   "force. If it is exceeded, the run stops and reports the force reached. A force "
+                   "that is passed by more at any time is reported in the table of quality."},
            to(&ServoSpec::tolerance)}};
 }
 

@@ -171,6 +171,109 @@ TEST(Servo, ReachesItsForceAndStaysThere) {
   }
 }
 
+// ---- the approach ---------------------------------------------------------------------------------------
+// A column of masses between tool and floor. Its springs hold gaps open, then yield along F_y (exp(a x) - 1) and unload with
+// the stiffness 1: a powder that keeps what it was pressed by.
+class Column {
+ public:
+  Column(std::mt19937_64& random, bool loose) : springs_(count + 1), x_(count), v_(count) {
+    const auto any = [&](double low, double high) {
+      return std::uniform_real_distribution<>(low, high)(random);
+    };
+    const double hardening = any(5, 60);
+    for (Spring& spring : springs_) {
+      spring.gap = loose ? any(0, 0.1) : 0;
+      spring.hardening = hardening * any(0.7, 1.4);
+      spring.yield = target / (std::exp(spring.hardening * any(0.05, 0.2)) - 1);
+    }
+  }
+
+  // The largest force over the target, after the time in which a wave passes `passages` times.
+  double press(double passages, bool limited) {
+    ServoState tool{0.02 * count, 0, 0};
+    ServoResponse response;
+    const ServoPowder powder{count, 1};
+    double place = 0, peak = 0;
+    for (double t = 0; t < passages * count; t += dt) {
+      const double force = step(place, tool.speed);
+      peak = std::max(peak, force);
+      response = with_step(response, force, tool.speed * dt, dt, powder);
+      const ServoAim aim{target, target, reached * target};
+      const SpeedLimits limits = limited
+                                     ? speed_limits(response, force, aim, tool.mass, 1e300, powder)
+                                     : SpeedLimits{1e300, 1e300};
+      const double asked = target * ramp_speed(std::min(1.0, t / (0.2 * passages * count)));
+      tool = servo_step(tool, asked - force, 0.3, limits, dt);
+      place += tool.speed * dt;
+    }
+    return peak / target;
+  }
+
+ private:
+  static constexpr int count = 20;
+  static constexpr double target = 2e-3,
+                          dt = 0.5;  // in units of stiffness times spacing; wave times
+  struct Spring {
+    double gap = 0, yield = 0, hardening = 0, set = 0;
+    double force(double pressed) {
+      double elastic = pressed - gap - set;
+      if (elastic <= 0) return 0;
+      const double flow = yield * (std::exp(hardening * (pressed - gap)) - 1);
+      if (elastic > flow) set += elastic - flow, elastic = flow;
+      return elastic;
+    }
+  };
+
+  double step(double place, double speed) {
+    std::vector<double> force(springs_.size());
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      const double above = i == 0 ? place : x_[i - 1], below = i == x_.size() ? 0 : x_[i];
+      const double rate = (i == 0 ? speed : v_[i - 1]) - (i == x_.size() ? 0 : v_[i]);
+      force[i] = springs_[i].force(above - below);
+      if (force[i] > 0) force[i] += 0.02 * rate;
+    }
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      v_[i] += dt * (force[i] - force[i + 1]);
+      x_[i] += dt * v_[i];
+    }
+    return force[0];
+  }
+
+  std::vector<Spring> springs_;
+  std::vector<double> x_, v_;
+};
+
+// Without the limit the worst of them is pressed by many times its force.
+TEST(Servo, DoesNotPassItsForceOnAPowderThatKeepsIt) {
+  for (const bool loose : {false, true}) {
+    std::mt19937_64 random(3), same(3);
+    double worst = 0, unlimited = 0;
+    for (int run = 0; run < 12; ++run) {
+      const double passages = 50 * std::pow(20, run / 11.0);
+      worst = std::max(worst, Column(random, loose).press(passages, true));
+      unlimited = std::max(unlimited, Column(same, loose).press(passages, false));
+    }
+    EXPECT_LT(worst, 1.05) << (loose ? "loose" : "touching");
+    EXPECT_GT(unlimited, 1.5) << (loose ? "loose" : "touching");
+  }
+}
+
+// A spring is approached exponentially; the limits are mirrored for a tensile target, and end near it.
+TEST(Servo, ApproachesFasterTheSofterThePowder) {
+  const ServoPowder powder{1, 10};
+  const ServoAim push{100, 100, 5}, pull{-100, 100, 5};
+  const auto forward = [&](double stiffness, double force) {
+    return speed_limits({0, 0, stiffness}, force, push, 0.1, 1e300, powder).forward;
+  };
+  EXPECT_DOUBLE_EQ(forward(0, 0), 2 * 100 / 10.0);
+  EXPECT_GT(forward(1, 50), forward(4, 50));
+  EXPECT_DOUBLE_EQ(forward(1, 50), 2 * forward(4, 50));
+  EXPECT_DOUBLE_EQ(forward(1e9, 50), 50 / (3 * std::sqrt(powder.stiffest() * 1.1)));
+  EXPECT_EQ(forward(1e9, 96), 1e300);
+  EXPECT_EQ(speed_limits({0, 0, 1}, 50, push, 0.1, 1e300, powder).backward, 1e300);
+  EXPECT_DOUBLE_EQ(speed_limits({0, 0, 1}, -50, pull, 0.1, 1e300, powder).backward, forward(1, 50));
+}
+
 // ---- its parts ------------------------------------------------------------------------------------------
 TEST(Servo, MassThatComesAndGoesTakesEnergyAway) {
   const auto energy = [](const ServoState& s) {
