@@ -21,6 +21,8 @@
 #include "scenes/probe/declare_probe.hpp"
 #include "scenes/probe/probe_read.hpp"
 #include "scenes/probe/probe_scenes.hpp"
+#include "scenes/results/run_quality.hpp"
+#include "scenes/spec/elastic_response.hpp"
 
 namespace pulvis {
 namespace {
@@ -102,6 +104,17 @@ bool went(StudyRunner& runner, const char* what) {
   return false;
 }
 
+// Every probe measures moduli.
+void warn_of_soft_contacts(const Probe& probe) {
+  std::set<std::string> paths;
+  for (const ProbeLoading& loading : probe.loadings) {
+    if (!paths.insert(loading.path).second) continue;
+    const std::string line = soft_contact_warning(
+        loading.scene.scene, fmt::format("path '{}' is probed for moduli", loading.path));
+    if (!line.empty()) tell(stderr, "pulvis: warning: {}\n", line);
+  }
+}
+
 void print_list(const Probe& probe) {
   const std::size_t states = probe.loadings.size() * probe.spec.densities.size();
   for (const ProbeLoading& loading : probe.loadings) tell("{}\n", loading.name);
@@ -145,7 +158,10 @@ class Probing {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
     write_probe(folder_, probe_, surfaces, time.count());
     tell("{}", caps_text(probe_, surfaces));
-    for (const ProbeSurface& surface : surfaces) warn_of_moduli(surface);
+    for (const ProbeSurface& surface : surfaces) {
+      warn_of_moduli(surface);
+      warn_of_springs(surface);
+    }
     const std::size_t missing =
         probe_.loadings.size() * probe_.spec.densities.size() - states_.size();
     if (missing > 0) tell(stderr, "pulvis: not reached: {}\n", counted(missing, "state"));
@@ -154,6 +170,15 @@ class Probing {
   }
 
  private:
+  static void warn_of_springs(const ProbeSurface& surface) {
+    if (!surface.spring_share || *surface.spring_share <= most_in_springs) return;
+    const ProbeState& state = *surface.state;
+    tell(stderr,
+         "pulvis: warning: path '{}', relative density {:.4f}, seed {}: {:.0f}% of the energy "
+         "released on unloading was in contact springs (limit {:.0f}%): the moduli are too small "
+         "by about as much\n",
+         state.path, state.density, state.seed, 100 * *surface.spring_share, 100 * most_in_springs);
+  }
   void warn_of_moduli(const ProbeSurface& surface) const {
     const PowderModuli& m = surface.moduli;
     const bool none = m.c11 == 0 && m.c22 == 0;  // their runs have been reported
@@ -191,6 +216,7 @@ class Probing {
 ExitCode run_probe(const ProbeOptions& options) {
   leave_at_interrupts();
   const Probe probe = load_probe(options.probe, options.overrides);
+  warn_of_soft_contacts(probe);
   if (options.list) {
     print_list(probe);
     return ExitCode::done;

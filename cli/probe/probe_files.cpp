@@ -98,13 +98,14 @@ std::string points_csv(const std::vector<ProbeSurface>& surfaces) {
 std::string moduli_csv(const std::vector<ProbeSurface>& surfaces) {
   std::string text =
       "path,seed,relative_density,pressure [Pa],c11 [Pa],c12 [Pa],c22 [Pa],shear_modulus [Pa],"
-      "youngs_modulus [Pa],poissons_ratio\n";
+      "youngs_modulus [Pa],poissons_ratio,released_by_springs\n";
   for (const ProbeSurface& surface : surfaces) {
     const PowderModuli& m = surface.moduli;
-    text += fmt::format("{},{},{:.6f},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.5f}\n",
+    text += fmt::format("{},{},{:.6f},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.5f},{}\n",
                         csv_word(surface.state->path), surface.state->seed, surface.state->density,
                         surface.state->pressure, m.c11, m.c12, m.c22, m.g, m.youngs_modulus(),
-                        m.poissons_ratio());
+                        m.poissons_ratio(),
+                        surface.spring_share ? fmt::format("{:.4f}", *surface.spring_share) : "");
   }
   return text;
 }
@@ -204,6 +205,8 @@ Json group_json(const Group& group) {
                               {"shear_modulus", m.g},
                               {"youngs_modulus", m.youngs_modulus()},
                               {"poissons_ratio", m.poissons_ratio()}});
+    if (surface->spring_share)
+      json["states"].back()["released_by_springs"] = *surface->spring_share;
   }
   for (const Criterion& criterion : criteria) {
     Json& mine =

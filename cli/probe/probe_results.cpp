@@ -7,6 +7,7 @@
 
 #include "engine/files/hdf5.hpp"
 #include "scenes/probe/probe_scenes.hpp"
+#include "scenes/results/run_quality.hpp"
 
 namespace pulvis {
 namespace {
@@ -101,10 +102,25 @@ std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& 
   return states;
 }
 
+// By the quality tables of the runs.
+std::optional<double> spring_share_of(const std::vector<ProbeRun>& runs) {
+  double sum = 0, count = 0;
+  for (const ProbeRun& run : runs) {
+    if (!run.result->usable || !run.result->summary.contains("quality")) continue;
+    for (const auto& figure : run.result->summary.at("quality"))
+      if (figure.at("name") == release_figure) {
+        sum += figure.at("value").get<double>();
+        count += 1;
+      }
+  }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
 ProbeSurface surface_of(const ProbeState& state, const ProbeSpec& spec,
                         const std::vector<ProbeRun>& runs) {
   ProbeSurface surface;
   surface.state = &state;
+  surface.spring_share = spring_share_of(runs);
   std::vector<ProbeCurve> curves;
   std::optional<ProbeCurve> shear;
   for (const ProbeRun& run : runs) {

@@ -31,6 +31,7 @@ std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& 
 struct ProbeSurface {
   const ProbeState* state = nullptr;
   PowderModuli moduli;
+  std::optional<double> spring_share;  // -, of the energy released in its runs: mean
   std::vector<YieldPoint> offset, dissipation;
   std::vector<FittedModel> offset_models, dissipation_models;
 };

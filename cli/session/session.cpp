@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cli/report/report.hpp"
 #include "cli/save_scene.hpp"
@@ -37,8 +38,9 @@ std::string worst_element(const World& world) {
                      static_cast<int>(element[slot]), minimum[slot]);
 }
 
-// Quality figures with limits in the scene, checked at every sample, also the last: the figures of the summary.
-void check_limits(const Scene& scene, const Results& results, const World& world) {
+// Quality figures with limits in the scene, checked at every sample, also the last: the figures of the summary. Kinetic
+// energy is judged at the end of a stage only: before, a first touch may be under more than a tenth of the largest load.
+void check_limits(const Scene& scene, const Results& results, const World& world, bool at_an_end) {
   const Clock& clock = world.resource<Clock>();
   const auto stop = [&](const char* key, double value, double limit) {
     throw RunFailure(fmt::format(
@@ -49,8 +51,7 @@ void check_limits(const Scene& scene, const Results& results, const World& world
     if (!(value <= limit)) stop(key, value, limit);  // NaN fails
   };
   hold("energy_balance", results.energy_balance_error(), scene.limits.energy_balance);
-  const bool started = clock.time > 0.1 * clock.end;  // nothing is quasi-static at first contact
-  if (scene.limits.kinetic_energy && started)
+  if (scene.limits.kinetic_energy && at_an_end)
     hold("kinetic_energy", results.kinetic_ratio(), *scene.limits.kinetic_energy);
 }
 
@@ -110,7 +111,7 @@ void Session::record_into(std::unique_ptr<Recorder> recorder) {
 template <class Bytes>
 void Session::state(Bytes& bytes, RecorderPosition& position, Spent& spent) {
   bytes(position, spent, results_, expectations_, compaction_, contacts_, samples_, frames_, ended_,
-        stages_over_);
+        stages_over_, judged_stages_);
 }
 
 void Session::go_on_from(const Checkpoint& checkpoint) {
@@ -169,7 +170,8 @@ void Session::record() {
   compaction_.sample(results_);
   contacts_.sample(results_, simulation_->whole());
   samples_.pass(clock().time);
-  check_limits(loaded_.scene, results_, simulation_->whole());
+  const bool at_an_end = has_passed_an_end() || simulation_->finished();
+  check_limits(loaded_.scene, results_, simulation_->whole(), at_an_end);
   const bool is_frame = frames_.due(clock().time) || simulation_->finished();
   if (is_frame && recorder_) {
     require_saved_scene(options_.folder);
@@ -183,6 +185,13 @@ void Session::record() {
   observed_ = !ended_;
   if (hooks.on_sample) hooks.on_sample(clock().time, row);
   if (is_frame && hooks.on_frame) hooks.on_frame(recorder_ ? recorder_->frames() - 1 : -1);
+}
+
+// Whether a stage has ended since the last sample.
+bool Session::has_passed_an_end() {
+  if (!simulation_->world().has<ToolProgram>()) return false;
+  const std::size_t over = simulation_->world().resource<ToolProgram>().stage_at(clock().time);
+  return over > std::exchange(judged_stages_, over);
 }
 
 // Saves the states of completed stages that ask for it.

@@ -114,6 +114,7 @@ class Session {
   void record_into(std::unique_ptr<Recorder> recorder);
   void record_cracks();
   void record();
+  bool has_passed_an_end();
   void keep_states();
   bool reached_its_end(std::size_t stage) const;
   bool stage_is_over() const;
@@ -136,6 +137,7 @@ class Session {
   bool observed_ = false;
   bool keeps_states_;
   std::size_t stages_over_ = 0;
+  std::size_t judged_stages_ = 0;  // over at the last sample
   std::set<std::string> driven_;
   RecorderPosition closed_at_;            // by close
   std::vector<SystemCost> costs_before_;  // it was resumed

@@ -8,6 +8,7 @@
 
 #include "scenes/checks/travel.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/spec/elastic_response.hpp"
 #include "scenes/tools/die_sides.hpp"
 
 namespace pulvis {
@@ -110,6 +111,7 @@ std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<Bo
   std::vector<std::string> lines = travel_warnings(scene, bodies);
   for (std::string& line : until_warnings(scene, density_at_start(scene, bodies)))
     lines.push_back(std::move(line));
+  for (std::string& line : soft_contact_warnings(scene)) lines.push_back(std::move(line));
   const FastTool fast = fastest_tool(scene);
   const std::string tool =
       fast.speed > 0 ? scene.tools[static_cast<std::size_t>(fast.tool)].name : "";

@@ -1,26 +1,16 @@
 #include "scenes/results/contact_findings.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "components/contact.hpp"
+#include "scenes/spec/elastic_response.hpp"
 
 namespace pulvis {
 namespace {
 
-constexpr double stiff = 10;        // contact.stiffness at which the error for metals is 1%
 constexpr double stiffest = 100;    // largest value that a scene may have
 constexpr double min_force = 1e-3;  // of the largest: below it an approach has no meaning
-
-double largest_tool_force(const World& world) {
-  double largest = 0;
-  const Column<ToolForce>& force = world.column<ToolForce>();
-  for (std::size_t t = 0; t < force.table.rows; ++t)
-    largest =
-        std::max(largest, Eigen::Map<const Eigen::Vector3d>(force.values() + tool_axes * t).norm());
-  return largest;
-}
 
 // y at x, of a curve with ascending xs; 0 before its start.
 double value_at(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
@@ -43,6 +33,7 @@ ContactLoading::ContactLoading(const Scene& scene) : stiffness_(scene.contact.st
 
 bool ContactLoading::loads(const World& world) const {
   if (!world.has<ToolForce>() || !world.has<ContactRules>()) return false;
+  if (world.column<ToolForce>().table.rows == 0) return false;
   const std::size_t stage = world.resource<ToolProgram>().stage_at(world.resource<Clock>().time);
   return stage < loads_.size() ? loads_[stage] : loads_.back();
 }
@@ -55,7 +46,7 @@ void ContactLoading::sample(const Results& results, const World& world) {
     if (now.force > heaviest_.force) heaviest_ = now;
     penetration_work = now.penetration_work;
   }
-  const double work = results.energies().external - work_, force = largest_tool_force(world);
+  const double work = results.energies().external - work_, force = results.load();
   work_ = results.energies().external;
   const double mean = force_.empty() ? force : 0.5 * (force + force_.back());
   const double before = approach_.empty() ? 0 : approach_.back();
@@ -93,7 +84,7 @@ ContactFindings ContactLoading::findings() const {
 
 // Penetrations are proportional to 1/stiffness.
 double ContactFindings::stiffness_to_do() const {
-  return std::min(std::max(stiff, 4 * stiffness), stiffest);
+  return std::min(std::max(stiff_contacts, 4 * stiffness), stiffest);
 }
 
 }  // namespace pulvis

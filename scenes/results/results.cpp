@@ -1,5 +1,6 @@
 #include "scenes/results/results.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +24,15 @@ double total(const World& world) {
   for (const int slot : bodies.slot_of_number)
     sum += world.column<C>().values()[static_cast<std::size_t>(slot)];
   return sum;
+}
+
+double largest_tool_force(const World& world) {
+  double largest = 0;
+  const Column<ToolForce>& force = world.column<ToolForce>();
+  for (std::size_t t = 0; t < force.table.rows; ++t)
+    largest =
+        std::max(largest, Eigen::Map<const Eigen::Vector3d>(force.values() + tool_axes * t).norm());
+  return largest;
 }
 
 std::unique_ptr<ResultParts> make_parts(const Scene& scene, const World& world) {
@@ -77,25 +87,33 @@ void Results::take_energies() {
   // "Not smaller" instead of "larger": a NaN must reach the limits.
   if (!(std::abs(e.balance) <= worst_balance_)) worst_balance_ = std::abs(e.balance);
   largest_energy_ = std::max({largest_energy_, std::abs(e.external), std::abs(initial_energy_)});
-  take_kinetic_ratio();
 }
 
-// Samples with hardly any internal energy do not count: nothing is quasi-static at first contact. Which these are is
-// only known at the end, so all samples are kept that no other exceeds in both figures.
-void Results::take_kinetic_ratio() {
-  const double internal = energies_.internal();
-  largest_internal_ = std::max(largest_internal_, internal);
-  const double minimum = 0.01 * largest_internal_;
+double Results::load() const {
+  if (world_.has_table<Tool>() && world_.column<ToolForce>().table.rows > 0)
+    return largest_tool_force(world_);
+  if (has("cell/stress_xx"))
+    return std::hypot(value("cell/stress_xx"), value("cell/stress_yy"), value("cell/stress_xy"));
+  return std::sqrt(std::max(0.0, energies_.elastic + energies_.contact + energies_.bonds));
+}
+
+// Samples under hardly any load do not count, and internal energy is also that in contact springs and bonds: as a round
+// contact begins, most of it is in springs. Which these are is only known at the end, so all samples are kept that no
+// other exceeds in both figures.
+void Results::take_kinetic_ratio(double load) {
+  largest_load_ = std::max(largest_load_, load);
+  const double minimum = 0.1 * largest_load_;
   std::erase_if(kinetic_ratios_, [&](const auto& sample) { return sample.second <= minimum; });
-  if (internal <= minimum) return;
+  const double internal = energies_.internal() + energies_.contact + energies_.bonds;
+  if (load <= minimum || internal == 0) return;
   const double ratio = energies_.kinetic / internal;
-  const auto outdone_by = [](double r, double i) {
-    return [=](const auto& sample) { return sample.first <= r && sample.second <= i; };
+  const auto outdone_by = [](double r, double l) {
+    return [=](const auto& sample) { return sample.first <= r && sample.second <= l; };
   };
-  for (const auto& [r, i] : kinetic_ratios_)
-    if (r >= ratio && i >= internal) return;
-  std::erase_if(kinetic_ratios_, outdone_by(ratio, internal));
-  kinetic_ratios_.emplace_back(ratio, internal);
+  for (const auto& [r, l] : kinetic_ratios_)
+    if (r >= ratio && l >= load) return;
+  std::erase_if(kinetic_ratios_, outdone_by(ratio, load));
+  kinetic_ratios_.emplace_back(ratio, load);
 }
 
 void Results::take_peaks() {
@@ -145,6 +163,9 @@ std::vector<double> Results::sample() {
   parts_->append_observed(row);
   shear_.append_sample(energies_.plastic, row);
   last_ = row;
+  const double loaded = load();
+  take_kinetic_ratio(loaded);
+  release_.sample(loaded, energies_.elastic, energies_.contact);
   return row;
 }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "engine/world.hpp"
 #include "scenes/results/history_series.hpp"
 #include "scenes/results/mesh_values.hpp"
+#include "scenes/results/parts/elastic_release.hpp"
 #include "scenes/results/parts/result_parts.hpp"
 #include "scenes/results/shear_results.hpp"
 #include "scenes/spec/scene.hpp"
@@ -53,13 +55,18 @@ class Results {
   std::vector<double> momentum() const { return parts_->momentum(); }
   const Energies& energies() const { return energies_; }
   const Peaks& peaks() const { return peaks_; }
+  // How heavily the powder is loaded. The largest force of a tool, N; in a periodic cell the magnitude of its stress, Pa;
+  // without either the root of the stored energy, with which the forces between elastic bodies grow.
+  double load() const;
   // Largest |balance| so far over the largest energy that was supplied or present at the start: the value reported,
   // expected and checked against `limits`, at every sample. At first contact there is hardly any energy to compare with:
   // the work of the tools in their `steps_of_a_touch` strongest steps is ignored, and so is round-off.
   double energy_balance_error() const;
-  // Largest kinetic over internal energy so far, after the first tenth of the run (nothing is quasi-static at first
-  // contact), while internal energy exceeds 1% of its maximum so far. Also reported and checked.
+  // Largest kinetic over internal energy so far, of the samples with more than a tenth of the largest load so far: at
+  // first touch there is hardly any internal energy to compare with. Also reported and checked.
   double kinetic_ratio() const;
+  // Of the energy released on unloading; none: nothing was unloaded.
+  std::optional<double> released_by_springs() const { return release_.share(); }
   // Smallest det F of any element in any step so far.
   double min_jacobian() const;
   std::int64_t elements() const { return parts_->elements(); }
@@ -70,14 +77,14 @@ class Results {
   // Stored in a checkpoint; the rest comes from the scene.
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(last_, energies_, initial_energy_, worst_balance_, largest_energy_, largest_internal_,
-          kinetic_ratios_, peaks_, shear_, first_);
+    bytes(last_, energies_, initial_energy_, worst_balance_, largest_energy_, largest_load_,
+          kinetic_ratios_, release_, peaks_, shear_, first_);
   }
 
  private:
   std::vector<std::vector<double>> frame_beside_mesh() const;
   void take_energies();
-  void take_kinetic_ratio();
+  void take_kinetic_ratio(double load);
   void take_peaks();
   void append_energies(std::vector<double>& row) const;
 
@@ -93,9 +100,10 @@ class Results {
   Peaks peaks_;
   double stiffness_energy_ = 0;  // J, largest bulk modulus times volume of the particles
   double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
-  double largest_internal_ = 0;
-  // Kinetic over internal energy and the internal energy, for samples that may be the worst.
+  double largest_load_ = 0;
+  // Kinetic over internal energy and the load, for samples that may be the worst.
   std::vector<std::pair<double, double>> kinetic_ratios_;
+  ElasticRelease release_;
   ShearResults shear_;
   bool first_ = true;
 };

@@ -24,6 +24,10 @@ struct QualityFigure {
   std::string line() const;  // "hourglass energy 5.4% (limit 3%)", and what to do
 };
 
+// The name of the figure that says how much of the energy released on unloading was in contact springs.
+inline constexpr const char* release_figure = "Released energy in contact springs";
+inline constexpr double most_in_springs = 0.15;  // its limit
+
 // The keys that refine the scene's meshes, whatever gives their present size: these replace `accuracy`, which may be "fine"
 // already, or have no effect because the meshes have keys of their own.
 std::string refining_keys(const Scene& scene);

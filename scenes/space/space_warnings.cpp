@@ -11,6 +11,7 @@
 #include "scenes/space/thin_walls.hpp"
 #include "scenes/space/tools/powder.hpp"
 #include "scenes/space/travel.hpp"
+#include "scenes/spec/elastic_response.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -57,6 +58,7 @@ std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<Bo
     lines.push_back(std::move(line));
   for (std::string& line : mouth_warnings(scene, bodies)) lines.push_back(std::move(line));
   for (std::string& line : thin_wall_warnings(scene)) lines.push_back(std::move(line));
+  for (std::string& line : soft_contact_warnings(scene)) lines.push_back(std::move(line));
   const FastTool fast = fastest_in_space(scene);
   if (!(fast.speed > 0)) return lines;
   const std::string& name = scene.space->tools[static_cast<std::size_t>(fast.tool)].name;

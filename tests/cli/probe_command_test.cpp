@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // A block that fills its cell: a powder without pores.
 constexpr const char* dense = R"(family = "compaction"
@@ -88,6 +89,10 @@ TEST_F(ProbeCommand, FindsVonMisesCylinderInASolid) {
   EXPECT_NEAR(state.at("states").at(0).at("poissons_ratio").get<double>(), nu, 0.02);
   EXPECT_NEAR(state.at("states").at(0).at("shear_modulus").get<double>() / (e / (2 * (1 + nu))), 1,
               0.05);
+  const double in_springs = state.at("states").at(0).at("released_by_springs").get<double>();
+  EXPECT_GT(in_springs, 0);
+  EXPECT_LT(in_springs, 0.15);
+  EXPECT_THAT(outcome.err, Not(HasSubstr("in contact springs")));
   int sheared = 0;  // and not about to come apart: there the stress is not the same all over
   for (const char* criterion : {"offset_strain", "dissipation"})
     for (const auto& point : state.at("yield").at(criterion).at("points")) {
@@ -152,7 +157,16 @@ TEST_F(ProbeCommand, ListsAndWritesNothing) {
   const Outcome outcome = probe({"--list"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_THAT(outcome.out, HasSubstr("1 loading run, 1 state, 9 probes"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("warning")));
   EXPECT_FALSE(fs::exists(place / "probed"));
+}
+
+TEST_F(ProbeCommand, TellsOfSoftContactsBeforeItRuns) {
+  const Outcome outcome = probe({"--list", "--set", "contact.stiffness=0.5"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("warning: path 'isotropic' is probed for moduli: with "
+                                     "contact.stiffness = 0.5"));
+  EXPECT_THAT(outcome.err, HasSubstr("use contact.stiffness = 10 (1.5 times the CPU time"));
 }
 
 }  // namespace

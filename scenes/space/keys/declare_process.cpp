@@ -212,7 +212,8 @@ const TableDeclaration<ContactSpec>& contact() {
     key_of(table, "stiffness").info.doc =
         "Contact stiffness, as a multiple of bulk modulus times face area divided by "
         "the volume of the element behind the face. The default is 10 if no material "
-        "yields; the run reports the resulting error in force.";
+        "yields. The elastic response of metals (springback, residual stress, moduli) needs 10 "
+        "as well; the run reports the resulting errors.";
     key_of(table, "skin").info.doc =
         "Skin distance of the contact search, as a fraction of the smallest face: how "
         "far surfaces may approach each other before the search is repeated. It "

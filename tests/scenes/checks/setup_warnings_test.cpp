@@ -21,6 +21,7 @@
 namespace pulvis {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -104,6 +105,34 @@ TEST(SetupWarnings, WallsBesideTheRoomOfThePackingAreTold) {
   EXPECT_THAT(warnings_of_25({"tool.right.point=[\"52 mm\", \"0 mm\"]"}),
               ElementsAre(HasSubstr(
                   "packing[0] is generated for a die 0.05 m wide (x = 0 to 0.05 m), but")));
+}
+
+// Springback, ejection, a state for others: in both dimensions, of soft contacts only, and not of scenes that only load.
+TEST(SetupWarnings, SoftContactsAreToldWhereTheElasticResponseCounts) {
+  const auto of = [](const std::string& file, const std::vector<std::string>& overrides = {}) {
+    const Scene scene = read_scene(paths::source_dir() + "/scenes/" + file, overrides);
+    std::vector<std::string> lines = scene.space
+                                         ? space::setup_warnings(scene, space::place_bodies(scene))
+                                         : setup_warnings(scene, place_bodies(scene));
+    std::erase_if(lines, [](const std::string& line) {
+      return line.find("elastic response") == std::string::npos;
+    });
+    return lines;
+  };
+  const std::vector<std::string> soft{"contact.stiffness=0.5"}, stiff{"contact.stiffness=10"};
+  for (const char* file : {"compaction/ejection-25.toml", "compaction-3d/tablet.toml"}) {
+    EXPECT_THAT(of(file, soft),
+                ElementsAre(AllOf(HasSubstr("stage 'unload' unloads the powder"),
+                                  HasSubstr("use contact.stiffness = 10 (1.5 times the CPU time, "
+                                            "2 to 3% more force in loading"))))
+        << file;
+    EXPECT_THAT(of(file, stiff), IsEmpty()) << file;
+  }
+  for (const char* file : {"compaction/regular-25.toml", "compaction-3d/unit-cell-sc.toml",
+                           "bonds/pulled-blocks.toml"})
+    EXPECT_THAT(of(file, soft), IsEmpty()) << file;
+  EXPECT_THAT(of("compaction/regular-25.toml", {"stage[0].keep_state=true"}),
+              ElementsAre(HasSubstr("keeps its state for other runs")));
 }
 
 TEST(LeverWarnings, AreOfDimensionsThatNoLeverHas) {

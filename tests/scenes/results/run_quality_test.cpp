@@ -90,7 +90,6 @@ TEST(RunQuality, AsksForSmallerFacesWithStifferContactsOfAPowder) {
               StartsWith("use contact.stiffness = 10, with smaller faces "));
 }
 
-// Kinetic energy is judged where the scene asks for it.
 TEST(RunQuality, HasTheLimitsOfTheScene) {
   auto changes = soft();
   changes.emplace_back("limits.penetration=0.4");
@@ -98,7 +97,75 @@ TEST(RunQuality, HasTheLimitsOfTheScene) {
   const auto figures = judged("basic/disc-platens.toml", changes);
   EXPECT_EQ(figure(figures, "Penetration").limit, 0.4);
   EXPECT_EQ(figure(figures, "Kinetic energy").limit, 0.5);
-  EXPECT_FALSE(figure(judged("basic/disc-platens.toml", soft()), "Kinetic energy").limit);
+  EXPECT_EQ(figure(judged("basic/disc-platens.toml", soft()), "Kinetic energy").limit, 0.1);
+}
+
+// The largest ratio under more than a tenth of the largest force, in both dimensions: at first touch it is larger.
+TEST(RunQuality, JudgesKineticEnergyUnderLoad) {
+  for (const char* scene : {"basic/disc-platens.toml", "compaction-3d/one-sphere.toml"}) {
+    Experiment e(scene, {"accuracy=draft", "output.samples=200"});
+    const std::string force = e.scene.space ? "tool/top/force_z" : "tool/top/force_y";
+    const std::string other = e.scene.space ? "tool/bottom/force_z" : "tool/bottom/force_y";
+    std::vector<std::pair<double, double>> samples;  // load, ratio
+    double largest = 0, at_first_touch = 0;
+    e.run(200, [&] {
+      const double load = std::max(std::abs(e.value(force)), std::abs(e.value(other)));
+      const double internal = e.results.energies().internal() + e.results.energies().contact;
+      largest = std::max(largest, load);
+      if (!(internal > 0)) return;
+      samples.emplace_back(load, e.results.energies().kinetic / internal);
+      at_first_touch = std::max(at_first_touch, samples.back().second);
+    });
+    double under_load = 0;
+    for (const auto& [load, ratio] : samples)
+      if (load > 0.1 * largest) under_load = std::max(under_load, ratio);
+    EXPECT_NEAR(e.results.kinetic_ratio() / under_load, 1, 1e-6) << scene;
+    EXPECT_LT(e.results.kinetic_ratio(), at_first_touch) << scene;
+    EXPECT_GT(e.results.kinetic_ratio(), 0) << scene;
+  }
+}
+
+// Ten times as fast as a hundredth of the strength allows, in both dimensions.
+TEST(RunQuality, TellsOfAPunchThatIsTooFast) {
+  const QualityFigure plane = figure(
+      judged("basic/disc-platens.toml",
+             {"accuracy=draft", "particle.disc.mesh.refinement=1", "stage.press.duration=20 us"}),
+      "Kinetic energy");
+  EXPECT_TRUE(plane.beyond()) << plane.value;
+  EXPECT_THAT(plane.line(), HasSubstr("% (limit 10%): move the tools more slowly"));
+  const QualityFigure space = figure(
+      judged("compaction-3d/one-sphere.toml", {"accuracy=draft", "stage.press.duration=20 us"}),
+      "Kinetic energy");
+  EXPECT_TRUE(space.beyond()) << space.value;
+}
+
+// Bodies that fly and collide are judged only if their scene says so.
+TEST(RunQuality, DoesNotJudgeTheKineticEnergyOfCollisions) {
+  EXPECT_FALSE(figure(judged("basic/oblique-impact.toml", {}), "Kinetic energy").limit);
+  EXPECT_FALSE(figure(judged("extreme/space-impact-100-m-s.toml", {}), "Kinetic energy").limit);
+  EXPECT_EQ(
+      figure(judged("basic/oblique-impact.toml", {"limits.kinetic_energy=1e6"}), "Kinetic energy")
+          .limit,
+      1e6);
+}
+
+// In both dimensions; stiff contacts are within the limit, and a run that only loads has no such figure.
+TEST(RunQuality, TellsWhatSpringsReleaseOnUnloading) {
+  using Changes = std::vector<std::string>;
+  for (const auto& [scene, changes, stiffness] :
+       {std::tuple("extreme/crush-to-half.toml", Changes{}, "10"),
+        {"compaction-3d/one-sphere.toml", {"accuracy=draft"}, "20"}}) {
+    const QualityFigure soft = figure(judged(scene, changes), release_figure);
+    EXPECT_EQ(soft.limit, most_in_springs);
+    EXPECT_TRUE(soft.beyond()) << scene << " " << soft.value;
+    EXPECT_THAT(soft.line(), HasSubstr("use contact.stiffness = 10 (1.5 times the CPU time"));
+    auto stiffer = changes;
+    stiffer.push_back(std::string("contact.stiffness=") + stiffness);
+    const QualityFigure stiff = figure(judged(scene, stiffer), release_figure);
+    EXPECT_FALSE(stiff.beyond()) << stiff.line();
+  }
+  for (const QualityFigure& one : judged("basic/disc-platens.toml", soft()))
+    EXPECT_NE(one.name, release_figure);
 }
 
 // The largest of a series over the run, not its last value.
