@@ -33,12 +33,13 @@ def test_a_friction_loop_is_that_of_the_program(coarse, scenes, program, read_su
     assert done.returncode == 0, done.stderr
     lever = coarse().simulation(folder=tmp_path / "python")
     told = []
-    lever.on_sample(lambda actions, row: told.append((actions, len(row))))
+    lever.on_sample(lambda one: told.append((one.actions, one.history["probe/force_z"][-1])))
     lever.run()
     assert lever.finished and lever.hash == read_summary(tmp_path / "program")["state_hash"]
     assert (tmp_path / "program/history.csv").read_text() == (tmp_path / "python/history.csv").read_text()
     assert len(told) == len(lever.history["actions"])
     assert np.array_equal([actions for actions, _ in told], lever.history["actions"])
+    assert np.array_equal([force for _, force in told], lever.history["probe/force_z"])
     loop = lever.loops[-1]
     assert loop["half_width"] > 0 and loop["load"] > 0
     assert lever.figures["loop/half_width"] == loop["half_width"]
@@ -51,7 +52,7 @@ def test_an_error_in_a_callback_ends_the_run_with_whole_files_and_it_is_resumed(
     lever = coarse().simulation(folder=tmp_path / "run")
 
     @lever.on_sample
-    def _(actions, row):
+    def _(lever):
         if len(lever.history["actions"]) == 5:
             raise ValueError("mine")
 
@@ -150,6 +151,6 @@ def test_an_unknown_series_is_told_with_those_that_there_are(coarse):
 
 def test_a_callback_takes_no_increments_of_its_own_lever(coarse):
     lever = coarse().simulation()
-    lever.on_sample(lambda actions, row: lever.step())
+    lever.on_sample(lambda lever: lever.step())
     with pytest.raises(pulvis.RunError, match="the lever is running"):
         lever.run()

@@ -45,7 +45,7 @@ import sys, threading, os, signal, pulvis
 scene = pulvis.Scene(sys.argv[1])
 lever = scene.simulation(folder=sys.argv[2])
 @lever.on_sample
-def _(actions, row):
+def _(lever):
     if len(lever.history["actions"]) == 3:
         os.kill(os.getpid(), signal.SIGINT)
 try:

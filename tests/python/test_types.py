@@ -82,7 +82,7 @@ def public_functions(body):
             yield from public_functions(one.body)
 
 
-@pytest.mark.parametrize("name", ["scene", "simulation", "columns", "afm", "packing", "meshes", "results", "study", "plot"])
+@pytest.mark.parametrize("name", ["scene", "simulation", "columns", "afm", "packing", "meshes", "frames", "results", "study", "plot"])
 def test_public_functions_have_types(name):
     functions = list(public_functions(ast.parse((PACKAGE / f"{name}.py").read_text()).body))
     assert functions

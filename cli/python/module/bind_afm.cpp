@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "cli/python/module/interruptible.hpp"
 #include "cli/python/module/module.hpp"
+#include "cli/python/module/process.hpp"
 #include "cli/python/module/python_run.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/session/afm_session.hpp"
@@ -29,11 +31,14 @@ namespace {
 class PythonLever {
  public:
   // Calibrates.
-  PythonLever(const LoadedScene& scene, int threads) {
+  PythonLever(const LoadedScene& scene, std::int64_t threads) {
+    if (threads < 0 || threads > 1024)
+      throw py::value_error(
+          fmt::format("threads: {}, allowed: 1 to 1024, or 0 for all processors", threads));
     if (!scene.scene.afm)
       throw SceneError({{scene.scene.file.string(), 1, 1, "", "family",
                          "a scene of particles has no lever, allowed: family = \"afm\""}});
-    const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
+    const int workers = threads > 0 ? static_cast<int>(threads) : tbb::info::default_concurrency();
     whole([&] {
       require_afm_memory(scene.scene);
       session_ = std::make_unique<AfmSession>(scene, workers);
@@ -42,6 +47,11 @@ class PythonLever {
   }
   // If the files were not completed, they are left as after an interruption.
   ~PythonLever() {
+    if (!process_.is_here()) {  // neither its files nor its threads are of this process
+      (void)session_.release();
+      (void)lock_.release();
+      return;
+    }
     try {
       if (lock_ != nullptr && !is_finished_) close();
     } catch (const std::exception&) {  // disk full: the data written before is complete
@@ -50,34 +60,43 @@ class PythonLever {
   PythonLever(const PythonLever&) = delete;
   PythonLever& operator=(const PythonLever&) = delete;
 
-  void on_sample(const py::function& f) { sample_calls_.push_back(f); }
-  void on_frame(const py::function& f) { frame_calls_.push_back(f); }
+  void on_sample(const py::function& f) {
+    require_unfinished();
+    sample_calls_.push_back(f);
+  }
+  void on_frame(const py::function& f) {
+    require_unfinished();
+    frame_calls_.push_back(f);
+  }
   void every(std::int64_t increments, const py::function& f) {
     if (increments < 1)
       throw py::value_error(fmt::format("every: {} increments, allowed: >= 1", increments));
+    require_unfinished();
     every_calls_.emplace_back(increments, f);
   }
 
   void write_to(const std::string& folder, bool overwrite, double checkpoint_every,
                 std::int64_t checkpoint_steps) {
+    process_.require_here();
     if (folder.empty() || lock_ != nullptr || is_finished_) return;
     require_free_folder(session_->loaded(), folder);
     lock_ = std::unique_ptr<FolderLock>(new FolderLock(open_run_folder(folder, overwrite)));
+    process_.hold(folder);
     save_scene(folder, session_->loaded());
     session_->write_to(folder, checkpoints(checkpoint_every, checkpoint_steps));
   }
   // Runs until its target is reached, it is stopped, or the programme ends.
   void go(const AfmSession::Target& target) {
+    process_.require_here();
     if (is_going_) throw NotNow("the lever is running; allowed: after the call has returned");
-    if (is_finished_)
-      throw NotNow(
-          "the lever has already run; allowed: create another one with scene.simulation()");
+    require_unfinished();
     whole([&] { session_->go(target); });
     if (session_->over()) finish();
   }
   void step(std::int64_t count) {
     if (count < 0) throw py::value_error(fmt::format("step: {} increments, allowed: >= 0", count));
-    go({.increment = std::max<std::int64_t>(session_->increment(), 0) + count});
+    const std::int64_t made = std::max<std::int64_t>(session().increment(), 0);
+    go({.increment = made + std::min(count, std::numeric_limits<std::int64_t>::max() - made)});
   }
   void run_until(double actions) {
     if (!(actions >= 0))
@@ -85,7 +104,9 @@ class PythonLever {
     go({.actions = actions});
   }
   void stop() { stop_ = true; }
+  // In a fork of its process it does nothing.
   void close() {
+    if (!process_.is_here()) return;
     if (is_going_) throw NotNow("a callback cannot close its own lever");
     finish();
   }
@@ -93,6 +114,7 @@ class PythonLever {
   void resume(const std::string& folder, OpenFolder stopped, double checkpoint_every) {
     session_->write_to(folder, checkpoints(checkpoint_every, 0));
     lock_ = std::move(stopped.lock);
+    process_.hold(folder);
     whole([&] { session_->begin(stopped.run.checkpoint.get()); });
   }
   static CheckpointOptions checkpoints(double every, std::int64_t steps) {
@@ -105,10 +127,20 @@ class PythonLever {
     return options;
   }
 
-  const AfmSession& session() const { return *session_; }
+  const AfmSession& session() const {
+    process_.require_here();
+    return *session_;
+  }
   bool is_finished() const { return is_finished_; }
 
  private:
+  void require_unfinished() const {
+    process_.require_here();
+    if (is_finished_)
+      throw NotNow(
+          "the lever has already run; allowed: create another one with scene.simulation()");
+  }
+
   // Runs without the GIL, until Ctrl-C is pressed.
   template <class Work>
   void whole(const Work& work) {
@@ -137,19 +169,20 @@ class PythonLever {
   void listen(const Interruptible& interruptible, std::exception_ptr& thrown) {
     SessionHooks& hooks = session_->hooks;
     hooks.stop = [&] { return stop_ || interruptible.asked() || thrown != nullptr; };
-    const auto guarded = [&thrown](const auto& call) {
+    const auto guarded = [this, &thrown](const auto& call) {
       if (thrown) return;
       py::gil_scoped_acquire gil;
       try {
         call();
-      } catch (...) {  // the increment is complete: the run stops after it
+        process_.require_here();  // the callback may have forked
+      } catch (...) {             // the increment is complete: the run stops after it
         thrown = std::current_exception();
       }
     };
     if (!sample_calls_.empty())
-      hooks.on_sample = [this, guarded](double time, const std::vector<double>& row) {
+      hooks.on_sample = [this, guarded](double, const std::vector<double>&) {
         guarded([&] {
-          for (const py::function& f : std::vector(sample_calls_)) f(time, row);
+          for (const py::function& f : std::vector(sample_calls_)) f();
         });
       };
     if (!frame_calls_.empty())
@@ -164,7 +197,7 @@ class PythonLever {
   }
 
   void finish() {
-    if (is_finished_) return;
+    if (is_finished_ || !process_.is_here()) return;
     is_finished_ = true;
     {
       py::gil_scoped_release others_may_run;
@@ -172,6 +205,7 @@ class PythonLever {
       session_->finish();
     }
     lock_ = nullptr;
+    process_.release();
     sample_calls_.clear();
     frame_calls_.clear();
     every_calls_.clear();
@@ -180,6 +214,7 @@ class PythonLever {
       throw RunFailure(failure);
   }
 
+  OwnProcess process_{"lever"};
   std::unique_ptr<AfmSession> session_;
   std::unique_ptr<FolderLock> lock_;
   std::vector<py::function> sample_calls_, frame_calls_;
@@ -284,7 +319,7 @@ py::list verdicts_of_lever(const PythonLever& lever) {
 void bind_afm(py::module_& core) {
   using Self = const PythonLever&;
   py::class_<PythonLever, std::shared_ptr<PythonLever>>(core, "Lever")
-      .def(py::init<const LoadedScene&, int>(), py::arg("scene"), py::arg("threads"))
+      .def(py::init<const LoadedScene&, std::int64_t>(), py::arg("scene"), py::arg("threads"))
       .def("write_to", &PythonLever::write_to, py::arg("folder"), py::arg("overwrite"),
            py::arg("checkpoint_every"), py::arg("checkpoint_steps"))
       .def("run", [](PythonLever& lever) { lever.go({}); })
@@ -314,7 +349,7 @@ void bind_afm(py::module_& core) {
   core.def("afm_series", &series_of_levers);
   core.def(
       "resume_lever",
-      [](const std::string& folder, int threads, double checkpoint_every) {
+      [](const std::string& folder, std::int64_t threads, double checkpoint_every) {
         OpenFolder stopped = open_stopped(folder, true);
         auto lever = std::make_shared<PythonLever>(stopped.run.scene, threads);
         lever->resume(folder, std::move(stopped), checkpoint_every);

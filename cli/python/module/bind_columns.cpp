@@ -11,6 +11,7 @@
 #include <set>
 #include <string_view>
 
+#include "cli/python/module/limits.hpp"
 #include "cli/python/module/module.hpp"
 #include "cli/python/module/python_run.hpp"
 #include "components/shape.hpp"
@@ -19,14 +20,6 @@
 namespace pulvis::python {
 namespace py = pybind11;
 namespace {
-
-// Columns that may be modified between two steps, because nothing caches them: stored energies, contacts and the stable
-// time step are recomputed from them, or do not depend on them.
-const std::set<std::string>& writable_columns() {
-  static const std::set<std::string> names{"node.velocity", "particle.yield_stress",
-                                           "particle.hardening_modulus", "particle.mass_damping"};
-  return names;
-}
 
 bool is_laned(const ColumnBase& column) {
   static const std::set<std::string> entities{Node::name, BoundaryNode::name, Element::name,
@@ -82,12 +75,14 @@ const ColumnBase& readable_column(PythonRun& run, const std::string& name) {
 
 void require_writable(PythonRun& run, const ColumnBase& column) {
   const std::string name = full_name(column);
-  const std::set<std::string>& allowed = writable_columns();
-  if (!allowed.contains(name))
+  if (writable_column(name) == nullptr) {
+    std::vector<std::string> allowed;
+    for (const WritableColumn& one : writable_columns) allowed.emplace_back(one.name);
     throw NotNow(
         fmt::format("column '{}' cannot be changed: contacts, energies or the stable time "
                     "step would no longer be consistent with it; allowed: {}",
-                    name, listed({allowed.begin(), allowed.end()})));
+                    name, listed(allowed)));
+  }
   run.session_between_steps(("column '" + name + "'").c_str());
   if (name == "node.velocity") return;
   for (const MaterialSpec& material : run.session().loaded().scene.materials)
@@ -115,8 +110,7 @@ py::ssize_t rows_of_chunk(const ColumnBase& column, int chunk) {
 }
 
 // [rows, numbers] of the particle with this number in the scene.
-py::array of_particle(const std::shared_ptr<PythonRun>& run, const std::string& name, int number,
-                      bool writable) {
+py::array of_particle(const std::shared_ptr<PythonRun>& run, const std::string& name, int number) {
   const ColumnBase& column = readable_column(*run, name);
   const Bodies& bodies = world_of(*run).resource<Bodies>();
   if (!is_laned(column))
@@ -124,14 +118,13 @@ py::array of_particle(const std::shared_ptr<PythonRun>& run, const std::string& 
   if (number < 0 || number >= bodies.particles())
     throw py::index_error(
         fmt::format("particle {}, allowed: 0 to {}", number, bodies.particles() - 1));
-  if (writable) require_writable(*run, column);
   const ChunkLane at(bodies.slot_of_number[static_cast<std::size_t>(number)]);
   const py::ssize_t size = bytes_of_value(column);
   return array_over(
       column, py::cast(run),
       offset_of_chunk(column, at.chunk.index) + static_cast<std::size_t>(at.lane * size),
       {rows_of_chunk(column, at.chunk.index), column.count},
-      {column.count * lane_count * size, lane_count * size}, writable);
+      {column.count * lane_count * size, lane_count * size}, false);
 }
 
 py::array_t<std::int32_t> numbers_in(const Bodies& bodies, int chunk, int chunks) {
@@ -168,6 +161,38 @@ py::list blocks_of(const std::shared_ptr<PythonRun>& run, const std::string& nam
   return blocks;
 }
 
+// A block as blocks_of returns it, to be written in the place of `before`: throws OutOfRange for the first new value
+// that a scene would refuse.
+void check_block(PythonRun& run, const std::string& name, const py::array_t<std::int32_t>& numbers,
+                 const py::array_t<double>& now, const py::array_t<double>& before) {
+  const ColumnBase& column = find_column(run, name);
+  const WritableColumn& writable = *writable_column(full_name(column));
+  const Scene& scene = run.session().loaded().scene;
+  const Bodies& bodies = world_of(run).resource<Bodies>();
+  const auto number_of = numbers.unchecked<2>();
+  const auto value = now.unchecked<4>(), old = before.unchecked<4>();
+  for (py::ssize_t c = 0; c < value.shape(0); ++c)
+    for (py::ssize_t lane = 0; lane < value.shape(1); ++lane) {
+      const int number = number_of(c, lane);
+      if (number < 0) continue;
+      const int slot = bodies.slot_of_number[static_cast<std::size_t>(number)];
+      const schema::KeyInfo limits =
+          limits_of(writable, scene, bodies.slots[static_cast<std::size_t>(slot)].material);
+      for (py::ssize_t row = 0; row < value.shape(2); ++row)
+        for (py::ssize_t k = 0; k < value.shape(3); ++k) {
+          const double given = value(c, lane, row, k);
+          if (given == old(c, lane, row, k)) continue;
+          const std::string fault = fault_of(given, limits);
+          if (!fault.empty())
+            throw OutOfRange(fmt::format(
+                "column '{}': particle {}{}: {}; nothing of what was written is kept",
+                full_name(column), number,
+                column.entity == Particle::name ? "" : fmt::format(", row {}, number {}", row, k),
+                fault));
+        }
+    }
+}
+
 // [rows, numbers] of columns not of particles: a view, or a copy for rows that come and go.
 py::array rows_of_column(const std::shared_ptr<PythonRun>& run, const std::string& name) {
   const ColumnBase& column = readable_column(*run, name);
@@ -189,7 +214,7 @@ py::dict info_of(const ColumnBase& column) {
   one["bytes"] = column.bytes();
   one["of_particles"] = is_laned(column);
   one["shares_memory"] = !comes_and_goes(column);
-  one["writable"] = writable_columns().contains(full_name(column));
+  one["writable"] = writable_column(full_name(column)) != nullptr;
   one["only_at_samples"] = column.has_transient();
   return one;
 }
@@ -210,9 +235,9 @@ void bind_columns(py::module_& core) {
            [](PythonRun& r, const std::string& name) { return info_of(find_column(r, name)); })
       .def_property_readonly(
           "particles", [](PythonRun& r) { return world_of(r).resource<Bodies>().particles(); })
-      .def("column_of_particle", &of_particle, py::arg("name"), py::arg("number"),
-           py::arg("writable") = false)
+      .def("column_of_particle", &of_particle, py::arg("name"), py::arg("number"))
       .def("column_blocks", &blocks_of, py::arg("name"), py::arg("writable") = false)
+      .def("check_block", &check_block)
       .def("column_rows", &rows_of_column)
       .def("written",
            [](PythonRun& r, const std::string& name) { r.session().drive("column " + name); });

@@ -1,4 +1,5 @@
 #include "cli/python/module/module.hpp"
+#include "cli/python/module/process.hpp"
 #include "cli/summary.hpp"
 #include "engine/instruction_set.hpp"
 
@@ -16,4 +17,6 @@ PYBIND11_MODULE(_core, core) {
   pulvis::python::bind_columns(core);
   pulvis::python::bind_afm(core);
   pulvis::python::bind_packing(core);
+  py::module_::import("os").attr("register_at_fork")(
+      py::arg("after_in_child") = py::cpp_function(&pulvis::python::let_go_of_held_files));
 }

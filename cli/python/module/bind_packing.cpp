@@ -1,4 +1,5 @@
 // Packings and meshes on their own, without a run.
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -72,8 +73,6 @@ py::dict packing_in_space(const Scene& scene) {
 
 py::dict mesh_in_space(const Scene& scene, int number) {
   const auto& particles = scene.space->particles;
-  if (number < 0 || static_cast<std::size_t>(number) >= particles.size())
-    throw py::index_error("there is no particle class with this number");
   const auto& particle = particles[static_cast<std::size_t>(number)];
   const space::Shape shape = space::make_shape(particle);
   auto nodes = table_of<double>(shape.nodes.size(), 3);
@@ -132,13 +131,15 @@ py::dict packing_of(const LoadedScene& loaded) {
 }
 
 // The undeformed mesh of a particle class, in its body frame: m.
-py::dict mesh_of_class(const LoadedScene& loaded, int number) {
+py::dict mesh_of_class(const LoadedScene& loaded, std::int64_t index) {
   require_particles(loaded);
   const Scene& scene = loaded.scene;
+  const std::size_t classes =
+      scene.space ? scene.space->particles.size() : scene.particles.size() + scene.grains.size();
+  if (index < 0 || static_cast<std::size_t>(index) >= classes)
+    throw py::index_error(fmt::format("particle: class {}, allowed: 0 to {}", index, classes - 1));
+  const int number = static_cast<int>(index);
   if (scene.space) return mesh_in_space(scene, number);
-  if (number < 0 ||
-      static_cast<std::size_t>(number) >= scene.particles.size() + scene.grains.size())
-    throw py::index_error("there is no particle class with this number");
   BodySpec body;
   body.particle = number;
   const ParticleSpec& particle = scene.class_of(body);

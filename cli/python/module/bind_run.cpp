@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,14 +18,16 @@ namespace pulvis::python {
 namespace py = pybind11;
 namespace {
 
-PythonRun::Options options_of(const std::string& folder, int threads, bool overwrite,
+PythonRun::Options options_of(const std::string& folder, std::int64_t threads, bool overwrite,
                               double checkpoint_every, std::int64_t checkpoint_steps) {
   if (threads < 0 || threads > 1024)
     throw py::value_error(
         fmt::format("threads: {}, allowed: 1 to 1024, or 0 for all processors", threads));
   if (!(checkpoint_every > 0))
     throw py::value_error(fmt::format("checkpoint_every: {}, allowed: > 0 s", checkpoint_every));
-  return {folder, threads, overwrite, checkpoint_every, checkpoint_steps};
+  if (checkpoint_steps < 0)
+    throw py::value_error(fmt::format("checkpoint_steps: {}, allowed: >= 0", checkpoint_steps));
+  return {folder, static_cast<int>(threads), overwrite, checkpoint_every, checkpoint_steps};
 }
 
 bool run_until(PythonRun& run, double time) {
@@ -34,7 +37,9 @@ bool run_until(PythonRun& run, double time) {
 
 bool take_steps(PythonRun& run, std::int64_t count) {
   if (count < 0) throw py::value_error(fmt::format("step: {} steps, allowed: >= 0", count));
-  return run.go({.step = run.session().clock().step + count});
+  const std::int64_t taken = run.session().clock().step;
+  return run.go(
+      {.step = taken + std::min(count, std::numeric_limits<std::int64_t>::max() - taken)});
 }
 
 // Name, unit and meaning of every series except time.
@@ -108,7 +113,7 @@ void bind_course(RunClass& run) {
       .def("on_tick", &PythonRun::on_tick)
       .def("drive_tool", [](PythonRun& r, const std::string& name, const Point3& velocity) {
         Session& session = r.session_between_steps("the drive of a tool");
-        drive_tool(session.simulation(), name, velocity);
+        drive_tool(session.simulation(), session.loaded().scene, name, velocity);
         session.drive("tool " + name);
       });
 }
@@ -117,7 +122,7 @@ void bind_servos(RunClass& run) {
   run.def("drive_servo",
           [](PythonRun& r, const std::string& name, double force) {
             Session& session = r.session_between_steps("the force of a servo");
-            drive_servo(session.simulation(), name, force);
+            drive_servo(session.simulation(), session.loaded().scene, name, force);
             session.drive("servo of tool " + name);
           })
       .def("servo",
@@ -153,13 +158,19 @@ void bind_state(RunClass& run) {
           "hash", [](PythonRun& r) { return state_hash_text(r.session().simulation().world()); });
 }
 
+void raise_error(const char* name, const char* message) {
+  const py::object type = py::module_::import("pulvis.errors").attr(name);
+  PyErr_SetObject(type.ptr(), type(message).ptr());
+}
+
 // For requests that are not allowed at this time or for this object.
 void translate_refusal(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
+  } catch (const OutOfRange& error) {
+    raise_error("RangeError", error.what());
   } catch (const NotNow& error) {
-    const py::object type = py::module_::import("pulvis.errors").attr("RunError");
-    PyErr_SetObject(type.ptr(), type(error.what()).ptr());
+    raise_error("RunError", error.what());
   }
 }
 
@@ -168,7 +179,7 @@ void translate_refusal(std::exception_ptr thrown) {
 void bind_run(py::module_& core) {
   py::register_exception_translator(translate_refusal);
   RunClass run(core, "Run");
-  run.def(py::init([](const LoadedScene& scene, const std::string& folder, int threads,
+  run.def(py::init([](const LoadedScene& scene, const std::string& folder, std::int64_t threads,
                       bool overwrite, double checkpoint_every, std::int64_t checkpoint_steps) {
             return std::make_shared<PythonRun>(
                 scene, options_of(folder, threads, overwrite, checkpoint_every, checkpoint_steps));
@@ -177,7 +188,7 @@ void bind_run(py::module_& core) {
           py::arg("checkpoint_every") = 60.0, py::arg("checkpoint_steps") = 0);
   run.def_static(
       "resume",
-      [](const std::string& folder, int threads, double checkpoint_every) {
+      [](const std::string& folder, std::int64_t threads, double checkpoint_every) {
         return std::make_shared<PythonRun>(folder,
                                            options_of(folder, threads, false, checkpoint_every, 0));
       },

@@ -28,6 +28,7 @@ PythonRun::PythonRun(const LoadedScene& scene, const Options& options)
     py::gil_scoped_release others_may_run;
     open_ = open_session(scene, session_options(options, threads_), options.overwrite);
   }
+  if (!options.folder.empty()) process_.hold(options.folder);
   listen();
 }
 
@@ -43,11 +44,17 @@ PythonRun::PythonRun(const std::string& folder, const Options& options)
                                               std::make_unique<Simulation>(loaded.scene, threads_));
     open_.session->go_on_from(*stopped.run.checkpoint);
   }
+  process_.hold(folder);
   listen();
 }
 
 // If the files were not completed, they are left as after an interruption.
 PythonRun::~PythonRun() {
+  if (!process_.is_here()) {  // neither its files nor its threads are of this process
+    (void)open_.session.release();
+    (void)open_.lock.release();
+    return;
+  }
   try {
     py::gil_scoped_release others_may_run;
     if (!is_closed_ && open_.session) leave_whole();
@@ -79,26 +86,35 @@ void PythonRun::call(const py::function& f) {
     ~Done() { flag = false; }
   } done{is_calling_};
   f();
+  process_.require_here();  // the callback may have forked
+}
+
+void PythonRun::require_open() const {
+  if (is_closed_) throw NotNow("the simulation is closed");
 }
 
 void PythonRun::on_sample(const py::function& f) {
   session();
+  require_open();
   sample_calls_.push_back(f);
 }
 
 void PythonRun::on_frame(const py::function& f) {
   session();
+  require_open();
   frame_calls_.push_back(f);
 }
 
 void PythonRun::every(std::int64_t steps, const py::function& f) {
   if (steps < 1) throw py::value_error(fmt::format("every: {} steps, allowed: >= 1", steps));
   if (is_calling_) throw NotNow("every: a callback cannot register another callback of this kind");
+  Session& run = session();
+  require_open();
   auto shared = std::shared_ptr<py::function>(new py::function(f), [](py::function* held) {
     py::gil_scoped_acquire gil;
     delete held;
   });
-  session().hooks.every.emplace_back(steps, [this, shared] {
+  run.hooks.every.emplace_back(steps, [this, shared] {
     py::gil_scoped_acquire gil;
     call(*shared);
   });
@@ -116,6 +132,7 @@ void PythonRun::on_tick(const py::object& f) {
 }
 
 Session& PythonRun::session() {
+  process_.require_here();
   if (is_going_ && !(is_calling_ && who_ == std::this_thread::get_id()))
     throw NotNow(
         "the simulation is running in another thread; allowed: in its callbacks, or after the call "
@@ -125,6 +142,7 @@ Session& PythonRun::session() {
 
 Session& PythonRun::session_between_steps(const char* what) {
   Session& run = session();
+  require_open();
   if (!is_going_) run.move();  // an exception in a callback left it at a sample
   if (run.observed())
     throw NotNow(
@@ -180,7 +198,7 @@ void PythonRun::fail(const std::string& message, const Interruptible& interrupti
 // Writes a checkpoint and leaves the files as after an interruption. The run may still continue.
 void PythonRun::leave_whole() {
   Session& run = *open_.session;
-  if (!outcome_.empty() || !run.open()) return;
+  if (!process_.is_here() || !outcome_.empty() || !run.open()) return;
   run.write_checkpoint();
   run.finish("interrupted");
 }
@@ -188,7 +206,7 @@ void PythonRun::leave_whole() {
 bool PythonRun::go(const Session::Target& target) {
   Session& run = session();
   if (is_going_) throw NotNow("a callback cannot take steps of its own simulation");
-  if (is_closed_) throw NotNow("the simulation is closed");
+  require_open();
   if (!outcome_.empty()) return true;
   Interruptible interruptible;
   stop_ = false;
@@ -225,13 +243,17 @@ void PythonRun::checkpoint() {
 }
 
 void PythonRun::close() {
+  if (!process_.is_here()) return;
   session();
   if (is_going_) throw NotNow("a callback cannot close its own simulation");
   if (is_closed_) return;
-  py::gil_scoped_release others_may_run;
-  leave_whole();
-  open_.lock = nullptr;
+  {
+    py::gil_scoped_release others_may_run;
+    leave_whole();
+    open_.lock = nullptr;
+  }
   is_closed_ = true;
+  process_.release();
 }
 
 }  // namespace pulvis::python

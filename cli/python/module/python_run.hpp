@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "cli/python/module/process.hpp"
 #include "cli/session/open_session.hpp"
 
 namespace pulvis::python {
@@ -19,6 +20,12 @@ namespace pulvis::python {
 class NotNow : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// A value out of its range: pulvis.RangeError.
+class OutOfRange : public NotNow {
+ public:
+  using NotNow::NotNow;
 };
 
 class PythonRun {
@@ -40,6 +47,7 @@ class PythonRun {
   bool go(const Session::Target& target);
   void stop() { stop_ = true; }  // from a callback or another thread: stops after this step
   void checkpoint();
+  // In a fork of its process it does nothing.
   void close();
 
   void on_sample(const pybind11::function& call);
@@ -47,7 +55,7 @@ class PythonRun {
   void every(std::int64_t steps, const pybind11::function& call);
   void on_tick(const pybind11::object& call);  // None: removes it
 
-  // Throws NotNow while another thread takes steps.
+  // Throws NotNow while another thread takes steps, and in a fork of its process.
   Session& session();
   // For changes of state: between two steps, in `every` or when no `run` call is active.
   Session& session_between_steps(const char* what);
@@ -58,6 +66,7 @@ class PythonRun {
 
  private:
   void listen();
+  void require_open() const;
   void call(const pybind11::function& f);
   Session::Halt halt_of(const Session::Target& target, const class Interruptible& interruptible);
   void complete(const class Interruptible& interruptible);
@@ -65,6 +74,7 @@ class PythonRun {
   void leave_whole();
   void forget_calls();
 
+  OwnProcess process_{"simulation"};
   int threads_;
   OpenSession open_;
   std::string outcome_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cli/python/module/limits.hpp"
 #include "cli/python/module/python_run.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
@@ -29,16 +30,21 @@ void require_free(const World& world, int tool, const std::string& name) {
           world.resource<ToolProgram>().stages.at(static_cast<std::size_t>(servo.stage)).name));
 }
 
+void require_velocity(const Scene& scene, const std::string& name, const Point3& velocity) {
+  schema::KeyInfo limits = declared_key(scene, "body", "velocity");
+  limits.kind = schema::Kind::quantity;
+  for (const double v : velocity)
+    if (const std::string fault = fault_of(v, limits); !fault.empty())
+      throw OutOfRange(fmt::format("tool {}: velocity: {}", name, fault));
+}
+
 void require_seen(const World& world, const std::string& name, const Point3& velocity) {
   const double speed = std::hypot(velocity[0], velocity[1], velocity[2]);
-  // hypot may hide a NaN.
-  if (!std::ranges::all_of(velocity, [](double v) { return std::isfinite(v); }))
-    throw NotNow(fmt::format("tool {}: the velocity is not finite", name));
   if (!world.has<ContactRules>()) return;
   const double fastest =
       seen_in_a_step * world.resource<ContactRules>().thinnest / world.resource<Clock>().dt;
   if (speed > fastest)
-    throw NotNow(
+    throw OutOfRange(
         fmt::format("tool {}: {:.6g} m/s, allowed: <= {:.6g} m/s, otherwise contacts could be "
                     "missed within a step",
                     name, speed, fastest));
@@ -83,11 +89,13 @@ std::vector<std::string> tool_names(Simulation& simulation) {
                                   : std::vector<std::string>();
 }
 
-void drive_tool(Simulation& simulation, const std::string& name, const Point3& velocity) {
+void drive_tool(Simulation& simulation, const Scene& scene, const std::string& name,
+                const Point3& velocity) {
   World& world = simulation.world();
   const int tool = index_of(simulation, name);
   require_free(world, tool, name);
   require_seen(world, name, velocity);
+  require_velocity(scene, name, velocity);
   auto& program = world.resource<ToolProgram>();
   const Clock& clock = simulation.clock();
   const Point3 now = tool_position_at(program, tool, clock.time);
@@ -130,13 +138,13 @@ ServoView servo_view(Simulation& simulation, const std::string& name) {
   return {world.column<ServoForce>().values()[2 * servo.tool], servo.direction, holds};
 }
 
-void drive_servo(Simulation& simulation, const std::string& name, double force) {
+void drive_servo(Simulation& simulation, const Scene& scene, const std::string& name,
+                 double force) {
   const int tool = require_servo(simulation, name).tool;
-  if (!(force >= 0) || !std::isfinite(force))
-    throw NotNow(fmt::format(
-        "tool {}: a force of {:.6g} N, allowed: finite and >= 0 N, in the direction in which its "
-        "servo pushes",
-        name, force));
+  const std::string fault = fault_of(force, declared_key(scene, "stage.servo", "force"));
+  if (!fault.empty())
+    throw OutOfRange(
+        fmt::format("tool {}: force: {}, in the direction in which its servo pushes", name, fault));
   auto& driven = simulation.world().resource<ToolServos>().driven;
   std::erase_if(driven, [&](const auto& one) { return one.tool == tool; });
   driven.push_back({tool, force});

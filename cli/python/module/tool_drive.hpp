@@ -12,8 +12,10 @@ namespace pulvis::python {
 
 std::vector<std::string> tool_names(Simulation& simulation);
 // Between two steps. Replaces the tool's prescribed motion from t_n on; its position and velocity up to then stay.
-// Throws NotNow for a tool with a servo or compliant drive, and for a velocity too high for contact detection.
-void drive_tool(Simulation& simulation, const std::string& name, const Point3& velocity);
+// Throws NotNow for a tool with a servo or compliant drive, and OutOfRange for a velocity that no
+// particle of a scene may have, or that is too high for contact detection.
+void drive_tool(Simulation& simulation, const Scene& scene, const std::string& name,
+                const Point3& velocity);
 
 // Tools with a force servo in at least one stage.
 std::vector<std::string> servo_names(Simulation& simulation);
@@ -24,7 +26,8 @@ struct ServoView {
 };
 ServoView servo_view(Simulation& simulation, const std::string& name);
 // Between two steps: from the end of the next step on, the target force is `force`, in N, in every stage that has the
-// servo, without a ramp. Throws NotNow for a tool without a servo, and for a force that no servo can apply.
-void drive_servo(Simulation& simulation, const std::string& name, double force);
+// servo, without a ramp. Throws NotNow for a tool without a servo, and OutOfRange for a force that a scene may not ask
+// for.
+void drive_servo(Simulation& simulation, const Scene& scene, const std::string& name, double force);
 
 }  // namespace pulvis::python

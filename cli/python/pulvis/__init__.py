@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:  # resolves the lazy names for type checkers and editors
     from pulvis.afm import Lever as Lever
     from pulvis.columns import Column as Column
-    from pulvis.errors import PulvisError as PulvisError, RunError as RunError, SceneError as SceneError
+    from pulvis.errors import (PulvisError as PulvisError, RangeError as RangeError, RunError as RunError,
+                               SceneError as SceneError)
     from pulvis.meshes import Mesh as Mesh, SolidMesh as SolidMesh, mesh as mesh
     from pulvis.packing import Packing as Packing, SolidPacking as SolidPacking, pack as pack
     from pulvis.results import Run as Run, open as open
@@ -39,6 +40,7 @@ _HOMES = {
     "PulvisError": "pulvis.errors",
     "SceneError": "pulvis.errors",
     "RunError": "pulvis.errors",
+    "RangeError": "pulvis.errors",
 }
 
 __all__ = sorted(_HOMES)

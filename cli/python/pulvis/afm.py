@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pulvis import _core
+from pulvis.arguments import checked_class
 from pulvis.errors import Named
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from pulvis.scene import Scene
 
 
+@checked_class
 class Lever:
     """The lever of a scene of the family "afm". `Scene.simulation` creates and calibrates it.
 
@@ -56,7 +58,7 @@ class Lever:
 
         A scan with trace and retrace is one action; the trace ends halfway. Returns the lever.
         """
-        return self._go(lambda: self._core.run_until(float(actions)))
+        return self._go(lambda: self._core.run_until(actions))
 
     def step(self, count: int = 1) -> Lever:
         """Takes `count` increments, or fewer if the programme ends first. Returns the lever."""
@@ -82,10 +84,9 @@ class Lever:
         self.close()
 
     # ---- callbacks ----------------------------------------------------------------------------------------------
-    def on_sample(self, call: Callable[[float, dict[str, float]], Any]) -> Callable[[float, dict[str, float]], Any]:
-        """Calls ``call(actions, row)`` after every increment; row is a dict of the series. Returns `call`."""
-        names = [name for name, _, _ in _core.afm_series()]
-        self._core.on_sample(lambda time, row: call(time, dict(zip(names, row))))
+    def on_sample(self, call: Callable[[Lever], Any]) -> Callable[[Lever], Any]:
+        """Calls ``call(lever)`` after every increment: its values are the last of `history`. Returns `call`."""
+        self._core.on_sample(self._bound(call))
         return call
 
     def on_frame(self, call: Callable[[Lever], Any]) -> Callable[[Lever], Any]:

@@ -1,4 +1,7 @@
-"""Exceptions: every error of the package is a PulvisError."""
+"""Exceptions: what is wrong with a scene or a run is a PulvisError.
+
+Arguments of a wrong type, names and numbers that there are not raise Python's own TypeError, KeyError and IndexError.
+"""
 
 
 class PulvisError(Exception):
@@ -32,6 +35,10 @@ class SceneError(PulvisError):
 
 class RunError(PulvisError):
     """A run failed, or the request does not apply to it."""
+
+
+class RangeError(RunError, ValueError):
+    """A value given to a simulation is out of the range that the scene language allows."""
 
 
 class Named(dict):

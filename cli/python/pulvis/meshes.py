@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pulvis import _core
+from pulvis.arguments import checked
 
 if TYPE_CHECKING:
     from pulvis.scene import Scene
@@ -69,6 +70,7 @@ def made(found: dict[str, Any]) -> Mesh | SolidMesh:
     return Mesh(**{key: value for key, value in found.items() if key != "grains"})
 
 
+@checked
 def mesh(scene: Scene, particle: str | int = 0) -> Mesh | SolidMesh:
     """The mesh of a particle class of a scene, by name or index: `Mesh`, or `SolidMesh` in three dimensions.
 

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pulvis import _core
+from pulvis.arguments import checked, checked_class
 from pulvis.meshes import refuse_grains
 
 if TYPE_CHECKING:
     from pulvis.scene import Scene
 
 
+@checked_class
 @dataclass(frozen=True)
 class Packing:
     """The placed particles, in order of their numbers.
@@ -54,6 +56,7 @@ class Packing:
             out.write(self.table)
 
 
+@checked_class
 @dataclass(frozen=True)
 class SolidPacking:
     """The placed particles in three dimensions, in order of their numbers.
@@ -93,6 +96,7 @@ class SolidPacking:
             out.write(self.table)
 
 
+@checked
 def pack(scene: Scene) -> Packing | SolidPacking:
     """The packing of a scene: `Packing`, or `SolidPacking` in three dimensions."""
     made = _core.packing(scene._core)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from pulvis import _core
+from pulvis.arguments import checked_class, utf8
 from pulvis.errors import RunError
 from pulvis.toml_text import toml_text, toml_value
 
@@ -15,6 +16,7 @@ from pulvis.toml_text import toml_text, toml_value
 NO_FILE = "<python>"
 
 
+@checked_class
 class Scene:
     """A scene of the scene language (docs/scene.md), read and checked.
 
@@ -39,13 +41,13 @@ class Scene:
             raise TypeError(f"overrides: a {type(overrides).__name__}, allowed: a dict of paths and values")
         given = dict(overrides or {})
         given.update({key.replace("__", "."): value for key, value in keys.items()})
-        words = [f"{path}={toml_value(value)}" for path, value in given.items()]
+        words = [utf8("overrides", f"{path}={toml_value(value)}") for path, value in given.items()]
         if isinstance(source, (str, os.PathLike)):
             self._core = _core.load_scene(os.fspath(source), words)
         elif not isinstance(source, dict) and not dataclasses.is_dataclass(source):
             raise TypeError(f"scene: a {type(source).__name__}, allowed: a path, a dict or a dataclass")
         else:
-            self._core = _core.load_scene_text(toml_text(as_tables(source)), NO_FILE, words)
+            self._core = _core.load_scene_text(utf8("scene", toml_text(as_tables(source))), NO_FILE, words)
         self._source, self._given = source, given
 
     @property

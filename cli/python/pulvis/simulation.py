@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pulvis import _core
+from pulvis.arguments import Quantity, checked, checked_class, in_si, shown
 from pulvis.columns import Column, ColumnInfo
 from pulvis.errors import Named
 from pulvis.progress import progress_bar
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from pulvis.scene import Scene
 
 
+@checked_class
 class Simulation:
     """A run of a scene, created by `Scene.simulation` or `pulvis.resume`.
 
@@ -56,10 +58,10 @@ class Simulation:
             self._run.run()
         return self
 
-    def run_until(self, time: Any, progress: bool | None = None) -> Simulation:
-        """Runs to the first step at or after `time` (seconds, or ``"1 ms"``). Returns the simulation."""
+    def run_until(self, time: Quantity, progress: bool | None = None) -> Simulation:
+        """Runs to the first step at or after `time` (seconds, ``"1 ms"``, or a pint quantity). Returns the simulation."""
         with progress_bar(self, progress):
-            self._run.run_until(_core.quantity(time, "s") if isinstance(time, str) else _seconds(time))
+            self._run.run_until(in_si("time", time, "s"))
         return self
 
     def step(self, count: int = 1) -> Simulation:
@@ -76,7 +78,10 @@ class Simulation:
         self._run.checkpoint()
 
     def close(self) -> None:
-        """Writes a checkpoint and closes the files of an unfinished run; this releases the folder."""
+        """Writes a checkpoint and closes the files of an unfinished run; this releases the folder.
+
+        In a fork of the process that made the simulation it does nothing: the files belong to the other process.
+        """
         self._run.close()
 
     def __enter__(self) -> Simulation:
@@ -209,8 +214,9 @@ class Simulation:
         ``with sim.writable("velocity") as velocity: velocity[3][:, 1] -= 2.0``
 
         Only between two steps: in `every` callbacks and when no `run` call is active. Velocities may be modified,
-        and of particles ``yield_stress``, ``hardening_modulus`` and ``mass_damping``. The energy balance of the run
-        does not include these changes.
+        and of particles ``yield_stress``, ``hardening_modulus`` and ``mass_damping``. The end of the block writes them,
+        all or none: values that the scene language refuses raise a RangeError. The energy balance of the run does not
+        include these changes.
         """
         return Column(self._run, name, writable=True)
 
@@ -235,6 +241,7 @@ class Simulation:
         return f"<pulvis.Simulation {self.scene.title!r}, step {self.steps}, {state}>"
 
 
+@checked_class
 class Tool:
     """A tool of a simulation. Vectors have two components in 2D and three in 3D."""
 
@@ -257,15 +264,17 @@ class Tool:
         return self._run.column_rows("tool.force")[self._row][:self._run.dimension]
 
     def drive(self, velocity: Any) -> None:
-        """Moves the tool at `velocity` from now on: (x, y), or (x, y, z) in three dimensions, in m/s, or
-        strings with units.
+        """Moves the tool at `velocity` from now on: (x, y), or (x, y, z) in three dimensions, in m/s,
+        strings with units, or pint quantities.
 
         This overrides the motion of this tool in the scene's stages until the run ends or it is driven again; other
         tools are not affected. Checkpoints save the velocity, and `pulvis.resume` keeps it; the command ``resume``
         refuses such a run, since no script drives it there. Allowed only between two steps. For a tool with a servo,
         drive the force instead: `Simulation.servos`.
         """
-        parts = [_core.quantity(v, "m/s") if isinstance(v, str) else float(v) for v in velocity]
+        if isinstance(velocity, (str, bytes)) or not hasattr(velocity, "__iter__"):
+            raise TypeError(f"Tool.drive: velocity = {shown(velocity)}, allowed: {self._run.dimension} components")
+        parts = [in_si("Tool.drive: velocity", one, "m/s") for one in velocity]
         if len(parts) != self._run.dimension:
             raise ValueError(f"velocity: {len(parts)} components are given, allowed: {self._run.dimension}")
         self._run.drive_tool(self.name, parts + [0.0] * (3 - len(parts)))
@@ -274,6 +283,7 @@ class Tool:
         return f"<pulvis.Tool {self.name!r} at {tuple(self.position)} m>"
 
 
+@checked_class
 class Servo:
     """A servo of a simulation: it moves its tool to apply a prescribed force (``[[stage.servo]]``)."""
 
@@ -301,15 +311,14 @@ class Servo:
         row = self._run.tools.index(self.tool)
         return -float(self._run.column_rows("tool.force")[row][:self._run.dimension] @ self.direction)
 
-    def drive(self, force: Any) -> None:
-        """Sets the target to `force`, in N or a string with a unit, at once and without a ramp.
+    def drive(self, force: Quantity) -> None:
+        """Sets the target to `force`, in N, a string with a unit, or a pint quantity, at once and without a ramp.
 
         This overrides the force in every stage that has this servo, until it is driven again, and the stage-end
         criterion ``tolerance``; ``response`` and ``max_speed`` stay. Allowed only between two steps. Checkpoints
         save the target, as they do for driven tools.
         """
-        newton = _core.quantity(force, "N") if isinstance(force, str) else float(force)
-        self._run.drive_servo(self.tool, newton)
+        self._run.drive_servo(self.tool, in_si("Servo.drive: force", force, "N"))
 
     def __repr__(self) -> str:
         return f"<pulvis.Servo of {self.tool!r}, asks for {self.asked:.6g} N>"
@@ -346,6 +355,7 @@ class History(Mapping[str, np.ndarray]):
         return frame
 
 
+@checked
 def resume(folder: str | os.PathLike[str], threads: int = 0, checkpoint_every: float = 60.0) -> Any:
     """A stopped run at its latest checkpoint: a `Simulation`, or a `Lever`. Its `run` continues it."""
     from pulvis.scene import Scene
@@ -357,11 +367,6 @@ def resume(folder: str | os.PathLike[str], threads: int = 0, checkpoint_every: f
         return Lever.resumed(folder, threads, checkpoint_every)
     run = _core.Run.resume(os.fspath(folder), threads, checkpoint_every)
     return Simulation(run, Scene(folder / "scene.toml"), folder)
-
-
-def _seconds(time):
-    """A number of seconds, or a pint quantity."""
-    return time.to("s").magnitude if hasattr(time, "magnitude") else float(time)
 
 
 def _error(message):

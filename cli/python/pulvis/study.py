@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pulvis.arguments import checked
 from pulvis.errors import RunError
-from pulvis.results import Run, table
+from pulvis.frames import table
+from pulvis.results import Run
 
 if TYPE_CHECKING:
     import os
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
 SI = ("m", "s", "N", "Pa", "J", "m/s", "N/m", "V", "rad")
 
 
+@checked
 def open_study(folder: str | os.PathLike[str]) -> Study:
     """The study in this folder."""
     return Study(folder)
@@ -65,6 +68,7 @@ def numbers(values: list[Any]) -> np.ndarray:
 class Study:
     """A study folder, with `title`, `summary` (the contents of summary.json) and `names` of its runs."""
 
+    @checked
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
         if not self.folder.is_dir():

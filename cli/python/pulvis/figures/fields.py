@@ -11,7 +11,7 @@ from pulvis.figures.colours import colours_of
 from pulvis.figures.look import Options, close_up, moment, seam, set_axes, shape_of, sheet
 from pulvis.figures.names import capital, name_of
 from pulvis.figures.tools import draw_tools, outlines
-from pulvis.results import names_in
+from pulvis.frames import names_in
 
 DEFAULT_FIELD = "effective_stress"
 OUTLINE = "#1d2733"
