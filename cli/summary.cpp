@@ -10,6 +10,7 @@
 
 #include "cli/summary_compaction.hpp"
 #include "components/contact.hpp"
+#include "engine/enum_table.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/instruction_set.hpp"
 #include "scenes/results/bond_results.hpp"
@@ -67,15 +68,13 @@ Json materials_json(const Scene& scene) {
 Json direction_json(const space::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Json space_tools_json(const space::SpaceScene& scene, const World& world) {
-  static constexpr const char* shapes[] = {"plane", "die", "punch", "stl"};
+  static constexpr EnumTable<space::ToolSpec::Shape> shapes{"plane", "die", "punch", "stl"};
   Json tools = Json::array();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const space::ToolSpec& spec = scene.tools[t];
     const double* at = world.column<ToolPosition>().values() + tool_axes * t;
     const double* f = world.column<ToolForce>().values() + tool_axes * t;
-    Json tool{{"name", spec.name},
-              {"shape", shapes[static_cast<int>(spec.shape)]},
-              {"point", {at[0], at[1], at[2]}}};
+    Json tool{{"name", spec.name}, {"shape", shapes[spec.shape]}, {"point", {at[0], at[1], at[2]}}};
     if (spec.shape != space::ToolSpec::Shape::stl) tool["normal"] = direction_json(spec.normal);
     if (spec.diameter > 0) tool["diameter"] = spec.diameter;
     for (const Vec2& p : spec.profile) tool["profile"].push_back({p.x(), p.y()});

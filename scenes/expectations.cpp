@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "engine/enum_table.hpp"
 #include "engine/run_failure.hpp"
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/read.hpp"
@@ -37,11 +38,10 @@ std::string unit_of(const std::vector<SeriesInfo>& all, const std::string& name)
 }
 
 std::string what_of(const ExpectSpec& expect) {
-  static constexpr const char* words[] = {"at the end", "always", "largest",
-                                          "smallest",   "mean",   "largest minus smallest"};
+  static constexpr EnumTable<ExpectSpec::When> words{
+      "at the end", "always", "largest", "smallest", "mean", "largest minus smallest"};
   std::string text = expect.series;
-  if (!is_figure_of_a_run(expect.series))
-    text += fmt::format(", {}", words[static_cast<int>(when_of(expect))]);
+  if (!is_figure_of_a_run(expect.series)) text += fmt::format(", {}", words[when_of(expect)]);
   if (expect.from || expect.until)
     text += fmt::format(" from {:g} to {:g} of the run", expect.from.value_or(0),
                         expect.until.value_or(1));

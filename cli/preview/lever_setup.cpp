@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/preview/rims.hpp"
+#include "engine/enum_table.hpp"
 #include "scenes/checks/lever_warnings.hpp"
 #include "scenes/lever/mesh/foot_plan.hpp"
 #include "scenes/lever/mesh/lever_plan.hpp"
@@ -18,18 +19,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 4> part_names{"lever", "coating", "tip", "glue"};
-constexpr std::array<const char*, 3> lever_shapes{"beam", "v", "mesh"};
-constexpr std::array<const char*, 6> tip_shapes{"none", "block",  "pyramid",
-                                                "cone", "sphere", "mesh"};
-constexpr std::array<const char*, 5> surface_shapes{"plane", "bump", "step", "sinusoid", "map"};
-constexpr std::array<const char*, 5> action_kinds{"press", "scan", "retract", "hold", "raster"};
-constexpr std::array<const char*, 2> direction_names{"lateral", "along"};
-
-template <class Names, class Word>
-const char* word(const Names& names, Word which) {
-  return names[static_cast<std::size_t>(which)];
-}
+constexpr EnumTable<SolidPart> part_names{"lever", "coating", "tip", "glue"};
+constexpr EnumTable<LeverSpec::Shape> lever_shapes{"beam", "v", "mesh"};
+constexpr EnumTable<TipSpec::Shape> tip_shapes{"none", "block",  "pyramid",
+                                               "cone", "sphere", "mesh"};
+constexpr EnumTable<TargetSpec::Shape> surface_shapes{"plane", "bump", "step", "sinusoid", "map"};
+constexpr EnumTable<ActionSpec::Kind> action_kinds{"press", "scan", "retract", "hold", "raster"};
+constexpr EnumTable<TargetSpec::Direction> direction_names{"lateral", "along"};
 
 struct Part {
   std::vector<Face> faces;  // all of its elements' faces
@@ -107,7 +103,7 @@ json parts_setup(const AfmModel& model) {
       }
     else
       plan.push_back(hull_of(part, at, 0, 1));
-    out[word(part_names, number)] = {
+    out[part_names[static_cast<SolidPart>(number)]] = {
         {"plan", plan}, {"side", hull_of(part, at, 0, 2)}, {"front", hull_of(part, at, 1, 2)}};
   }
   return out;
@@ -119,7 +115,7 @@ const std::string& material_name(const Scene& scene, int material) {
 
 json dimensions_setup(const Scene& scene) {
   const LeverSpec& lever = scene.afm->lever;
-  json out{{"shape", word(lever_shapes, lever.shape)},
+  json out{{"shape", lever_shapes[lever.shape]},
            {"material", material_name(scene, lever.material)},
            {"length", lever.length},
            {"thickness", lever.thickness},
@@ -144,7 +140,7 @@ json tip_setup(const Scene& scene, const AfmModel& model) {
   const TipSpec& tip = scene.afm->tip;
   const Vec2 axis = tip_axis(scene.afm->lever, tip);
   const Vec3 end = read(model.end, model.world->column<ReferencePosition>().values());
-  json out{{"shape", word(tip_shapes, tip.shape)},
+  json out{{"shape", tip_shapes[tip.shape]},
            {"axis", {axis.x(), axis.y()}},
            {"end", {model.axis.dot(end), model.side.dot(end), model.up.dot(end)}},
            {"set_back", tip.set_back}};
@@ -160,12 +156,9 @@ json tip_setup(const Scene& scene, const AfmModel& model) {
 json actions_setup(const std::vector<ActionSpec>& actions) {
   json out = json::array();
   for (const ActionSpec& action : actions) {
-    json one{{"kind", word(action_kinds, action.kind)},
-             {"name", action.name},
-             {"distance", action.distance},
-             {"direction", word(direction_names, action.direction)},
-             {"retrace", action.retrace},
-             {"servo", action.servo},
+    json one{{"kind", action_kinds[action.kind]}, {"name", action.name},
+             {"distance", action.distance},       {"direction", direction_names[action.direction]},
+             {"retrace", action.retrace},         {"servo", action.servo},
              {"increments", action.increments}};
     if (action.force) one["force"] = *action.force;
     if (action.kind == ActionSpec::Kind::raster) {
@@ -188,8 +181,8 @@ double travel_of(const AfmScene& afm) {
 
 json surface_setup(const Scene& scene) {
   const TargetSpec& target = *scene.afm->target;
-  json out{{"shape", word(surface_shapes, target.shape)},
-           {"direction", word(direction_names, target.direction)},
+  json out{{"shape", surface_shapes[target.shape]},
+           {"direction", direction_names[target.direction]},
            {"friction", target.friction}};
   const auto add = [&](const char* name, double value) {
     if (value != 0) out[name] = value;

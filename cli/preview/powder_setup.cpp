@@ -12,6 +12,7 @@
 #include "cli/preview/tool_setup.hpp"
 #include "components/bond.hpp"
 #include "components/observed.hpp"
+#include "engine/enum_table.hpp"
 #include "scenes/grains/grains.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/tools/contact_rules.hpp"
@@ -200,7 +201,7 @@ void add_bonded_edges(const World& world, json& out) {
   }
 }
 
-constexpr std::array<const char*, 3> bond_origins{"initial", "pressed", "adhesion"};
+constexpr EnumTable<BondSpec::Origin> bond_origins{"initial", "pressed", "adhesion"};
 
 json bonds_setup(const Scene& scene, const World& world) {
   json edges = json::array();
@@ -222,7 +223,7 @@ json bond_laws(const Scene& scene) {
   for (const BondSpec& bond : scene.bonds) {
     json law{{"first", bond.first},
              {"second", bond.second},
-             {"origin", bond_origins[static_cast<std::size_t>(bond.origin)]},
+             {"origin", bond_origins[bond.origin]},
              {"inside", bond.inside}};
     if (bond.strength) law["strength"] = *bond.strength;
     if (bond.work > 0) law.update({{"work", bond.work}, {"range", bond.range}});

@@ -1,8 +1,8 @@
 #include "cli/preview/stage_setup.hpp"
 
-#include <array>
 #include <nlohmann/json.hpp>
 
+#include "engine/enum_table.hpp"
 #include "scenes/spec/space_scene.hpp"
 #include "scenes/tools/servo_checks.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 6> stage_kinds{"settle", "compact", "hold",
+constexpr EnumTable<StageSpec::Kind> stage_kinds{"settle", "compact", "hold",
                                                  "unload", "eject",   "shear"};
 
 json vector_of(const Vec2& v) { return {v.x(), v.y()}; }
@@ -70,7 +70,7 @@ json stage_setup(const Scene& scene) {
   json stages = json::array();
   for (const StageSpec& stage : scene.stages) {
     json out{{"name", stage.name},
-             {"kind", stage_kinds[static_cast<std::size_t>(stage.kind)]},
+             {"kind", stage_kinds[stage.kind]},
              {"duration", stage.duration},
              {"moves", json::array()},
              {"servos", json::array()}};

@@ -8,6 +8,7 @@
 #include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/surface.hpp"
+#include "engine/enum_table.hpp"
 #include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "scenes/tools/die_sides.hpp"
@@ -47,9 +48,9 @@ json held_nodes(const World& world, int tool) {
 }
 
 json constraint_setup(const ToolSpec& tool, const World& world, int number) {
-  constexpr std::array<const char*, 4> directions{"x", "y", "both", "radial"};
+  static constexpr EnumTable<ToolSpec::Holds> directions{"x", "y", "both", "radial"};
   json out{{"shape", "constraint"},
-           {"holds", directions[static_cast<std::size_t>(tool.holds)]},
+           {"holds", directions[tool.holds]},
            {"nodes", held_nodes(world, number)}};
   if (tool.radius) {
     out["point"] = point_of(tool.point);

@@ -129,14 +129,14 @@ std::vector<Key<PlateMeasured>> record_keys() {
        to(&PlateMeasured::particle_diameter)},
       {{.name = "compare",
         .kind = Kind::choice,
-        .choices = {{"distance",
-                     "at equal distances; appropriate for wear and slip of the surfaces"},
-                    {"diameters",
-                     "at equal distances divided by particle diameter; appropriate for particle "
-                     "rearrangement; needs `particle_diameter`"}},
+        .choices = words_of<PlateMeasured::Compare>(
+            {{"distance", "at equal distances; appropriate for wear and slip of the surfaces"},
+             {"diameters",
+              "at equal distances divided by particle diameter; appropriate for particle "
+              "rearrangement; needs `particle_diameter`"}}),
         .fallback = value_of("distance"),
         .doc = "How the two curves are aligned."},
-       index_to(&PlateMeasured::compare)}};
+       word_to(&PlateMeasured::compare)}};
 }
 
 Key<PlateMeasured> coefficient_key(const char* name, std::optional<double> PlateMeasured::*member,

@@ -24,15 +24,15 @@ struct SoughtKey {  // [[parameter]]
 
 struct PlateMeasured {  // [measured]
   enum class Compare { distance, diameters };
-  std::string record, distance, friction;                          // file, names of its columns
-  double from = 0;                                                 // m
-  std::optional<double> until;                                     // m
-  std::optional<double> error;                                     // -, of a sample
-  std::optional<double> particle_diameter;                         // m
-  int compare = 0;                                                 // Compare
+  std::string record, distance, friction;   // file, names of its columns
+  double from = 0;                          // m
+  std::optional<double> until;              // m
+  std::optional<double> error;              // -, of a sample
+  std::optional<double> particle_diameter;  // m
+  Compare compare = Compare::distance;
   std::optional<double> peak, peak_error, dynamic, dynamic_error;  // -, instead of a record
 
-  bool by_diameters() const { return compare == static_cast<int>(Compare::diameters); }
+  bool by_diameters() const { return compare == Compare::diameters; }
 };
 
 struct PlateFitSpec {

@@ -1,6 +1,9 @@
 // Short forms for the declarations in declare_*.cpp.
 #pragma once
 
+#include <stdexcept>
+
+#include "engine/enum_table.hpp"
 #include "scenes/keys/tables.hpp"
 
 namespace pulvis::schema {
@@ -62,6 +65,30 @@ auto flag_to(bool Spec::*member) {
 template <class Spec>
 auto index_to(int Spec::*member) {
   return [member](Spec& spec, const Decoded& value) { spec.*member = value.index; };
+}
+
+// Kind::choice: its words, in the order of an enumeration.
+template <class Enum, std::size_t count>
+std::vector<Choice> words_of(const Choice (&words)[count]) {
+  static_assert(count == count_of<Enum>(),
+                "a key needs one word for each value of its enumeration");
+  return {words, words + count};
+}
+// The value for the word that is given.
+template <class Enum>
+Enum value_for(const Decoded& value) {
+  if (value.index < 0 || static_cast<std::size_t>(value.index) >= count_of<Enum>())
+    throw std::logic_error("a key has more words than its enumeration has values");
+  return static_cast<Enum>(value.index);
+}
+template <class Spec, class Enum>
+requires std::is_enum_v<Enum>
+auto word_to(Enum Spec::*member) {
+  return [member](auto& spec, const Decoded& value) { spec.*member = value_for<Enum>(value); };
+}
+template <class Spec, class Enum>
+auto word_to(std::optional<Enum> Spec::*member) {
+  return [member](auto& spec, const Decoded& value) { spec.*member = value_for<Enum>(value); };
 }
 
 // For a key with one allowed value: it documents the scene and stores nothing.

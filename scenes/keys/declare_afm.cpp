@@ -28,14 +28,13 @@ std::vector<Key<LeverSpec>> shape_keys() {
   return {
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices = {{"beam", "a rectangular strip"},
-                    {"v", "two arms joined by an apex plate"},
-                    {"mesh", "a mesh of hexahedra or tetrahedra from a Gmsh file"}},
+        .choices = words_of<LeverSpec::Shape>(
+            {{"beam", "a rectangular strip"},
+             {"v", "two arms joined by an apex plate"},
+             {"mesh", "a mesh of hexahedra or tetrahedra from a Gmsh file"}}),
         .required = true,
         .doc = "Shape of the lever in plan view."},
-       [](LeverSpec& lever, const Decoded& value) {
-         lever.shape = static_cast<LeverSpec::Shape>(value.index);
-       }},
+       word_to(&LeverSpec::shape)},
       {{.name = "material",
         .kind = Kind::reference,
         .refers_to = "material",
@@ -205,17 +204,16 @@ std::vector<Key<TipSpec>> tip_keys() {
   return {
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices = {{"none", "no tip: forces act on the lower face of the lever"},
-                    {"block", "a square prism"},
-                    {"pyramid", "with a square base"},
-                    {"cone", "with a circular base"},
-                    {"sphere", "a colloid probe: a ball on a glue neck"},
-                    {"mesh", "a mesh of hexahedra or tetrahedra from a Gmsh file"}},
+        .choices = words_of<TipSpec::Shape>(
+            {{"none", "no tip: forces act on the lower face of the lever"},
+             {"block", "a square prism"},
+             {"pyramid", "with a square base"},
+             {"cone", "with a circular base"},
+             {"sphere", "a colloid probe: a ball on a glue neck"},
+             {"mesh", "a mesh of hexahedra or tetrahedra from a Gmsh file"}}),
         .fallback = value_of("none"),
         .doc = "Shape of the tip."},
-       [](TipSpec& tip, const Decoded& value) {
-         tip.shape = static_cast<TipSpec::Shape>(value.index);
-       }},
+       word_to(&TipSpec::shape)},
       {{.name = "material",
         .kind = Kind::reference,
         .refers_to = "material",

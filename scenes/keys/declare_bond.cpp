@@ -139,14 +139,13 @@ std::vector<Key<BondSpec>> bond_keys() {
        }},
       {{.name = "origin",
         .kind = Kind::choice,
-        .choices = {{"initial", "surfaces in contact at the start are bonded"},
-                    {"pressed", "bonds form under pressure (cold welding, sticking)"},
-                    {"adhesion", "no bonds: surfaces attract each other whenever they are close"}},
+        .choices = words_of<BondSpec::Origin>(
+            {{"initial", "surfaces in contact at the start are bonded"},
+             {"pressed", "bonds form under pressure (cold welding, sticking)"},
+             {"adhesion", "no bonds: surfaces attract each other whenever they are close"}}),
         .required = true,
         .doc = "How the bond forms."},
-       [](BondSpec& spec, const Decoded& value) {
-         spec.origin = static_cast<BondSpec::Origin>(value.index);
-       }}};
+       word_to(&BondSpec::origin)}};
   for (const auto& some : {bond_law_keys(), bond_origin_keys()})
     all.insert(all.end(), some.begin(), some.end());
   return all;

@@ -76,15 +76,16 @@ const TableDeclaration<ParticleSpec>& mesh() {
         mesh_to(set_rings)},
        {{.name = "core",
          .kind = Kind::choice,
-         .choices = {{"even", "as fine as the outline"},
-                     {"coarse",
-                      "one edge for every three on the outline, joined by a ring of transition "
-                      "quads; boundary_edges must be a multiple of 12"}},
+         .choices = words_of<DiscMesh::Core>(
+             {{"even", "as fine as the outline"},
+              {"coarse",
+               "one edge for every three on the outline, joined by a ring of transition "
+               "quads; boundary_edges must be a multiple of 12"}}),
          .only_for = "disc",
          .doc = "Mesh of the core inside the rings.",
          .fallback_doc = "set by `accuracy`; if another mesh size is given: `\"even\"`"},
         [](ParticleSpec& spec, const Decoded& value) {
-          std::get<DiscMesh>(spec.mesh).core = static_cast<DiscMesh::Core>(value.index);
+          std::get<DiscMesh>(spec.mesh).core = value_for<DiscMesh::Core>(value);
         }},
        {{.name = "refinement",
          .kind = Kind::number,

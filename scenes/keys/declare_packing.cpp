@@ -43,24 +43,22 @@ std::vector<Key<PackingSpec>> lattice_keys() {
 }
 
 Key<PackingSpec> kind_key() {
-  return {
-      {.name = "kind",
-       .kind = Kind::choice,
-       .choices = {{"square", "rows and columns of a square lattice"},
-                   {"hexagonal",
-                    "rows sqrt(3)/2 of the spacing apart; every second row has one particle less "
-                    "and lies in the gaps of the row below, so the packing is symmetric between "
-                    "flat walls"},
-                   {"random",
-                    "a mixture, [[packing.class]], poured into a die as rigid particles and "
-                    "compressed without friction while shaken until it reaches the required "
-                    "density; the same `seed` gives the same packing on every machine"},
-                   {"csv", "from a file as written by `pulvis pack`"}},
-       .required = true,
-       .doc = "Arrangement of the particles."},
-      [](PackingSpec& packing, const Decoded& value) {
-        packing.kind = static_cast<PackingSpec::Kind>(value.index);
-      }};
+  return {{.name = "kind",
+           .kind = Kind::choice,
+           .choices = words_of<PackingSpec::Kind>(
+               {{"square", "rows and columns of a square lattice"},
+                {"hexagonal",
+                 "rows sqrt(3)/2 of the spacing apart; every second row has one particle less "
+                 "and lies in the gaps of the row below, so the packing is symmetric between "
+                 "flat walls"},
+                {"random",
+                 "a mixture, [[packing.class]], poured into a die as rigid particles and "
+                 "compressed without friction while shaken until it reaches the required "
+                 "density; the same `seed` gives the same packing on every machine"},
+                {"csv", "from a file as written by `pulvis pack`"}}),
+           .required = true,
+           .doc = "Arrangement of the particles."},
+          word_to(&PackingSpec::kind)};
 }
 
 std::vector<Key<PackingSpec>> die_keys() {
@@ -175,21 +173,22 @@ Key<MixtureClass> limit_key(const char* name, const char* formerly,
 }
 
 Key<MixtureClass> distribution_key() {
-  return {{.name = "distribution",
-           .kind = Kind::choice,
-           .choices = {{"mono", "all particles have the size of the class"},
-                       {"uniform", "uniform from `minimum` to `maximum`"},
-                       {"normal", "truncated at `minimum` and `maximum`"},
-                       {"lognormal", "truncated at `minimum` and `maximum`"},
-                       {"sieve", "sieve curve by area, from a file"}},
-           .fallback = value_of("mono"),
-           .doc = "Size distribution by number of particles; \"sieve\": by area. The size of a "
-                  "particle is the smallest width of its outline, which determines the sieve it "
-                  "passes: the diameter of a disc, the shorter side of a rectangle. The outline "
-                  "of the class is scaled to it."},
-          [](MixtureClass& mixed, const Decoded& value) {
-            mixed.size.kind = static_cast<SizeLaw::Kind>(value.index);
-          }};
+  return {
+      {.name = "distribution",
+       .kind = Kind::choice,
+       .choices = words_of<SizeLaw::Kind>({{"mono", "all particles have the size of the class"},
+                                           {"uniform", "uniform from `minimum` to `maximum`"},
+                                           {"normal", "truncated at `minimum` and `maximum`"},
+                                           {"lognormal", "truncated at `minimum` and `maximum`"},
+                                           {"sieve", "sieve curve by area, from a file"}}),
+       .fallback = value_of("mono"),
+       .doc = "Size distribution by number of particles; \"sieve\": by area. The size of a "
+              "particle is the smallest width of its outline, which determines the sieve it "
+              "passes: the diameter of a disc, the shorter side of a rectangle. The outline "
+              "of the class is scaled to it."},
+      [](MixtureClass& mixed, const Decoded& value) {
+        mixed.size.kind = value_for<SizeLaw::Kind>(value);
+      }};
 }
 
 std::vector<Key<MixtureClass>> size_keys() {

@@ -51,17 +51,16 @@ const TableDeclaration<StageSpec>& stage() {
         to(&StageSpec::name)},
        {{.name = "kind",
          .kind = Kind::choice,
-         .choices = {{"settle", "tools are fixed while the particles come to rest"},
-                     {"compact", "tools move and load the powder"},
-                     {"hold", "tools are fixed and hold the load"},
-                     {"unload", "tools move back"},
-                     {"eject", "tools move and push the compact out of the die"},
-                     {"shear", "tools move and slide a surface under the powder"}},
+         .choices = words_of<StageSpec::Kind>(
+             {{"settle", "tools are fixed while the particles come to rest"},
+              {"compact", "tools move and load the powder"},
+              {"hold", "tools are fixed and hold the load"},
+              {"unload", "tools move back"},
+              {"eject", "tools move and push the compact out of the die"},
+              {"shear", "tools move and slide a surface under the powder"}}),
          .required = true,
          .doc = "Purpose of the stage."},
-        [](StageSpec& spec, const Decoded& value) {
-          spec.kind = static_cast<StageSpec::Kind>(value.index);
-        }},
+        word_to(&StageSpec::kind)},
        {{.name = "duration",
          .kind = Kind::quantity,
          .unit = "s",
@@ -237,7 +236,7 @@ const TableDeclaration<ElementSpec>& element() {
       {"element", false, "", "Finite elements of all particles: quads."},
       {{{.name = "formulation",
          .kind = Kind::choice,
-         .choices =
+         .choices = words_of<Formulation>(
              {{"four-point",
                "2x2 Gauss points with a single dilatation (mean dilatation); inaccurate in "
                "bending with few element rows: with one row, errors range from -60% to a "
@@ -246,12 +245,10 @@ const TableDeclaration<ElementSpec>& element() {
                "one Gauss point with hourglass modes stabilised by elastic-plastic bending; "
                "faster"},
               {"standard",
-               "2x2 Gauss points, each with its own dilatation; locks, for comparison only"}},
+               "2x2 Gauss points, each with its own dilatation; locks, for comparison only"}}),
          .fallback = value_of("one-point"),
          .doc = "Element formulation."},
-        [](ElementSpec& spec, const Decoded& value) {
-          spec.formulation = static_cast<Formulation>(value.index);
-        }}}};
+        word_to(&ElementSpec::formulation)}}};
   return declaration;
 }
 
@@ -266,15 +263,14 @@ const TableDeclaration<TimeSpec>& time() {
         to(&TimeSpec::safety)},
        {{.name = "estimate",
          .kind = Kind::choice,
-         .choices = {{"element", "from the highest frequency of any single element: a lower bound"},
-                     {"highest-mode",
-                      "from the highest frequency of each whole particle, tracked by power "
-                      "iteration; up to a quarter longer"}},
+         .choices = words_of<TimeSpec::Estimate>(
+             {{"element", "from the highest frequency of any single element: a lower bound"},
+              {"highest-mode",
+               "from the highest frequency of each whole particle, tracked by power "
+               "iteration; up to a quarter longer"}}),
          .fallback = value_of("element"),
          .doc = "Basis of the stable time step."},
-        [](TimeSpec& spec, const Decoded& value) {
-          spec.estimate = static_cast<TimeSpec::Estimate>(value.index);
-        }}}};
+        word_to(&TimeSpec::estimate)}}};
   return declaration;
 }
 

@@ -22,26 +22,26 @@ Key<ToolSpec> relief_length_key(const char* name, double minimum, auto member, c
 }
 
 Key<ToolSpec> relief_key() {
-  return {
-      {.name = "relief",
-       .kind = Kind::choice,
-       .choices = {{"flat", "a plane, or a surface that slides along its grooves"},
-                   {"triangle", "grooves with straight flanks, sharp crests and valleys"},
-                   {"sine", "a sine wave"},
-                   {"trapezoid", "grooves with straight flanks, flat crests and valleys"},
-                   {"rough",
-                    "random heights with a Gaussian autocorrelation, generated from the scene's "
-                    "`seed`"},
-                   {"file", "measured: heights versus x from `file`"}},
-       .required = true,
-       .only_for = "profile",
-       .doc = "Shape of the surface. `point` lies on a crest. The relief extends to the left "
-              "and right as far as the powder can pass over it while the tool moves. For "
-              "rough and measured profiles, the highest crest is at the height of `point` "
-              "and the first station at its x."},
-      [](ToolSpec& spec, const Decoded& value) {
-        spec.relief.kind = static_cast<ProfileSpec::Kind>(value.index);
-      }};
+  return {{.name = "relief",
+           .kind = Kind::choice,
+           .choices = words_of<ProfileSpec::Kind>(
+               {{"flat", "a plane, or a surface that slides along its grooves"},
+                {"triangle", "grooves with straight flanks, sharp crests and valleys"},
+                {"sine", "a sine wave"},
+                {"trapezoid", "grooves with straight flanks, flat crests and valleys"},
+                {"rough",
+                 "random heights with a Gaussian autocorrelation, generated from the scene's "
+                 "`seed`"},
+                {"file", "measured: heights versus x from `file`"}}),
+           .required = true,
+           .only_for = "profile",
+           .doc = "Shape of the surface. `point` lies on a crest. The relief extends to the left "
+                  "and right as far as the powder can pass over it while the tool moves. For "
+                  "rough and measured profiles, the highest crest is at the height of `point` "
+                  "and the first station at its x."},
+          [](ToolSpec& spec, const Decoded& value) {
+            spec.relief.kind = value_for<ProfileSpec::Kind>(value);
+          }};
 }
 
 Key<ToolSpec> profile_file_key() {

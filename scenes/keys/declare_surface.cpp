@@ -22,25 +22,22 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
   return {
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices = {{"plane", "flat, level or inclined"},
-                    {"bump", "a ridge with flat flanks and a flat top"},
-                    {"step", "a plateau behind a single flank"},
-                    {"sinusoid", "a sine wave"},
-                    {"map", "a height map from a file"}},
+        .choices = words_of<TargetSpec::Shape>({{"plane", "flat, level or inclined"},
+                                                {"bump", "a ridge with flat flanks and a flat top"},
+                                                {"step", "a plateau behind a single flank"},
+                                                {"sinusoid", "a sine wave"},
+                                                {"map", "a height map from a file"}}),
         .required = true,
         .doc = "Shape of the surface."},
-       [](TargetSpec& s, const Decoded& value) {
-         s.shape = static_cast<TargetSpec::Shape>(value.index);
-       }},
+       word_to(&TargetSpec::shape)},
       {{.name = "direction",
         .kind = Kind::choice,
-        .choices = {{"lateral", "along y, across the lever"}, {"along", "along x"}},
+        .choices = words_of<TargetSpec::Direction>(
+            {{"lateral", "along y, across the lever"}, {"along", "along x"}}),
         .fallback = value_of("lateral"),
         .only_for = {"plane", "bump", "step", "sinusoid"},
         .doc = "Direction in which the surface rises."},
-       [](TargetSpec& s, const Decoded& value) {
-         s.direction = static_cast<TargetSpec::Direction>(value.index);
-       }},
+       word_to(&TargetSpec::direction)},
       {{.name = "incline",
         .kind = Kind::quantity,
         .unit = "rad",
@@ -114,17 +111,16 @@ std::vector<Key<TargetSpec>> law_keys() {
        to(&TargetSpec::pull_off)},
       {{.name = "adhesion",
         .kind = Kind::choice,
-        .choices = {{"dmt", "an adhesion force `pull_off`, for any shape in contact"},
-                    {"jkr",
-                     "Johnson, Kendall & Roberts: an elastic ball on a plane, with "
-                     "`work_of_adhesion`"}},
+        .choices = words_of<TargetSpec::Adhesion>(
+            {{"dmt", "an adhesion force `pull_off`, for any shape in contact"},
+             {"jkr",
+              "Johnson, Kendall & Roberts: an elastic ball on a plane, with "
+              "`work_of_adhesion`"}}),
         .fallback = value_of("dmt"),
         .doc = "Adhesion law. With JKR, approach, neck and contact radius of the ball follow "
                "the law, not the mesh. The ball pulls off at 3/2 pi w R, which adds to the "
                "normal force in the friction law."},
-       [](TargetSpec& s, const Decoded& value) {
-         s.adhesion = static_cast<TargetSpec::Adhesion>(value.index);
-       }},
+       word_to(&TargetSpec::adhesion)},
       {{.name = "work_of_adhesion",
         .kind = Kind::quantity,
         .unit = "J/m^2",
@@ -167,16 +163,15 @@ const TableDeclaration<ActionSpec>& action() {
        afm_only},
       {{{.name = "kind",
          .kind = Kind::choice,
-         .choices = {{"press", "the surface moves up"},
-                     {"scan", "the probe moves across the surface"},
-                     {"retract", "the surface moves down"},
-                     {"hold", "nothing moves"},
-                     {"raster", "scan an area line by line, trace and retrace"}},
+         .choices = words_of<ActionSpec::Kind>(
+             {{"press", "the surface moves up"},
+              {"scan", "the probe moves across the surface"},
+              {"retract", "the surface moves down"},
+              {"hold", "nothing moves"},
+              {"raster", "scan an area line by line, trace and retrace"}}),
          .required = true,
          .doc = "Kind of action."},
-        [](ActionSpec& a, const Decoded& value) {
-          a.kind = static_cast<ActionSpec::Kind>(value.index);
-        }},
+        word_to(&ActionSpec::kind)},
        {{.name = "distance",
          .kind = Kind::quantity,
          .unit = "m",
@@ -196,13 +191,12 @@ const TableDeclaration<ActionSpec>& action() {
         to(&ActionSpec::force)},
        {{.name = "direction",
          .kind = Kind::choice,
-         .choices = {{"lateral", "along y, across the lever"}, {"along", "along x"}},
+         .choices = words_of<TargetSpec::Direction>(
+             {{"lateral", "along y, across the lever"}, {"along", "along x"}}),
          .fallback = value_of("lateral"),
          .only_for = {"scan", "raster"},
          .doc = "Scan direction over the surface; for a raster, the direction of its lines."},
-        [](ActionSpec& a, const Decoded& value) {
-          a.direction = static_cast<TargetSpec::Direction>(value.index);
-        }},
+        word_to(&ActionSpec::direction)},
        {{.name = "retrace",
          .formerly = "back",
          .kind = Kind::choice,

@@ -44,19 +44,18 @@ Key<ToolSpec> rounding_key() {
 Key<ToolSpec> holds_key() {
   return {{.name = "holds",
            .kind = Kind::choice,
-           .choices = {{"x", "nodes follow the constraint in x and are free in y"},
-                       {"y", "nodes follow the constraint in y and are free in x"},
-                       {"both", "nodes follow the constraint"},
-                       {"radial",
-                        "nodes move radially away from `point` by the first component of the "
-                        "displacement and are free in the tangential direction; force_x of the "
-                        "constraint is the sum of the radial forces"}},
+           .choices = words_of<ToolSpec::Holds>(
+               {{"x", "nodes follow the constraint in x and are free in y"},
+                {"y", "nodes follow the constraint in y and are free in x"},
+                {"both", "nodes follow the constraint"},
+                {"radial",
+                 "nodes move radially away from `point` by the first component of the "
+                 "displacement and are free in the tangential direction; force_x of the "
+                 "constraint is the sum of the radial forces"}}),
            .required = true,
            .only_for = "constraint",
            .doc = "Constrained direction."},
-          [](ToolSpec& spec, const Decoded& value) {
-            spec.holds = static_cast<ToolSpec::Holds>(value.index);
-          }};
+          word_to(&ToolSpec::holds)};
 }
 
 Key<ToolSpec> corner_key(const char* name, Vec2 ToolSpec::*member, const char* doc) {
@@ -102,18 +101,17 @@ std::vector<Key<ToolSpec>> place_keys() {
        to(&ToolSpec::name)},
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices = {{"plane", "fills the half-plane behind its surface"},
-                    {"polyline", "fills the region to the right of a chain of points"},
-                    {"constraint",
-                     "prescribes the displacement of the nodes of one particle in a box or a "
-                     "circle; has no contact",
-                     "grip"},
-                    {"profile", "a target surface: fills the region below a relief along x"}},
+        .choices = words_of<ToolSpec::Shape>(
+            {{"plane", "fills the half-plane behind its surface"},
+             {"polyline", "fills the region to the right of a chain of points"},
+             {"constraint",
+              "prescribes the displacement of the nodes of one particle in a box or a "
+              "circle; has no contact",
+              "grip"},
+             {"profile", "a target surface: fills the region below a relief along x"}}),
         .required = true,
         .doc = "Type of tool."},
-       [](ToolSpec& spec, const Decoded& value) {
-         spec.shape = static_cast<ToolSpec::Shape>(value.index);
-       }},
+       word_to(&ToolSpec::shape)},
       {{.name = "point",
         .kind = Kind::vector,
         .unit = "m",

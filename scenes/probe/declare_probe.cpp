@@ -62,13 +62,12 @@ const TableDeclaration<ProbeSpec>& probe_probe() {
        "direction."},
       {{{.name = "control",
          .kind = Kind::choice,
-         .choices = {{"strain", "strains xx and yy increase in a fixed ratio"},
-                     {"stress", "stresses xx and yy change in a fixed ratio"}},
+         .choices = words_of<ProbeSpec::Control>(
+             {{"strain", "strains xx and yy increase in a fixed ratio"},
+              {"stress", "stresses xx and yy change in a fixed ratio"}}),
          .fallback = value_of("strain"),
          .doc = "Quantity that defines the direction."},
-        [](ProbeSpec& spec, const Decoded& value) {
-          spec.control = static_cast<ProbeSpec::Control>(value.index);
-        }},
+        word_to(&ProbeSpec::control)},
        {{.name = "directions",
          .kind = Kind::integer,
          .range = within(4, 360),

@@ -110,10 +110,11 @@ const TableDeclaration<DieSpec>& declared_die() {
        "`[[transmission]]`."},
       {{{.name = "shape",
          .kind = Kind::choice,
-         .choices = {{"round", "a cylinder"}, {"slot", "two walls, as in a plane strain model"}},
+         .choices = words_of<DieSpec::Shape>(
+             {{"round", "a cylinder"}, {"slot", "two walls, as in a plane strain model"}}),
          .fallback = value_of("round"),
          .doc = "Cross-section."},
-        index_to(&DieSpec::shape)},
+        word_to(&DieSpec::shape)},
        {{.name = "diameter",
          .kind = Kind::quantity,
          .unit = "m",

@@ -194,11 +194,12 @@ const TableDeclaration<LoadCellSpec>& declared_load_cell() {
         to(&LoadCellSpec::offset)},
        {{.name = "zero",
          .kind = Kind::choice,
-         .choices = {{"calibration", "the calibrated offset"},
-                     {"standstill", "the mean before sliding starts"}},
+         .choices =
+             words_of<LoadCellSpec::Zero>({{"calibration", "the calibrated offset"},
+                                           {"standstill", "the mean before sliding starts"}}),
          .fallback = value_of("calibration"),
          .doc = "Definition of zero shear force."},
-        index_to(&LoadCellSpec::zero)}}};
+        word_to(&LoadCellSpec::zero)}}};
   return declaration;
 }
 
@@ -233,14 +234,14 @@ const TableDeclaration<ClockSpec>& declared_clock() {
       {"clock", false, "", "Synchronisation of the clocks of press and logger."},
       {{{.name = "drift",
          .kind = Kind::choice,
-         .choices = {{"events",
-                      "from start and end of sliding, if both records show both and the difference "
-                      "exceeds three times its uncertainty"},
-                     {"none",
-                      "the clocks run at the same rate; only the start of sliding is used"}},
+         .choices = words_of<ClockSpec::Drift>(
+             {{"events",
+               "from start and end of sliding, if both records show both and the difference "
+               "exceeds three times its uncertainty"},
+              {"none", "the clocks run at the same rate; only the start of sliding is used"}}),
          .fallback = value_of("events"),
          .doc = "How the relative rate of the two clocks is determined."},
-        index_to(&ClockSpec::drift)},
+        word_to(&ClockSpec::drift)},
        {{.name = "largest_drift",
          .kind = Kind::number,
          .range = within(0, 0.5),

@@ -88,7 +88,7 @@ void share_offset(Clocks& clocks, const Event& press_end, const Event& logger_en
 
 void find_drift(Clocks& clocks, const PressRecord& press, const Hold& hold, const Sliding& sliding,
                 const ClockSpec& spec) {
-  if (spec.drift == static_cast<int>(ClockSpec::Drift::none) || !sliding.end) return;
+  if (spec.drift == ClockSpec::Drift::none || !sliding.end) return;
   const double on_logger = sliding.end->time - sliding.start.time;
   const auto end = event_in(hold, clocks.press_start.time + on_logger, spec.window);
   if (!end) return;

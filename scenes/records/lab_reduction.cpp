@@ -190,7 +190,7 @@ ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Se
   run.has_end = sliding.end.has_value();
   const std::vector<double> shear = calibrated(logger, settings.load_cell);
   const Sample rest = standstill(logger, shear, sliding.start.time);
-  const bool tares = settings.load_cell.zero == static_cast<int>(LoadCellSpec::Zero::standstill);
+  const bool tares = settings.load_cell.zero == LoadCellSpec::Zero::standstill;
   run.shear_zero = tares ? rest.mean : 0;
   const CurveMaker maker(press, logger, settings, run.clocks);
   const Samples s = between(logger.time, sliding.start.time, sliding.last_time);

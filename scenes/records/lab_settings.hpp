@@ -32,7 +32,7 @@ struct LoadCellSpec {  // shear force = gain * strain + offset
   enum class Zero { calibration, standstill };
   double gain = 0;    // N
   double offset = 0;  // N
-  int zero = 0;       // Zero
+  Zero zero = Zero::calibration;
 };
 
 struct LvdtSpec {
@@ -55,7 +55,7 @@ struct CompactSpec {
 
 struct ClockSpec {
   enum class Drift { events, none };
-  int drift = 0;             // Drift
+  Drift drift = Drift::events;
   double largest_drift = 0;  // -
   double window = 0;         // s, to either side of an event
   double longest_gap = 0;    // in units of the median interval between samples
@@ -77,7 +77,7 @@ struct SimulationSpec {
 
 struct DieSpec {
   enum class Shape { round, slot };
-  int shape = 0;             // Shape
+  Shape shape = Shape::round;
   double diameter = 15e-3;   // m, round
   double width = 0;          // m, slot
   double thickness = 0;      // m, slot
@@ -85,7 +85,7 @@ struct DieSpec {
   double mass_error = 0;     // -
   double height_error = 0;   // m
 
-  bool is_slot() const { return shape == static_cast<int>(Shape::slot); }
+  bool is_slot() const { return shape == Shape::slot; }
   double area() const;         // m^2, of the punch
   double wall_length() const;  // m, round: D/4; slot: W/2: area over the rubbing perimeter
 };

@@ -108,7 +108,7 @@ class ToolsInSpace {
                             "along its normal, or across it",
                             tool.name));
       for (const MoveSpec& move : space_.moves[stage])
-        if (move.tool == servo.tool &&
+        if (move.tool == servo.tool && !move.stiffness &&
             std::abs(move.displacement.dot(direction)) > 1e-9 * move.displacement.norm())
           refuse_(
               path + ".tool",

@@ -42,9 +42,7 @@ std::vector<Key<Spec>> quantity_keys(const std::vector<Choice>& when) {
         .choices = when,
         .doc = "Which value of the series is taken.",
         .fallback_doc = "`\"end\"`, unless `at` is given"},
-       [](Spec& spec, const Decoded& value) {
-         spec.when = static_cast<StudyQuantity::When>(value.index);
-       }},
+       word_to(&StudyQuantity::when)},
       {{.name = "against",
         .kind = Kind::text,
         .doc = "Series to which `at`, `from` and `until` refer.",
@@ -83,7 +81,7 @@ std::vector<Key<StudyFit>> strength_keys() {
   return {
       {{.name = "law",
         .kind = Kind::choice,
-        .choices =
+        .choices = words_of<StudyFit::Law>(
             {{"weibull",
               "P = 1 - exp(-(strength/scale)^modulus) fitted to the strengths of a "
               "variation, one per seed, by maximum likelihood"},
@@ -91,12 +89,10 @@ std::vector<Key<StudyFit>> strength_keys() {
               "strength = strength_0 exp(-k porosity), fitted to runs of different density"},
              {"power",
               "value = c key^exponent, fitted to runs that set `key` and agree in all other "
-              "varied keys; the exponent is d ln(value)/d ln(key), the relative sensitivity"}},
+              "varied keys; the exponent is d ln(value)/d ln(key), the relative sensitivity"}}),
         .required = true,
         .doc = "Law to be fitted."},
-       [](StudyFit& fit, const Decoded& value) {
-         fit.law = static_cast<StudyFit::Law>(value.index);
-       }},
+       word_to(&StudyFit::law)},
       {{.name = "area",
         .kind = Kind::quantity,
         .unit = "m^2",
@@ -148,14 +144,13 @@ std::vector<Key<StudyExpect>> across_keys() {
        texts_to(&StudyExpect::order)},
       {{.name = "trend",
         .kind = Kind::choice,
-        .choices = {{"increasing", "each value is larger than the one before"},
-                    {"decreasing", "each value is smaller than the one before"}},
+        .choices = words_of<StudyExpect::Trend>(
+            {{"increasing", "each value is larger than the one before"},
+             {"decreasing", "each value is smaller than the one before"}}),
         .needs = "order",
         .doc = "Required trend.",
         .fallback_doc = "required with `order`"},
-       [](StudyExpect& spec, const Decoded& value) {
-         spec.trend = static_cast<StudyExpect::Trend>(value.index);
-       }},
+       word_to(&StudyExpect::trend)},
       {{.name = "by",
         .kind = Kind::number,
         .range = within(0, 1e6),

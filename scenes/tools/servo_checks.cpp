@@ -63,7 +63,7 @@ class ServoChecks {
                     "required key is missing: only a plane has a normal, allowed: two numbers, not "
                     "both zero");
     for (const MoveSpec& move : stage_.moves)
-      if (move.tool == servo.tool &&
+      if (move.tool == servo.tool && !move.stiffness &&
           std::abs(move.displacement.dot(direction)) > 1e-9 * move.displacement.norm())
         refuse(
             path, "tool",
@@ -72,24 +72,18 @@ class ServoChecks {
                         tool(servo).name));
   }
 
-  // A move through a spring.
+  // A move through a spring. Moves by zero, and two of one tool, are refused in scenes/checks/checks.cpp.
   void elastic(std::size_t number, const std::string& path) {
     const MoveSpec& move = stage_.moves[number];
     const ToolSpec& moved = scene_.tools[static_cast<std::size_t>(move.tool)];
     if (moved.shape == ToolSpec::Shape::constraint)
       refuse(path, "stiffness",
              fmt::format("'{}' is a constraint, allowed: a plane or a polyline", moved.name));
-    if (move.displacement.isZero(0))
-      refuse(path, "displacement", "is zero, allowed: a direction for the compliant drive");
     for (const ServoSpec& servo : stage_.servos)
       if (servo.tool == move.tool)
         refuse(path, "stiffness",
                fmt::format("'{}' has a servo in the same stage, allowed: only one of the two",
                            moved.name));
-    for (std::size_t k = 0; k < stage_.moves.size(); ++k)
-      if (k != number && stage_.moves[k].tool == move.tool)
-        refuse(path, "stiffness",
-               fmt::format("'{}' has another move in the same stage, allowed: one", moved.name));
   }
 
   void until(const UntilSpec& until) {

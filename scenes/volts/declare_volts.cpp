@@ -65,13 +65,14 @@ const TableDeclaration<AfmSpec>& declared_afm() {
         to(&AfmSpec::loops)},
        {{.name = "lateral",
          .kind = Kind::choice,
-         .choices = {{"wedge", "from the loops on slopes in `wedge.loops`"},
-                     {"test_probe",
-                      "from side contacts of a test probe (`[test_probe]`) and the lever's lateral "
-                      "stiffness (Cannara, Eglin & Carpick 2006)"}},
+         .choices = words_of<LateralMethod>(
+             {{"wedge", "from the loops on slopes in `wedge.loops`"},
+              {"test_probe",
+               "from side contacts of a test probe (`[test_probe]`) and the lever's lateral "
+               "stiffness (Cannara, Eglin & Carpick 2006)"}}),
          .fallback = value_of("wedge"),
          .doc = "Calibration of the lateral detector."},
-        index_to(&AfmSpec::lateral)},
+        word_to(&AfmSpec::lateral)},
        {{.name = "level_error",
          .kind = Kind::quantity,
          .unit = "V",
@@ -166,16 +167,16 @@ const TableDeclaration<CrosstalkSpec>& declared_crosstalk() {
        "coefficient x normal."},
       {{{.name = "method",
          .kind = Kind::choice,
-         .choices =
+         .choices = words_of<CrosstalkMethod>(
              {{"force_curves",
                "the slope of the lateral versus the normal signal in the contact part of the "
                "curves of `force_curves.hard` if they have a column `lateral`; otherwise no "
                "correction"},
               {"given", "given by `coefficient`"},
-              {"none", "no correction"}},
+              {"none", "no correction"}}),
          .fallback = value_of("force_curves"),
          .doc = "Source of the coefficient."},
-        index_to(&CrosstalkSpec::method)},
+        word_to(&CrosstalkSpec::method)},
        {{.name = "coefficient",
          .kind = Kind::number,
          .range = within(-10, 10),

@@ -25,7 +25,7 @@ CurveSet curves_in(const std::filesystem::path& file, const char* signal, const 
 }
 
 std::optional<lab::Mean> chosen_crosstalk(const VoltsSpec& spec, const Sensitivity& hard) {
-  switch (static_cast<CrosstalkMethod>(spec.crosstalk.method)) {
+  switch (spec.crosstalk.method) {
     case CrosstalkMethod::force_curves:
       return hard.crosstalk;
     case CrosstalkMethod::given:

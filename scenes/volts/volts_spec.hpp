@@ -12,7 +12,7 @@ enum class CrosstalkMethod { force_curves, given, none };
 
 struct AfmSpec {
   std::string loops;  // file, relative to the settings' folder; empty: this evaluation is skipped
-  int lateral = 0;    // LateralMethod
+  LateralMethod lateral = LateralMethod::wedge;
   double level_error = 0;  // V
   int draws = 0;
   int seed = 0;
@@ -39,7 +39,7 @@ struct LeverSpec {
 };
 
 struct CrosstalkSpec {
-  int method = 0;  // CrosstalkMethod
+  CrosstalkMethod method = CrosstalkMethod::force_curves;
   double coefficient = 0, error = 0;
 };
 
@@ -60,7 +60,7 @@ struct VoltsSpec {
   TestProbeSpec test_probe;
 
   bool wanted() const { return !afm.loops.empty(); }
-  LateralMethod lateral() const { return static_cast<LateralMethod>(afm.lateral); }
+  LateralMethod lateral() const { return afm.lateral; }
 };
 
 }  // namespace pulvis::volts

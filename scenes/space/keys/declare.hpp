@@ -19,9 +19,12 @@ using schema::nothing;
 using schema::smallest_size;
 using schema::TableDeclaration;
 using schema::to;
+using schema::value_for;
 using schema::value_of;
 using schema::within;
+using schema::word_to;
 using schema::Words;
+using schema::words_of;
 
 template <class Spec>
 auto to(Vec3 Spec::*member) {

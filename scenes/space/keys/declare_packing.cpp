@@ -8,27 +8,25 @@ namespace {
 const Words space_lattices{"cubic", "body-centred", "face-centred", "hexagonal"};
 
 Key<PackingSpec> kind_of_packing() {
-  return {
-      {.name = "kind",
-       .kind = Kind::choice,
-       .choices = {{"cubic", "simple cubic: one particle at the centre of each cell"},
-                   {"body-centred",
-                    "body-centred cubic: particles at the corners and centres of cells; between "
-                    "flat walls only whole particles: half a cell off the walls"},
-                   {"face-centred",
-                    "face-centred cubic: particles at the corners and face centres of cells; only "
-                    "whole particles"},
-                   {"hexagonal", "hexagonal close-packed layers, ABAB"},
-                   {"random",
-                    "a mixture, [[packing.class]], poured into a box or cylinder as rigid "
-                    "particles and compressed without friction while shaken until it reaches the "
-                    "required density; the same `seed` gives the same packing on every machine"},
-                   {"csv", "from a file as written by `pulvis pack`"}},
-       .required = true,
-       .doc = "Arrangement of the particles."},
-      [](PackingSpec& packing, const Decoded& value) {
-        packing.kind = static_cast<PackingSpec::Kind>(value.index);
-      }};
+  return {{.name = "kind",
+           .kind = Kind::choice,
+           .choices = words_of<PackingSpec::Kind>(
+               {{"cubic", "simple cubic: one particle at the centre of each cell"},
+                {"body-centred",
+                 "body-centred cubic: particles at the corners and centres of cells; between "
+                 "flat walls only whole particles: half a cell off the walls"},
+                {"face-centred",
+                 "face-centred cubic: particles at the corners and face centres of cells; only "
+                 "whole particles"},
+                {"hexagonal", "hexagonal close-packed layers, ABAB"},
+                {"random",
+                 "a mixture, [[packing.class]], poured into a box or cylinder as rigid "
+                 "particles and compressed without friction while shaken until it reaches the "
+                 "required density; the same `seed` gives the same packing on every machine"},
+                {"csv", "from a file as written by `pulvis pack`"}}),
+           .required = true,
+           .doc = "Arrangement of the particles."},
+          word_to(&PackingSpec::kind)};
 }
 
 std::vector<Key<PackingSpec>> keys_of_lattices() {

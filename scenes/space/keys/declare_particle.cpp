@@ -220,18 +220,18 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
            }},
           {{.name = "grid",
             .kind = Kind::choice,
-            .choices =
+            .choices = words_of<MeshSpec::Grid>(
                 {{"cube", "a cube at the centre, with layers around it"},
                  {"extruded",
                   "a disc mesh, a square at the centre with rings around it, extruded along z in "
                   "`axial_divisions` layers of divisions^2 + 4 divisions rings elements each: "
                   "for long cylinders and ends under impact; the rim radius must be less than "
-                  "half an element"}},
+                  "half an element"}}),
             .fallback = value_of("cube"),
             .only_for = "cylinder",
             .doc = "Topology of the mesh."},
            [](ParticleSpec& spec, const Decoded& value) {
-             spec.mesh.grid = static_cast<MeshSpec::Grid>(value.index);
+             spec.mesh.grid = value_for<MeshSpec::Grid>(value);
            }},
           {{.name = "phase",
             .kind = Kind::choice,

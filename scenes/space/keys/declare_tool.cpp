@@ -13,17 +13,15 @@ std::vector<Key<ToolSpec>> keys_of_place() {
        to(&ToolSpec::name)},
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices =
+        .choices = words_of<ToolSpec::Shape>(
             {{"plane", "fills the half-space behind its surface"},
              {"die",
               "a round hole: fills everything outside a cylinder, up to `height` if it is given"},
              {"punch", "a body of revolution about its axis, whose face has a profile"},
-             {"stl", "a closed surface from a file"}},
+             {"stl", "a closed surface from a file"}}),
         .required = true,
         .doc = "Type of tool."},
-       [](ToolSpec& spec, const Decoded& value) {
-         spec.shape = static_cast<ToolSpec::Shape>(value.index);
-       }},
+       word_to(&ToolSpec::shape)},
       {{.name = "point",
         .kind = Kind::vector,
         .unit = "m",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/enum_table.hpp"
 #include "engine/portable_math.hpp"
 
 namespace pulvis::space {
@@ -20,8 +21,8 @@ constexpr double share_of_face =
 constexpr int steps_of_edge = 6;  // of the quarter circle of a rounded edge
 
 const char* kind_of(const ToolSpec& tool) {
-  static constexpr const char* kinds[] = {"plane", "die", "punch", "stl"};
-  return kinds[static_cast<int>(tool.shape)];
+  static constexpr EnumTable<ToolSpec::Shape> kinds{"plane", "die", "punch", "stl"};
+  return kinds[tool.shape];
 }
 
 std::array<Vec3, 8> corners_of(const Box& box) {
