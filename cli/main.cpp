@@ -41,6 +41,7 @@
 #include "engine/instruction_set.hpp"
 #include "engine/machine_memory.hpp"
 #include "engine/printable.hpp"
+#include "engine/shortened.hpp"
 #include "scenes/build.hpp"
 #include "scenes/keys/scene_reference.hpp"
 #include "scenes/language/units.hpp"
@@ -316,7 +317,7 @@ bool refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     commands.push_back(command->get_name());
   if (std::ranges::find(commands, argv[1]) != commands.end()) return false;
   tell(stderr, "pulvis: there is no command '{}'{}, allowed: {}; see pulvis --help\n",
-       printable(argv[1]), suggestion(argv[1], commands), listed(commands));
+       printable(shortened(argv[1])), suggestion(argv[1], commands), listed(commands));
   return true;
 }
 
@@ -333,7 +334,9 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
   tell("{}", out.str());
-  tell(stderr, "{}", err.str());
+  constexpr std::size_t longest = 4000;  // it quotes what was given
+  const std::string text = err.str();
+  tell(stderr, "{}{}", shortened(text, longest), text.size() > longest ? "\n" : "");
   return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
 }
 

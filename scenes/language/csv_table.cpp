@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "engine/files/input_file.hpp"
+#include "engine/shortened.hpp"
 
 namespace pulvis::csv {
 namespace {
@@ -235,9 +236,10 @@ double factor_of(const Table& table, std::size_t column, const std::string& want
   if (own.unit.empty())
     refuse(table, own.name,
            fmt::format("has no unit, allowed: one that converts to {}, as in '{} [{}]'", name,
-                       own.name, name));
+                       shortened(own.name), name));
   if (wanted.empty())
-    refuse(table, own.name, fmt::format("has the unit '{}', allowed: a plain number", own.unit));
+    refuse(table, own.name,
+           fmt::format("has the unit '{}', allowed: a plain number", shortened(own.unit)));
   try {
     return parse_quantity("1 " + own.unit, wanted);
   } catch (const UnitError& error) {

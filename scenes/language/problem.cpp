@@ -8,11 +8,14 @@
 #include <tuple>
 
 #include "engine/printable.hpp"
+#include "engine/shortened.hpp"
 
 namespace pulvis {
 namespace {
 
 constexpr std::size_t longest_word = 64;  // nothing longer can be declared or named
+constexpr std::size_t longest_message = 3000;
+constexpr std::size_t longest_path = 4096;  // that a system opens
 
 std::string all_lines(const std::vector<SceneProblem>& problems) {
   std::vector<std::string> lines;
@@ -50,10 +53,12 @@ std::size_t distance(const std::string& from, const std::string& to) {
 }  // namespace
 
 std::string SceneProblem::text() const {
-  const std::string what = printable_lines(message);
+  const std::string what = printable_lines(shortened(message, longest_message));
+  const std::string named = printable(shortened(key));
   if (!override_text.empty())
-    return fmt::format("--set {}: {}: {}", printable(override_text), printable(key), what);
-  return fmt::format("{}:{}:{}: {}: {}", printable(file), line, column, printable(key), what);
+    return fmt::format("--set {}: {}: {}", printable(shortened(override_text)), named, what);
+  return fmt::format("{}:{}:{}: {}: {}", printable(shortened(file, longest_path)), line, column,
+                     named, what);
 }
 
 SceneError::SceneError(std::vector<SceneProblem> problems)
@@ -99,10 +104,11 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 
 std::string listed(const std::vector<std::string>& words) {
   constexpr std::size_t maximum = 20;  // keep messages short
-  const auto end = words.begin() + static_cast<std::ptrdiff_t>(std::min(words.size(), maximum));
   if (words.empty()) return "none";
-  return fmt::format("{}{}", fmt::join(words.begin(), end, ", "),
-                     words.size() > maximum ? ", ..." : "");
+  std::string text;
+  for (std::size_t i = 0; i < std::min(words.size(), maximum); ++i)
+    text += (i == 0 ? "" : ", ") + shortened(words[i]);
+  return words.size() > maximum ? text + ", ..." : text;
 }
 
 }  // namespace pulvis

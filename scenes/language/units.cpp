@@ -10,6 +10,8 @@
 #include <memory>
 #include <mutex>
 
+#include "engine/shortened.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -57,11 +59,12 @@ double take_number(std::string_view& text) {
   double value = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status == std::errc::invalid_argument)
-    throw UnitError(fmt::format("\"{}\" does not start with a number", whole));
+    throw UnitError(fmt::format("\"{}\" does not start with a number", shortened(whole)));
   if (status == std::errc::result_out_of_range)
-    throw UnitError(
-        fmt::format("the number of \"{}\" is outside the range of double precision", whole));
-  if (!std::isfinite(value)) throw UnitError(fmt::format("\"{}\" is not a finite number", whole));
+    throw UnitError(fmt::format("the number of \"{}\" is outside the range of double precision",
+                                shortened(whole)));
+  if (!std::isfinite(value))
+    throw UnitError(fmt::format("\"{}\" is not a finite number", shortened(whole)));
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return value;
 }
@@ -83,9 +86,11 @@ bool hides_a_factor(std::string_view unit) {
 Unit parse_unit(std::string_view text, std::string_view whole) {
   const std::string name(text);
   if (hides_a_factor(text))
-    throw UnitError(fmt::format("the unit '{}' of \"{}\" contains a number", name, whole));
+    throw UnitError(fmt::format("the unit '{}' of \"{}\" contains a number", shortened(name),
+                                shortened(whole)));
   Unit unit(ut_parse(unit_system(), name.c_str(), UT_UTF8));
-  if (unit == nullptr) throw UnitError(fmt::format("unknown unit '{}' in \"{}\"", name, whole));
+  if (unit == nullptr)
+    throw UnitError(fmt::format("unknown unit '{}' in \"{}\"", shortened(name), shortened(whole)));
   return unit;
 }
 
@@ -129,12 +134,12 @@ double converted(double value, ut_unit* given, const std::string& wanted, std::s
   const Unit target(ut_parse(unit_system(), wanted.c_str(), UT_UTF8));
   const std::string dimension_given = dimension(given);
   if (dimension_given != dimension(target.get()))
-    throw UnitError(fmt::format("\"{}\" has the dimension of {}, {} is expected", whole,
+    throw UnitError(fmt::format("\"{}\" has the dimension of {}, {} is expected", shortened(whole),
                                 dimension_given.empty() ? "a plain number" : dimension_given,
                                 wanted));
   const Converter converter(ut_get_converter(given, target.get()));
   if (converter == nullptr)
-    throw UnitError(fmt::format("\"{}\" cannot be converted to {}", whole, wanted));
+    throw UnitError(fmt::format("\"{}\" cannot be converted to {}", shortened(whole), wanted));
   return scaled(value, cv_convert_double(converter.get(), 1.0));
 }
 
@@ -149,11 +154,12 @@ void refuse_decimal_comma(std::string_view whole, std::string_view rest) {
   std::size_t digits = 0;
   while (1 + digits < rest.size() && is_digit(rest[1 + digits])) ++digits;
   const std::string before(whole.substr(0, number)), after(rest.substr(1));
-  throw UnitError(
-      fmt::format("\"{}\" has a comma in its number: write \"{}.{}\"{}", whole, before, after,
-                  digits == 3 && before != "0"
-                      ? fmt::format(", or \"{}{}\" if it separates thousands", before, after)
-                      : ""));
+  throw UnitError(fmt::format(
+      "\"{}\" has a comma in its number: write \"{}.{}\"{}", shortened(whole), before,
+      shortened(after),
+      digits == 3 && before != "0"
+          ? fmt::format(", or \"{}{}\" if it separates thousands", before, shortened(after))
+          : ""));
 }
 
 // The number at the start of `whole`; the rest is its unit.
@@ -174,14 +180,15 @@ double parse_quantity(std::string_view text, const std::string& wanted) {
   std::string_view name;
   const double number = number_before(whole, name);
   if (name.empty())
-    throw UnitError(fmt::format("missing unit: \"{}\" has none, {} is expected", whole, wanted));
+    throw UnitError(
+        fmt::format("missing unit: \"{}\" has none, {} is expected", shortened(whole), wanted));
 
   const std::scoped_lock lock(units_lock());
   const Unit unit = parse_unit(name, whole);
   const double value = converted(number, unit.get(), wanted, whole);
   if (!std::isfinite(value))
-    throw UnitError(
-        fmt::format("\"{}\" is outside the range of double precision in {}", whole, wanted));
+    throw UnitError(fmt::format("\"{}\" is outside the range of double precision in {}",
+                                shortened(whole), wanted));
   return value;
 }
 
@@ -195,11 +202,12 @@ BaseQuantity parse_any_quantity(std::string_view text) {
   const Unit unit = parse_unit(name, whole);
   const std::string base = dimension(unit.get());
   if (base == "?")
-    throw UnitError(fmt::format("\"{}\" has a unit with an offset or a logarithm", whole));
+    throw UnitError(
+        fmt::format("\"{}\" has a unit with an offset or a logarithm", shortened(whole)));
   const double value = converted(number, unit.get(), base.empty() ? "1" : base, whole);
   if (!std::isfinite(value))
-    throw UnitError(
-        fmt::format("\"{}\" is outside the range of double precision in SI units", whole));
+    throw UnitError(fmt::format("\"{}\" is outside the range of double precision in SI units",
+                                shortened(whole)));
   return {value, base};
 }
 
