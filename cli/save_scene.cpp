@@ -1,8 +1,8 @@
 #include "cli/save_scene.hpp"
 
 #include <fstream>
-#include <sstream>
 
+#include "engine/files/input_file.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
 
@@ -13,9 +13,11 @@ namespace fs = std::filesystem;
 
 bool holds(const fs::path& file, const InputFile& input) {
   if (!input.text) return file_hash(file) == input.hash;
-  std::ostringstream content;
-  content << std::ifstream(file, std::ios::binary).rdbuf();
-  return content.view() == *input.text;
+  try {
+    return text_of_input(file, input.text->size()) == *input.text;
+  } catch (const UnfitInput&) {
+    return false;
+  }
 }
 
 // An incomplete copy never gets the final name.

@@ -9,17 +9,18 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string_view>
 #include <utility>
+
+#include "engine/files/input_file.hpp"
 
 namespace pulvis::space {
 namespace {
 
 constexpr std::size_t header = 84, record = 50;  // bytes, of a binary file
 constexpr std::size_t most_triangles = 2'000'000;
+constexpr std::size_t largest_stl = 640U << 20U;  // bytes; as text a triangle takes about 300
 
 std::uint32_t little_endian(const char* bytes) {
   std::uint32_t value = 0;
@@ -169,11 +170,12 @@ std::vector<Triangle> stl_triangles(const std::string& bytes) {
 }
 
 std::vector<Triangle> read_stl(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw BadStl("the file '" + path + "' cannot be opened");
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return stl_triangles(bytes.str());
+  try {
+    return stl_triangles(text_of_input(path, largest_stl));
+  } catch (const UnfitInput& unfit) {
+    throw BadStl(
+        fmt::format("the file '{}': {}, allowed: an STL file, binary or text", path, unfit.what()));
+  }
 }
 
 std::optional<std::string> why_not_star_shaped(const std::vector<Triangle>& triangles) {

@@ -1,0 +1,67 @@
+// Files that scenes name: every key that names one refuses a pipe, which would wait for a writer, and a device, which
+// would never end. The keys are found by their declarations, in the scenes that test all keys.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <set>
+
+#include "scenes/keys/tables.hpp"
+#include "scenes/language/named_files.hpp"
+#include "scenes/language/scene_text.hpp"
+#include "scenes/read.hpp"
+#include "scenes/space/keys/tables.hpp"
+#include "tests/helpers/program.hpp"
+#include "tests/helpers/wrong.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+using UnfitFiles = ProgramTest;
+
+std::vector<fs::path> scenes_of_all_keys() {
+  std::vector<fs::path> files;
+  for (const char* folder : {"scenes", "scenes-3d"})
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(paths::source_dir()) / "tests" / "keys" / folder))
+      if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  return files;
+}
+
+// The scene with its path number `which` replaced; empty if it has no such path. The others become absolute.
+std::string with_path(const fs::path& file, int which, const fs::path& other) {
+  document::Table root = document::parse(toml_file_text(file));
+  int number = 0;
+  const schema::Language& language = language_of(root);
+  for_each_path(root, language, [&](schema::Kind, std::string& path) {
+    path = number++ == which ? other.string() : (file.parent_path() / path).string();
+  });
+  return which < number ? scene_text(root, language) : "";
+}
+
+TEST_F(UnfitFiles, AreRefusedWhereverTheyAreNamed) {
+  const fs::path pipe = place / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  alarm(120);  // a reader that waits ends the test
+  int paths = 0;
+  for (const fs::path& file : scenes_of_all_keys())
+    for (int which = 0;; ++which) {
+      const std::string text = with_path(file, which, pipe);
+      if (text.empty()) break;
+      SCOPED_TRACE(file.filename().string() + ", path " + std::to_string(which));
+      ++paths;
+      EXPECT_THAT(message_of([&] { load_scene_text(text, place / "scene.toml"); }),
+                  HasSubstr("is a named pipe"));
+      EXPECT_THAT(message_of([&] {
+                    load_scene_text(with_path(file, which, "/dev/zero"), place / "scene.toml");
+                  }),
+                  HasSubstr("is a device"));
+    }
+  alarm(0);
+  EXPECT_GT(paths, 15);
+}
+
+}  // namespace
+}  // namespace pulvis
