@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/portable_math.hpp"
+#include "engine/shortened.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/let/tokens.hpp"
 
@@ -117,7 +118,8 @@ class Parser {
   Quantity whole() {
     const Quantity result = sum();
     if (!ended())
-      throw ExpressionError(fmt::format("'{}' where an operator is expected", here().text));
+      throw ExpressionError(
+          fmt::format("'{}' where an operator is expected", shortened(here().text)));
     return result;
   }
 
@@ -181,7 +183,7 @@ class Parser {
     if (token.kind == Token::Kind::number) return number(token);
     if (token.kind == Token::Kind::name) return named(token.text);
     if (token.text != "(")
-      throw ExpressionError(fmt::format("'{}' where a value is expected", token.text));
+      throw ExpressionError(fmt::format("'{}' where a value is expected", shortened(token.text)));
     const Quantity result = sum();
     close();
     return result;
@@ -207,8 +209,8 @@ class Parser {
 
   Quantity called(std::string_view name) {
     if (!is_function(name) || name == "pi")
-      throw ExpressionError(
-          fmt::format("there is no function '{}', allowed: {}", name, listed_functions()));
+      throw ExpressionError(fmt::format("there is no function '{}', allowed: {}", shortened(name),
+                                        listed_functions()));
     std::vector<Quantity> given{sum()};
     while (take(",")) given.push_back(sum());
     close();
@@ -217,13 +219,14 @@ class Parser {
 
   std::string unknown(std::string_view name) const {
     if (is_function(name)) return fmt::format("an opening bracket is expected after {}", name);
-    const std::string hint = suggestion(std::string(name), variables_.names);
+    const std::string hint = suggestion(std::string(name), variables_.names());
     const std::string what = fmt::format(
-        "no variable is called '{}'{}, allowed: {}", name, hint,
-        variables_.names.empty() ? "none, as there is no [let]" : listed(variables_.names));
+        "no variable is called '{}'{}, allowed: {}", shortened(name), hint,
+        variables_.names().empty() ? "none, as there is no [let]" : listed(variables_.names()));
     try {
       quantity_of(fmt::format("1 {}", name));
-      return hint.empty() ? fmt::format("{}; for the unit write 1 {}", what, name) : what;
+      return hint.empty() ? fmt::format("{}; for the unit write 1 {}", what, shortened(name))
+                          : what;
     } catch (const ExpressionError&) {
       return what;
     }
@@ -237,8 +240,9 @@ class Parser {
 
 }  // namespace
 
-bool Variables::has(std::string_view name) const {
-  return std::ranges::find(names, name) != names.end();
+void Variables::add(const std::string& name) {
+  names_.push_back(name);
+  known_.insert(name);
 }
 
 bool is_function(std::string_view name) {
@@ -259,7 +263,8 @@ bool is_expression(std::string_view text, const Variables& variables) {
     const std::vector<Token> tokens = tokens_of(text, is_known);
     if (is_literal(tokens)) return false;
     const bool named = std::ranges::any_of(tokens, [&](const Token& token) {
-      return token.kind == Token::Kind::name && (!variables.names.empty() || is_known(token.text));
+      return token.kind == Token::Kind::name &&
+             (!variables.names().empty() || is_known(token.text));
     });
     const bool signs = std::ranges::any_of(tokens, [](const Token& token) {
       return token.kind == Token::Kind::sign && token.text != ",";
@@ -282,6 +287,20 @@ std::string product_meant(std::string_view text, const Variables& variables) {
   } catch (const ExpressionError&) {
     return "";
   }
+}
+
+std::vector<std::string> variables_in(std::string_view text, const Variables& variables) {
+  if (text.size() > longest_expression) return {};  // refused when it is evaluated
+  std::set<std::string> found;
+  try {
+    const std::vector<Token> tokens = tokens_of(
+        text, [&](std::string_view name) { return variables.has(name) || is_function(name); });
+    for (const Token& token : tokens)
+      if (token.kind == Token::Kind::name && variables.has(token.text)) found.emplace(token.text);
+  } catch (const ExpressionError&) {
+    return {};
+  }
+  return {found.begin(), found.end()};
 }
 
 Quantity value_of(std::string_view text, const Variables& variables) {

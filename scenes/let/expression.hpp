@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,11 +11,17 @@
 
 namespace pulvis::let {
 
-struct Variables {
-  std::vector<std::string> names;
+class Variables {
+ public:
+  void add(const std::string& name);
+  const std::vector<std::string>& names() const { return names_; }  // in the order of the file
+  bool has(std::string_view name) const { return known_.contains(name); }
+
   std::function<Quantity(std::string_view)> value_of;  // of one of the names
 
-  bool has(std::string_view name) const;
+ private:
+  std::vector<std::string> names_;
+  std::set<std::string, std::less<>> known_;
 };
 
 inline constexpr std::size_t longest_expression = 1000;  // characters
@@ -28,6 +35,9 @@ bool is_expression(std::string_view text, const Variables& variables);
 
 // For text that is not an expression: "2*D" if it is "2 D", with D a variable; otherwise empty.
 std::string product_meant(std::string_view text, const Variables& variables);
+
+// The variables whose values an expression needs, each once. None of a text that is not one.
+std::vector<std::string> variables_in(std::string_view text, const Variables& variables);
 
 // Throws ExpressionError with the reason.
 Quantity value_of(std::string_view text, const Variables& variables);

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/shortened.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/let/expression.hpp"
 #include "scenes/let/tokens.hpp"
@@ -22,10 +23,11 @@ using document::Value;
 using schema::KeyInfo;
 using schema::Kind;
 
-// The variables of a scene; each is evaluated when it is first needed.
+// The variables of a scene. Each is evaluated once, after those that it is defined by, without recursion: a chain may
+// be as long as the file.
 class Scope {
  public:
-  Scope(const Table& table, Problems& problems) : table_(table), problems_(problems) {
+  Scope(const Table& table, Problems& problems) : problems_(problems) {
     for (const Entry& entry : table) add(entry);
     variables_.value_of = [this](std::string_view name) { return value_of(std::string(name)); };
   }
@@ -34,22 +36,18 @@ class Scope {
 
   // Evaluates all of them, used or not: each error is reported once, at its variable.
   void work_out() {
-    for (const std::string& name : variables_.names) {
-      try {
-        value_of(name);
-      } catch (const Told&) {  // the next variable may have errors as well
-      }
-    }
+    for (const std::string& name : variables_.names()) work_out_chain(name);
     used_.clear();
   }
 
   // A mistyped name in an override would have no effect, and go unnoticed.
-  void refuse_unused_overrides() const {
+  void refuse_unused_overrides() {
+    add_used_by_used();
     std::vector<std::string> used;
-    for (const std::string& name : variables_.names)
+    for (const std::string& name : variables_.names())
       if (used_.contains(name)) used.push_back(name);
-    for (const std::string& name : variables_.names) {
-      const document::Origin& origin = document::find(table_, name)->origin;
+    for (const std::string& name : variables_.names()) {
+      const document::Origin& origin = given_.at(name)->origin;
       if (origin.override_index < 0 || used_.contains(name)) continue;
       problems_.add(
           origin, "let." + name,
@@ -67,49 +65,93 @@ class Scope {
     const std::string& name = entry.key;
     const std::vector<std::string_view> words = let::words_of(name);
     const bool one_word = words.size() == 1 && words.front() == name;
-    if (!one_word || let::is_function(name))
+    if (!one_word || let::is_function(name)) {
       problems_.add(entry.origin, "let." + name,
                     fmt::format("is not a valid variable name, allowed: letters, digits and '_', a "
                                 "letter first, and none of pi, {}",
                                 let::listed_functions()));
-    else
-      variables_.names.push_back(name);
+      return;
+    }
+    variables_.add(name);
+    given_[name] = &entry;
+  }
+
+  // Depth first, with a stack of its own.
+  void work_out_chain(const std::string& first) {
+    if (is_known(first)) return;
+    std::vector<std::string> open{first};
+    std::set<std::string> in_open{first};
+    while (!open.empty()) {
+      const std::string name = open.back();
+      const std::vector<std::string>& parts = parts_of(name);
+      const auto next = std::ranges::find_if_not(
+          parts, [this](const std::string& part) { return is_known(part); });
+      if (next != parts.end() && !in_open.contains(*next)) {
+        open.push_back(*next);
+        in_open.insert(*next);
+        continue;
+      }
+      if (next != parts.end())
+        refuse_circle(name, std::ranges::find(open, *next), open.end());
+      else
+        evaluate(name);
+      open.pop_back();
+      in_open.erase(name);
+    }
+  }
+
+  bool is_known(const std::string& name) const {
+    return values_.contains(name) || wrong_.contains(name);
+  }
+
+  // The variables in its definition.
+  const std::vector<std::string>& parts_of(const std::string& name) {
+    const auto [parts, fresh] = parts_.try_emplace(name);
+    const auto* text = given_.at(name)->value.as<std::string>();
+    if (fresh && text != nullptr) parts->second = let::variables_in(*text, variables_);
+    return parts->second;
+  }
+
+  void refuse_circle(const std::string& name, std::vector<std::string>::const_iterator begin,
+                     std::vector<std::string>::const_iterator end) {
+    constexpr std::ptrdiff_t shown = 6;
+    const std::string more = end - begin > shown ? "... -> " : "";
+    refuse(name, fmt::format("is defined in terms of itself: {} -> {}{}, allowed: expressions of "
+                             "other variables",
+                             fmt::join(begin, begin + std::min(shown, end - begin), " -> "), more,
+                             *begin));
+  }
+
+  void refuse(const std::string& name, const std::string& reason) {
+    const Value& given = given_.at(name)->value;
+    wrong_.insert(name);
+    problems_.add(given.origin, "let." + name,
+                  shortened(document::value_text(given)) + ": " + reason);
+  }
+
+  void evaluate(const std::string& name) {
+    try {
+      values_[name] = defined(given_.at(name)->value);
+    } catch (const Told&) {  // the variable to blame has been reported
+      wrong_.insert(name);
+    } catch (const let::ExpressionError& error) {
+      refuse(name, error.what());
+    }
   }
 
   let::Quantity value_of(const std::string& name) {
     used_.insert(name);
     if (wrong_.contains(name)) throw Told(name);
-    if (const auto known = values_.find(name); known != values_.end()) {
-      used_.insert(uses_[name].begin(), uses_[name].end());
-      return known->second;
-    }
-    const auto open = std::ranges::find(open_, name);
-    if (open != open_.end())
-      throw let::ExpressionError(fmt::format(
-          "is defined in terms of itself: {} -> {}, allowed: expressions of other variables",
-          fmt::join(open, open_.end(), " -> "), name));
-    return values_[name] = worked_out(name);
+    return values_.at(name);
   }
 
-  let::Quantity worked_out(const std::string& name) {
-    const Value& given = document::find(table_, name)->value;
-    const std::set<std::string> before = std::exchange(used_, {name});
-    open_.push_back(name);
-    try {
-      const let::Quantity value = defined(given);
-      open_.pop_back();
-      uses_[name] = used_;
-      used_.insert(before.begin(), before.end());
-      return value;
-    } catch (const Told&) {
-      open_.pop_back();
-      wrong_.insert(name);
-      throw;
-    } catch (const let::ExpressionError& error) {
-      open_.pop_back();
-      wrong_.insert(name);
-      problems_.add(given.origin, "let." + name, document::value_text(given) + ": " + error.what());
-      throw Told(name);
+  void add_used_by_used() {
+    std::vector<std::string> open(used_.begin(), used_.end());
+    while (!open.empty()) {
+      const std::string name = std::move(open.back());
+      open.pop_back();
+      for (const std::string& part : parts_of(name))
+        if (used_.insert(part).second) open.push_back(part);
     }
   }
 
@@ -123,13 +165,12 @@ class Scope {
         number != nullptr ? "a number that is not finite" : document::type_name(value)));
   }
 
-  const Table& table_;
   Problems& problems_;
   let::Variables variables_;
+  std::map<std::string, const Entry*> given_;
   std::map<std::string, let::Quantity> values_;
-  std::map<std::string, std::set<std::string>> uses_;  // by each variable, directly or indirectly
+  std::map<std::string, std::vector<std::string>> parts_;  // of the definition of each variable
   std::set<std::string> used_, wrong_;
-  std::vector<std::string> open_;  // being evaluated
 };
 
 // Writes the values of expressions into the tree.
@@ -193,7 +234,7 @@ class Replacement {
       if (!let::is_expression(*text, variables_)) return refuse_missing_operator(key, *text);
       write(key, value, let::value_of(*text, variables_));
     } catch (const let::ExpressionError& error) {
-      problems_.add(value.origin, path, fmt::format("\"{}\": {}", *text, error.what()));
+      problems_.add(value.origin, path, fmt::format("\"{}\": {}", shortened(*text), error.what()));
     }
   }
 

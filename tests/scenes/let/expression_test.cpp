@@ -24,7 +24,7 @@ const std::map<std::string, let::Quantity, std::less<>>& values() {
 const let::Variables& variables() {
   static const let::Variables all = [] {
     let::Variables made;
-    for (const auto& [name, value] : values()) made.names.push_back(name);
+    for (const auto& [name, value] : values()) made.add(name);
     made.value_of = [](std::string_view name) { return values().find(name)->second; };
     return made;
   }();

@@ -1,6 +1,9 @@
 // Variables of a scene: what they stand for, where they are changed, and what is wrong with them.
 #include <gmock/gmock.h>
 
+#include <fmt/format.h>
+
+#include <chrono>
 #include <fstream>
 
 #include "scenes/study/study_power.hpp"
@@ -109,6 +112,27 @@ TEST_F(LetFiles, AreVariedByStudies) {
   EXPECT_EQ(number_of_key(study.runs[1], "let.D"), 0.012);
   EXPECT_EQ(unit_of_varied(study.runs, "let.D"), "m");
   EXPECT_EQ(unit_of_varied(study.runs, "tip.height"), "m");
+}
+
+// Each is defined by its neighbour, forwards or backwards: neither time nor stack grows with more than their number.
+TEST(Let, ChainsMayBeLong) {
+  constexpr int number = 20'000;
+  std::string forwards = "v0 = \"1 mm\"\n", backwards, circle;
+  for (int i = 1; i < number; ++i) {
+    forwards += fmt::format("v{} = \"v{} + 1 mm\"\n", i, i - 1);
+    backwards += fmt::format("w{} = \"w{} + 1 mm\"\n", i - 1, i);
+    circle += fmt::format("c{} = \"c{}\"\n", i, i % (number - 1) + 1);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const std::string text = changed(right_scene, "diameter = \"10 mm\"", "diameter = \"D\"") +
+                           fmt::format("[let]\nD = \"(v{} + w0)/{}\"\nw{} = \"0 mm\"\n", number - 1,
+                                       (2 * number - 1) / 10.0, number - 1) +
+                           forwards + backwards;
+  EXPECT_NEAR(diameter_in(load_scene_text(text, "let.toml").scene), 0.01, 1e-9);
+  const auto problems = problems_with(circle);
+  EXPECT_EQ(problems.size(), 1U);
+  EXPECT_LT(problems.at(0).message.size(), 300U);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
 TEST(Let, MayBeWithoutVariables) {
