@@ -6,6 +6,7 @@
 
 #include "cli/fit/fit_files.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/results_folder.hpp"
 #include "cli/study/saved_settings.hpp"
 #include "cli/study/study_runner.hpp"
 #include "cli/tell.hpp"
@@ -159,8 +160,7 @@ class Fitting {
 ExitCode run_fit(const FitOptions& options) {
   leave_at_interrupts();
   const PlateFit fit = load_plate_fit(options.fit, options.overrides);
-  const fs::path folder =
-      options.folder.empty() ? fs::path("runs") / options.fit.stem() : options.folder;
+  const fs::path folder = results_folder(options.folder, options.fit);
   require_own_fit(folder, fit);
   Fitting fitting(options, fit, folder);
   take_interrupts();

@@ -11,6 +11,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/probe/probe_files.hpp"
 #include "cli/probe/probe_results.hpp"
+#include "cli/results_folder.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/study/saved_settings.hpp"
 #include "cli/study/study_runner.hpp"
@@ -222,8 +223,7 @@ ExitCode run_probe(const ProbeOptions& options) {
     return ExitCode::done;
   }
   take_interrupts();
-  const fs::path folder =
-      options.folder.empty() ? fs::path("runs") / options.probe.stem() : options.folder;
+  const fs::path folder = results_folder(options.folder, options.probe);
   require_own_probe(folder, probe);
   make_folder(folder / scenes_folder);
   const FolderLock lock(folder, "another probe is running in it");

@@ -8,6 +8,7 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/ranks/join_ranks.hpp"
+#include "cli/results_folder.hpp"
 #include "cli/session/open_session.hpp"
 #include "cli/session/run_afm.hpp"
 #include "cli/session/session.hpp"
@@ -170,8 +171,7 @@ class RankOfRun {
 }  // namespace
 
 std::filesystem::path folder_of(const RunOptions& options) {
-  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
-                                : options.folder;
+  return results_folder(options.folder, options.scene);
 }
 
 ExitCode run_scene(const RunOptions& options) {

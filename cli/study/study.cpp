@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/interrupt.hpp"
+#include "cli/results_folder.hpp"
 #include "cli/shell_word.hpp"
 #include "cli/slurm/slurm_queue.hpp"
 #include "cli/study/study_fit_files.hpp"
@@ -116,8 +117,7 @@ ExitCode run_study(const StudyOptions& options) {
     print_list(study);
     return ExitCode::done;
   }
-  const fs::path folder =
-      options.folder.empty() ? fs::path("runs") / options.study.stem() : options.folder;
+  const fs::path folder = results_folder(options.folder, options.study);
   if (!options.only.empty() && !options.slurm.submit) return run_part(options, study, folder);
   require_own_study(folder, options.study);
   if (options.slurm.submit) return submit_study(options, study, folder);
