@@ -4,6 +4,7 @@
 // are not refused, and an overlap below twice the polygons' deviation is not detected.
 #include "scenes/checks/overlaps.hpp"
 
+#include "scenes/checks/far_away.hpp"
 #include "scenes/checks/surface_overlap.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/outlines/outline.hpp"
@@ -336,6 +337,9 @@ std::vector<BodySpec> with_images(const Scene& scene, const std::vector<BodySpec
 
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (bodies.empty()) return 0;
+  check_distance(scene, scene, bodies, [&](const BodySpec& body) {
+    return std::sqrt(outline_area(scene.class_of(body).outline));
+  });
   const std::vector<BodySpec> all = with_images(scene, bodies);
   OverlapSearch search(scene, all);
   Report report(scene, all, bodies.size());

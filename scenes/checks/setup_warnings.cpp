@@ -109,6 +109,7 @@ FastTool fastest_tool(const Scene& scene) {
 
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::vector<std::string> lines = travel_warnings(scene, bodies);
+  for (std::string& line : leaving_warnings(scene)) lines.push_back(std::move(line));
   for (std::string& line : until_warnings(scene, density_at_start(scene, bodies)))
     lines.push_back(std::move(line));
   for (std::string& line : soft_contact_warnings(scene)) lines.push_back(std::move(line));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "scenes/checks/faces.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/tools/die_sides.hpp"
@@ -122,6 +123,42 @@ double bulk_modulus(const Scene& scene) {
   return bulk;
 }
 
+std::vector<Face<Vec2>> faces_of(const Scene& scene) {
+  std::vector<Face<Vec2>> all;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const ToolSpec& tool = scene.tools[t];
+    if (tool.shape == ToolSpec::Shape::constraint) continue;
+    Face<Vec2> face{static_cast<int>(t), tool.point, face_normal(tool)};
+    for (const Vec2& corner : tool.points)
+      if (&corner == &tool.points.front() || (corner - face.point).dot(face.normal) < 0)
+        face.point = corner;
+    all.push_back(face);
+  }
+  return all;
+}
+
+std::vector<StageMoves<Vec2>> moves_of(const Scene& scene) {
+  std::vector<StageMoves<Vec2>> all;
+  for (const StageSpec& stage : scene.stages) {
+    StageMoves<Vec2> moves;
+    moves.decided = is_prescribed(stage) && !stage.until;
+    for (const MoveSpec& move : stage.moves)
+      moves.of_tools.emplace_back(move.tool, move.displacement);
+    all.push_back(std::move(moves));
+  }
+  return all;
+}
+
+[[noreturn]] void refuse_meeting(const Scene& scene, const Meeting& meeting) {
+  const auto& moves = scene.stages[static_cast<std::size_t>(meeting.stage)].moves;
+  const auto move = std::ranges::find(moves, meeting.first, &MoveSpec::tool);
+  const auto name = [&](int tool) { return scene.tools[static_cast<std::size_t>(tool)].name; };
+  throw SceneError(
+      {{scene.file_of(move->mark).string(), move->mark.line, move->mark.column, "",
+        fmt::format("stage[{}].move[{}].displacement", meeting.stage, move - moves.begin()),
+        told_meeting(meeting, scene, name(meeting.first), name(meeting.second))}});
+}
+
 // For scenes that demonstrate what a health check detects.
 bool is_to_stop(const Scene& scene) {
   return std::ranges::any_of(scene.expects, &ExpectSpec::stops);
@@ -153,8 +190,12 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
 }
 
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  if (is_to_stop(scene)) return;
   const auto full = full_density(scene, bodies);
-  if (!full || full->density < densest || is_to_stop(scene)) return;
+  if (!full && !scene.initial_state)
+    if (const auto meeting = first_meeting(faces_of(scene), moves_of(scene)))
+      refuse_meeting(scene, *meeting);
+  if (!full || full->density < densest) return;
   const StageSpec& stage = scene.stages[static_cast<std::size_t>(full->stage)];
   for (std::size_t m = 0; m < stage.moves.size(); ++m) {
     const MoveSpec& move = stage.moves[m];
@@ -175,6 +216,17 @@ std::vector<std::string> until_warnings(const Scene& scene, const std::optional<
       "stage '{}' ends as soon as it begins: its relative density is {:.3g} at the start, and it "
       "ends at {:.3g} (stage.until)",
       first.name, *density, *wanted)};
+}
+
+std::vector<std::string> leaving_warnings(const Scene& scene) {
+  const std::vector<Face<Vec2>> faces = faces_of(scene);
+  const std::vector<StageMoves<Vec2>> moves = moves_of(scene);
+  std::vector<std::string> leaving(scene.stages.size());
+  for (std::size_t s = 0; s < leaving.size(); ++s)
+    if (scene.stages[s].servos.empty() && !scene.stages[s].cell)
+      if (const auto tool = tool_that_leaves(moves[s], faces))
+        leaving[s] = scene.tools[static_cast<std::size_t>(*tool)].name;
+  return leaving_warnings(scene, leaving);
 }
 
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {

@@ -29,8 +29,11 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
 // -, of a die of four planes at its start; none for other scenes.
 std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// Throws SceneError where no solid could withstand the travel: the density exceeds 1.5, or tools meet. Not if the
-// scene expects the run to stop.
+// If a stage of kind "compact" moves tools away from the powder only.
+std::vector<std::string> leaving_warnings(const Scene& scene);
+
+// Throws SceneError where no solid could withstand the travel: the density exceeds 1.5, or tools that face each other
+// meet. Not if the scene expects the run to stop.
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 // One line if the pressure beyond full density exceeds the yield stress of the particles.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "scenes/checks/far_away.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/space/meshes/directions.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
@@ -245,6 +246,9 @@ class OverlapReport {
 
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (bodies.empty()) return 0;
+  check_distance(scene, *scene.space, bodies, [&](const BodySpec& body) {
+    return diameter_of(scene.space->particles[static_cast<std::size_t>(body.particle)].shape);
+  });
   BodyOverlaps search(scene, bodies, true_shape);
   OverlapReport report(scene, bodies);
   for (std::size_t t = 0; t < scene.space->tools.size(); ++t) {

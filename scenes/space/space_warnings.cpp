@@ -54,6 +54,7 @@ std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<Bo
   for (std::string& line : contact_overlap_warnings(scene, bodies))
     lines.push_back(std::move(line));
   for (std::string& line : travel_warnings(scene, bodies)) lines.push_back(std::move(line));
+  for (std::string& line : space::leaving_warnings(scene)) lines.push_back(std::move(line));
   for (std::string& line : until_warnings(scene, density_at_start(scene, bodies)))
     lines.push_back(std::move(line));
   for (std::string& line : mouth_warnings(scene, bodies)) lines.push_back(std::move(line));

@@ -6,9 +6,11 @@
 #include <limits>
 #include <map>
 
+#include "scenes/checks/faces.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/space/packing/rigid_shape.hpp"
 #include "scenes/space/tools/die_room.hpp"
+#include "scenes/space/tools/powder.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -74,6 +76,44 @@ std::string told(const Scene& scene, const FullDensity& full) {
       density);
 }
 
+std::vector<Face<Vec3>> faces_of(const SpaceScene& scene) {
+  std::vector<Face<Vec3>> all;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const ToolSpec& tool = scene.tools[t];
+    if (!has_face(tool)) continue;
+    double deepest = 0;  // m, of a punch's profile
+    for (const auto& point : tool.profile) deepest = std::min(deepest, point.y());
+    all.push_back({static_cast<int>(t), tool.point + deepest * tool.normal, tool.normal});
+  }
+  return all;
+}
+
+std::vector<StageMoves<Vec3>> moves_of(const Scene& scene) {
+  std::vector<StageMoves<Vec3>> all;
+  for (std::size_t s = 0; s < scene.stages.size(); ++s) {
+    StageMoves<Vec3> moves;
+    moves.decided = scene.space->servos[s].empty() && !scene.stages[s].until;
+    for (const MoveSpec& move : scene.space->moves[s]) {
+      moves.decided = moves.decided && !move.stiffness;
+      moves.of_tools.emplace_back(move.tool, move.displacement);
+    }
+    all.push_back(std::move(moves));
+  }
+  return all;
+}
+
+[[noreturn]] void refuse_meeting(const Scene& scene, const Meeting& meeting) {
+  const auto& moves = scene.space->moves[static_cast<std::size_t>(meeting.stage)];
+  const auto move = std::ranges::find(moves, meeting.first, &MoveSpec::tool);
+  const auto name = [&](int tool) {
+    return scene.space->tools[static_cast<std::size_t>(tool)].name;
+  };
+  throw SceneError(
+      {{scene.file_of(move->mark).string(), move->mark.line, move->mark.column, "",
+        fmt::format("stage[{}].move[{}].displacement", meeting.stage, move - moves.begin()),
+        told_meeting(meeting, scene, name(meeting.first), name(meeting.second))}});
+}
+
 bool is_to_stop(const Scene& scene) {
   return std::ranges::any_of(scene.expects, &ExpectSpec::stops);
 }
@@ -119,8 +159,12 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
 }
 
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  if (is_to_stop(scene)) return;
   const auto full = full_density(scene, bodies);
-  if (!full || full->density < too_dense || is_to_stop(scene)) return;
+  if (!full && !scene.initial_state)
+    if (const auto meeting = first_meeting(faces_of(*scene.space), moves_of(scene)))
+      refuse_meeting(scene, *meeting);
+  if (!full || full->density < too_dense) return;
   const std::vector<MoveSpec>& moves = scene.space->moves[static_cast<std::size_t>(full->stage)];
   for (std::size_t m = 0; m < moves.size(); ++m) {
     if (moves[m].tool != full->tool) continue;
@@ -130,6 +174,17 @@ void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
           fmt::format("{}, allowed: a travel of up to about {:.4g} m", told(scene, *full),
                       full->until_full)}});
   }
+}
+
+std::vector<std::string> leaving_warnings(const Scene& scene) {
+  const std::vector<Face<Vec3>> faces = faces_of(*scene.space);
+  const std::vector<StageMoves<Vec3>> moves = moves_of(scene);
+  std::vector<std::string> leaving(scene.stages.size());
+  for (std::size_t s = 0; s < leaving.size(); ++s)
+    if (scene.space->servos[s].empty())
+      if (const auto tool = tool_that_leaves(moves[s], faces))
+        leaving[s] = scene.space->tools[static_cast<std::size_t>(*tool)].name;
+  return pulvis::leaving_warnings(scene, leaving);
 }
 
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {

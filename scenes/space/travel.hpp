@@ -21,7 +21,10 @@ struct FullDensity {  // if moves alone take the tools beyond it
 };
 std::optional<FullDensity> full_density(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// Throws SceneError if a move goes far beyond full density.
+// If a stage of kind "compact" moves tools away from the powder only.
+std::vector<std::string> leaving_warnings(const Scene& scene);
+
+// Throws SceneError if a move goes far beyond full density, or leaves no room between two faces.
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies);
 // One line if it goes slightly beyond.
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);

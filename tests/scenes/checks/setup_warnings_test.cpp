@@ -49,7 +49,7 @@ TEST(SetupWarnings, APunchIsTooFastWhereItsPowdersKineticEnergyCounts) {
   // A punch that leaves the powder presses nothing.
   EXPECT_THAT(warnings_of_25({"stage[0].duration=0.028 ms",
                               "stage[0].move[0].displacement=[\"0 mm\", \"5 mm\"]"}),
-              IsEmpty());
+              ElementsAre(HasSubstr("tool 'top' moves away from the powder")));
 }
 
 // 25 discs in 50 mm x 50 mm are full at a height of 25 pi/4 100/50 mm = 39.27 mm: after 10.73 mm.
@@ -70,6 +70,70 @@ TEST(SetupWarnings, ATravelBeyondFullDensityIsRefusedWithTheOneThatReachesIt) {
   const std::string refused = refusal_of_25(to("30 mm"));
   EXPECT_THAT(refused, HasSubstr("stage[0].move[0].displacement"));
   EXPECT_THAT(refused, HasSubstr("allowed: a travel of up to about 0.0107"));
+}
+
+TEST(SetupWarnings, AStageOfCompactionThatLoadsNothingIsTold) {
+  const auto lines_in_space = [](const std::vector<std::string>& overrides) {
+    const Scene scene =
+        read_scene(paths::source_dir() + "/scenes/compaction-3d/unit-cell-sc.toml", overrides);
+    std::string all;
+    for (const std::string& line : space::setup_warnings(scene, space::place_bodies(scene)))
+      all += line + "\n";
+    return all;
+  };
+  const char* away = "tool 'top' moves away from the powder, and no tool moves towards it";
+  EXPECT_THAT(warnings_of_25({"stage[0].move[0].displacement=[\"0 mm\", \"5 mm\"]"}),
+              ElementsAre(HasSubstr(away)));
+  EXPECT_THAT(warnings_of_25(
+                  {"stage[0].kind=unload", "stage[0].move[0].displacement=[\"0 mm\", \"5 mm\"]"}),
+              IsEmpty());
+  EXPECT_THAT(lines_in_space({"stage[0].move.top.displacement=[\"0 mm\", \"0 mm\", \"0.1 mm\"]"}),
+              HasSubstr(away));
+  EXPECT_THAT(lines_in_space({}), ::testing::Not(HasSubstr(away)));
+}
+
+// Without a die around the powder no density tells how far is too far: the plates themselves do.
+TEST(SetupWarnings, PlatesThatMeetAreRefused) {
+  const auto refusal = [](const std::string& scene, const std::vector<std::string>& overrides) {
+    return message_of([&] { build_world(read_scene(paths::source_dir() + scene, overrides)); });
+  };
+  EXPECT_THAT(refusal("/scenes/basic/disc-platens.toml",
+                      {"stage.press.move.top.displacement=[\"0 mm\", \"-100 mm\"]"}),
+              HasSubstr("stage[0].move[1].displacement: stage 'press': tools 'top' and 'bottom' "
+                        "approach each other by 0.1 m, but are 0.01 m apart at its start"));
+  EXPECT_THAT(refusal("/scenes/compaction-3d/one-sphere.toml",
+                      {"stage.press.move.top.displacement=[\"0 mm\", \"0 mm\", \"-100 mm\"]"}),
+              HasSubstr("tools 'top' and 'bottom' approach each other by 0.1 m"));
+  // Both move.
+  EXPECT_THAT(refusal("/scenes/basic/disc-platens.toml",
+                      {"stage.press.move.top.displacement=[\"0 mm\", \"-5 mm\"]",
+                       "stage.press.move.bottom.displacement=[\"0 mm\", \"5.001 mm\"]"}),
+              HasSubstr("tools 'bottom' and 'top' approach each other by 0.01 m"));
+  EXPECT_EQ(refusal("/scenes/basic/disc-platens.toml", {}), "");
+  EXPECT_EQ(refusal("/scenes/compaction-3d/one-sphere.toml", {}), "");
+}
+
+// Where positions are rounded to more than a billionth of a particle, contact gaps are: the limit is a distance of 4.5
+// million diameters of a sphere.
+TEST(SetupWarnings, ParticlesTooFarFromTheOriginForTheirSizeAreRefused) {
+  const auto refusal_of_ball = [](double distance) {
+    const std::string at = fmt::format("[\"{} m\", \"0 mm\", \"5 nm\"]", distance);
+    return message_of([&] {
+      build_world(read_scene(paths::source_dir() + "/scenes/compaction-3d/one-sphere.toml",
+                             {"particle.ball.diameter=10 nm", "body[0].position=" + at,
+                              "tool.top.point=[\"0 m\", \"0 m\", \"10 nm\"]",
+                              "stage.press.move.top.displacement=[\"0 m\", \"0 m\", \"-2 nm\"]",
+                              "stage.release.move.top.displacement=[\"0 m\", \"0 m\", \"1 nm\"]"}));
+    });
+  };
+  EXPECT_THAT(refusal_of_ball(1),
+              HasSubstr("body[0].position: 'ball', 1e-08 m in size, is placed 1 m from the origin, "
+                        "where positions are rounded to 2.2e-16 m: contact gaps would be wrong by "
+                        "2.2e-08 of its size, allowed: up to 1e-09 of it, i.e. within 0.045 m"));
+  EXPECT_EQ(refusal_of_ball(0.04), "");
+  EXPECT_THAT(refusal_of_25({"particle[0].diameter=1 nm", "packing[0].spacing=1.01 nm",
+                             "packing[0].corner=[\"-1 m\", \"0 m\"]"}),
+              HasSubstr("packing[0]: 'disc', 8.86e-10 m in size, is placed 1 m from the origin"));
 }
 
 // 25 discs touch at a relative density of pi/4, four spheres in a cell at pi/6.
