@@ -55,23 +55,41 @@ class DieFiller {
         .read(schema::die(), die, "die", "", spec_);
   }
 
-  void fill() {
+  std::optional<MissingWidth> fill() {
     packings_ = elements_of(root_, "packing");
     if (packings_ != nullptr && packings_->size() == 1) take_over(packings_->front().get<Table>());
-    if (!spec_.width) {
-      if (!wrong_)
-        problems_.add(origin_, "die.width",
-                      "required key is missing, allowed: a quantity in m; without it there must be "
-                      "exactly one packing with a width");
-      return;
-    }
+    if (!spec_.width && wrong_) return std::nullopt;
+    if (!spec_.width) stand_somewhere();
     for (std::size_t i = 0; packings_ != nullptr && i < packings_->size(); ++i)
       fill_packing((*packings_)[i].get<Table>(), fmt::format("packing[{}]", i));
     for (const Wall& wall : walls)
-      if (wall.normal_y >= 0 || (packings_ != nullptr && !packings_->empty())) stand(wall);
+      if (wall.normal_y >= 0 || missing_ || (packings_ != nullptr && !packings_->empty()))
+        stand(wall);
+    return missing_;
   }
 
  private:
+  // The rest of the scene is still read, with walls that its stages can refer to: what the packing gets wrong is the
+  // mistake, and the missing width its consequence.
+  void stand_somewhere() {
+    missing_ = {origin_, fmt::format("required key is missing, allowed: a quantity in m; {}",
+                                     why_no_width())};
+    spec_.width = 1;
+  }
+
+  std::string why_no_width() const {
+    if (packings_ == nullptr || packings_->empty())
+      return "there is no [[packing]] that it could follow from";
+    if (packings_->size() > 1)
+      return fmt::format("it follows from an only packing, and there are {}", packings_->size());
+    const std::string* kind = document::find_text(packings_->front().get<Table>(), "kind");
+    if (kind != nullptr && *kind == "random") return "here, or as width of the random packing";
+    return kind != nullptr && *kind == "csv"
+               ? "a packing of kind = \"csv\" has none"
+               : "a lattice has one if `columns`, and `spacing` or the `diameter` of its particle, "
+                 "are given";
+  }
+
   // The value of a key as declared; nothing if it is missing. An invalid one is reported here: without it
   // there are no tools, and the reader's message about that would be misleading.
   std::optional<schema::Decoded> value_in(const Table& table, const char* declared, const char* key,
@@ -186,6 +204,7 @@ class DieFiller {
   Problems& problems_;
   DieSpec spec_;
   bool wrong_ = false;  // a value that the die depends on
+  std::optional<MissingWidth> missing_;
   Array* packings_ = nullptr;
 };
 
@@ -204,26 +223,26 @@ void require_widths(Table& root, Problems& problems) {
 
 }  // namespace
 
-void fill_die(Table& root, Problems& problems) {
+std::optional<MissingWidth> fill_die(Table& root, Problems& problems) {
   const auto entry = std::ranges::find(root, "die", &Entry::key);
   if (entry == root.end()) {
     require_widths(root, problems);
-    return;
+    return std::nullopt;
   }
   const std::string* family = document::find_text(root, "family");
-  if (family != nullptr && *family != "compaction") return;  // refused by the reader
+  if (family != nullptr && *family == "afm") return std::nullopt;  // refused by the reader
   const auto tool = std::ranges::find(root, "tool", &Entry::key);
   if (tool != root.end() && tool->value.as<Table>() != nullptr) {  // as by --set tool.left.friction
     problems.add(tool->origin, "tool",
                  "the walls and punches of [die] cannot be set one by one, allowed: keys of [die], "
                  "[[friction]] between a material and one of them, or [[tool]] tables instead of "
                  "[die]");
-    return;
+    return std::nullopt;
   }
   const Origin origin = entry->origin;
   Value die = std::move(entry->value);
   root.erase(entry);
-  DieFiller(root, std::move(die), origin, problems).fill();
+  return DieFiller(root, std::move(die), origin, problems).fill();
 }
 
 }  // namespace pulvis

@@ -1,4 +1,5 @@
 #include "scenes/read.hpp"
+#include "engine/shortened.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 #include "engine/files/input_file.hpp"
@@ -34,6 +35,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 namespace pulvis {
 namespace {
@@ -177,10 +180,32 @@ void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, 
   loaded.hash = hash_with_inputs(loaded.inputs, scene_hash(loaded.text));
 }
 
+bool names_one(const std::string& text, const Table& variables) {
+  return std::ranges::any_of(variables, [&](const document::Entry& variable) {
+    return text.find(variable.key) != std::string::npos;
+  });
+}
+
 // Files have already been merged when overrides are applied.
 void refuse_extending(const Table& root, Problems& problems) {
   if (const document::Entry* entry = document::find(root, "extends"))
     problems.add(entry->origin, "extends", "cannot be set here, allowed: in the scene file");
+}
+
+// A wrong one would have everything else read in the wrong language. An expression of variables is refused later.
+void refuse_wrong_dimension(const Table& root, Problems& problems) {
+  const document::Entry* entry = document::find(root, "dimension");
+  if (entry == nullptr) return;
+  const auto* number = entry->value.as<std::int64_t>();
+  const auto* text = entry->value.as<std::string>();
+  const document::Entry* let = document::find(root, "let");
+  const Table* variables = let == nullptr ? nullptr : let->value.as<Table>();
+  if (number != nullptr ? *number == 2 || *number == 3
+                        : text != nullptr && variables != nullptr && names_one(*text, *variables))
+    return;
+  problems.add(entry->value.origin, "dimension",
+               fmt::format("{} is given, allowed: 2 or 3, without quotes",
+                           shortened(document::value_text(entry->value))));
 }
 
 // The language of a scene must be known before its variables are.
@@ -190,14 +215,20 @@ void refuse_dimension_of_variables(const Table& root, bool in_space, Problems& p
                  "is an expression of variables, allowed: 2 or 3");
 }
 
+struct CompleteTree {
+  Table root;
+  std::optional<MissingWidth> missing_width;
+};
+
 // The complete tree with all its values. Which files extend which, and which keys name files, is the same in all
 // dimensions; everything else depends on the scene's own language.
-Table complete_tree(const std::string& text, const std::filesystem::path& file,
-                    const std::vector<std::string>& overrides, Problems& problems,
-                    std::vector<ReplacedOverride>& replaced) {
+CompleteTree complete_tree(const std::string& text, const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides, Problems& problems,
+                           std::vector<ReplacedOverride>& replaced) {
   Table root = whole_tree(text, file, schema::scene_language(), problems);
   replaced = apply_overrides(root, overrides, problems);
   refuse_extending(root, problems);
+  refuse_wrong_dimension(root, problems);
   problems.throw_if_any();
   const bool in_space = is_in_space(root);
   in_space ? space::refuse_keys_of_the_plane(root, problems)
@@ -207,16 +238,18 @@ Table complete_tree(const std::string& text, const std::filesystem::path& file,
   refuse_dimension_of_variables(root, in_space, problems);
   problems.throw_if_any();
   fill_materials(root, language_of(root), problems);
-  if (!in_space) fill_die(root, problems);
+  std::optional<MissingWidth> missing_width;
+  if (!in_space) missing_width = fill_die(root, problems);
   problems.throw_if_any();
   in_space ? space::fill_meshes(root, problems) : fill_meshes(root, problems);
   if (in_space) space::fill_contact_stiffness(root);
   schema::fill_defaults(root, language_of(root));
-  return root;
+  return {std::move(root), std::move(missing_width)};
 }
 
-Scene scene_of_tree(const Table& root, const std::filesystem::path& file, Problems& problems,
+Scene scene_of_tree(const CompleteTree& tree, const std::filesystem::path& file, Problems& problems,
                     schema::Origins& origins) {
+  const Table& root = tree.root;
   Scene scene;
   if (is_in_space(root)) {
     scene = space::read_tree(root, file, problems, origins);
@@ -226,6 +259,9 @@ Scene scene_of_tree(const Table& root, const std::filesystem::path& file, Proble
     origins = reader.origins();
   }
   scene.extended = {problems.files().begin() + 1, problems.files().end()};
+  problems.throw_if_any();
+  if (tree.missing_width)
+    problems.add(tree.missing_width->origin, "die.width", tree.missing_width->message);
   problems.throw_if_any();
   complete_flow_laws(scene, origins, problems);
   problems.throw_if_any();
@@ -261,9 +297,9 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
                  const std::vector<std::string>& overrides = {}, bool alone = false) {
   Problems problems(file, overrides);
   LoadedScene loaded;
-  Table root = complete_tree(text, file, overrides, problems, loaded.replaced);
+  CompleteTree tree = complete_tree(text, file, overrides, problems, loaded.replaced);
   schema::Origins origins;
-  loaded.scene = scene_of_tree(root, file, problems, origins);
+  loaded.scene = scene_of_tree(tree, file, problems, origins);
   check_family(loaded.scene, origins, problems);
   OtherScenes others;
   if (!alone) {
@@ -275,7 +311,7 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   }
   make_powder(loaded.scene, origins, problems);
   problems.throw_if_any();
-  make_complete(loaded, root, others, alone);
+  make_complete(loaded, tree.root, others, alone);
   check_initial_state(loaded.scene, loaded.powder_hash, origins, problems);
   problems.throw_if_any();
   return loaded;

@@ -55,6 +55,8 @@ only the differences. `pulvis check --print` shows the merged scene.
   `[[stage.move]]` and `[[stage.servo]]` are matched by their `tool`. `[[body]]`, `[[packing]]`,
   `[[friction]]`, `[[action]]` and `[[expect]]` have no name: if present, they replace all those of the
   other file.
+- A `[[packing]]` or `[[action]]` without `kind` changes single keys of that at the same position of the other
+  file: as many are given as there are, empty where nothing changes.
 - `remove = ["tool.left", "particle.disc.mesh"]` deletes items of the other file before merging.
 - The other file may itself extend a file, and need not be a complete scene. Paths are relative to the folder
   of the file that contains them. Errors are reported at the file and line where they occur.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/materials/library.hpp"
 #include "systems/laws/flow_law.hpp"
 
 namespace pulvis {
@@ -13,6 +14,15 @@ SceneTables::SceneTables(const document::Table& root, Problems& problems,
                          const schema::Language& language)
     : root_(root), tables_(root, problems, language) {
   if (const std::string* family = document::find_text(root, "family")) family_ = *family;
+  tables_.explain_references([](const std::string& table, const std::string& name) {
+    const LibraryMaterial* material = table == "material" ? likely_material(name) : nullptr;
+    return material == nullptr
+               ? std::string()
+               : fmt::format(
+                     "; to take it from the library: [[material]] name = \"{}\", library "
+                     "= \"{}\"",
+                     name, material->name);
+  });
 }
 
 std::string SceneTables::numbered(const std::string& name, std::size_t i) {

@@ -1,5 +1,7 @@
 #include "scenes/language/decode.hpp"
 
+#include "engine/shortened.hpp"
+#include "scenes/language/key_hint.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/language/unit_hint.hpp"
 #include "scenes/language/units.hpp"
@@ -39,11 +41,14 @@ std::optional<double> only_number(const std::string& text) {
 // "0.5" and "0,5" as strings where a plain number is required.
 void refuse_text(const KeyInfo& key, const Value& value, const std::string& text) {
   if (only_number(text))
-    refuse(key, value, fmt::format("a number in quotes is given: write {} without them", text));
+    refuse(key, value,
+           fmt::format("a number in quotes is given: write {} without them", shortened(text)));
   std::string with_point = text;
   if (std::ranges::count(text, ',') == 1) std::ranges::replace(with_point, ',', '.');
   if (with_point != text && only_number(with_point))
-    refuse(key, value, fmt::format("\"{}\" has a decimal comma: write {}", text, with_point));
+    refuse(key, value,
+           fmt::format("\"{}\" has a decimal comma: write {}", shortened(text),
+                       shortened(with_point)));
 }
 
 double bare_number(const KeyInfo& key, const Value& value) {
@@ -51,7 +56,8 @@ double bare_number(const KeyInfo& key, const Value& value) {
   if (!is_number(value)) refuse_type(key, value);
   const auto* integer = value.as<std::int64_t>();
   const double number = integer != nullptr ? static_cast<double>(*integer) : value.get<double>();
-  if (!std::isfinite(number)) refuse(key, value, document::value_text(value) + " is not finite");
+  if (!std::isfinite(number))
+    refuse(key, value, shortened(document::value_text(value)) + " is not finite");
   return number;
 }
 
@@ -60,7 +66,8 @@ void check_range(const KeyInfo& key, const Value& value, double number) {
   const std::string unit = key.unit.empty() ? "" : " " + key.unit;
   const bool same = is_number(value);
   const std::string in_si = same ? "" : fmt::format(" = {}{}", number, unit);
-  refuse(key, value, fmt::format("{}{} is out of range", document::value_text(value), in_si));
+  refuse(key, value,
+         fmt::format("{}{} is out of range", shortened(document::value_text(value)), in_si));
 }
 
 double quantity(const KeyInfo& key, const Value& value) {
@@ -71,7 +78,8 @@ double quantity(const KeyInfo& key, const Value& value) {
   if (bare && std::isfinite(*bare))
     refuse(key, value,
            fmt::format("missing unit: {} has none, {} is expected: write one, such as {}",
-                       document::value_text(value), key.unit, quantity_example(key, *bare)));
+                       shortened(document::value_text(value)), key.unit,
+                       quantity_example(key, *bare)));
   if (text == nullptr) refuse_type(key, value);
   try {
     const double number = parse_quantity(*text, key.unit);
@@ -107,7 +115,7 @@ std::string name(const KeyInfo& key, const Value& value) {
   const std::string& text = word(key, value);
   const bool only_dots = text.find_first_not_of('.') == std::string::npos;
   if (text.size() > 64 || only_dots || !std::all_of(text.begin(), text.end(), is_name_character))
-    refuse(key, value, fmt::format("{} is not a name", document::value_text(value)));
+    refuse(key, value, fmt::format("{} is not a name", shortened(document::value_text(value))));
   return text;
 }
 
@@ -153,7 +161,8 @@ int choice(const KeyInfo& key, const Value& value) {
     words.push_back(key.choices[i].word);
   }
   refuse(key, value,
-         fmt::format("{} is unknown{}", document::value_text(value), suggestion(given, words)));
+         fmt::format("{} is unknown{}", shortened(document::value_text(value)),
+                     hint_of_word(given, words)));
 }
 
 int reference(const KeyInfo& key, const Value& value, const Names& names) {
@@ -163,9 +172,9 @@ int reference(const KeyInfo& key, const Value& value, const Names& names) {
   const std::vector<std::string>& known = table->second;
   const auto found = std::find(known.begin(), known.end(), given);
   if (found != known.end() && !given.empty()) return static_cast<int>(found - known.begin());
-  throw Refusal(value.origin,
-                fmt::format("no {} is called {}{}, allowed: {}", key.refers_to,
-                            document::value_text(value), suggestion(given, known), listed(known)));
+  throw Refusal(value.origin, fmt::format("no {} is called {}{}, allowed: {}", key.refers_to,
+                                          shortened(document::value_text(value)),
+                                          suggestion(given, known), listed(known)));
 }
 
 // A vector in the plane, with z = 0.
@@ -241,7 +250,8 @@ std::string no_surface(const Value& part, std::vector<std::string> known, const 
     std::erase_if(known, [&](const std::string& name) {
       return std::ranges::find(found->second, name) != found->second.end();
     });
-  return fmt::format("no material or tool is called {}{}, allowed: {}", document::value_text(part),
+  return fmt::format("no material or tool is called {}{}, allowed: {}",
+                     shortened(document::value_text(part)),
                      suggestion(part.get<std::string>(), known), listed(known));
 }
 

@@ -1,5 +1,6 @@
 // The only file that sees toml++: its header is large, and its tree is converted to ours at once.
 #include "scenes/language/document.hpp"
+#include "engine/shortened.hpp"
 #include "scenes/language/document_guard.hpp"
 
 #include <fmt/format.h>
@@ -108,12 +109,43 @@ bool has_decimal_comma(std::string_view line) {
          number.find_first_not_of(" \t+-0123456789") == std::string_view::npos;
 }
 
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// "compaction", "1 mm": a word or a quantity that lacks its quotes; otherwise empty. Lists and tables are left alone.
+std::string_view bare_text(std::string_view line) {
+  const std::size_t equals = line.find('=');
+  if (equals == std::string_view::npos) return "";
+  std::string_view value = line.substr(equals + 1);
+  value = without_blanks(value.substr(0, value.find('#')));
+  if (value.find_first_of("\"'[]{}=,") != std::string_view::npos) return "";
+  const bool has_letter = std::ranges::any_of(value, is_letter);
+  return has_letter && value != "true" && value != "false" ? value : "";
+}
+
+// "friction: 0.1", "friction 0.1": a key and a value without '='.
+bool lacks_equals(std::string_view line) {
+  const std::size_t end = line.find_first_of(" \t:");
+  return line.find('=') == std::string_view::npos && end != std::string_view::npos && end > 0 &&
+         is_letter(line.front()) && !without_blanks(line.substr(end + 1)).empty();
+}
+
 // The library says what is wrong, but not what would be right.
 std::string explained(const std::string& description, std::string_view line) {
   const bool twice = description.find("cannot redefine") != std::string::npos;
   if (twice) return description + ", allowed: each key once";
   if (has_decimal_comma(line))
     return "a decimal comma in a number, allowed: a decimal point, such as 0.5";
+  if (const std::string_view text = bare_text(line); !text.empty())
+    return fmt::format("text without quotes, allowed: \"{}\" for a word or a quantity",
+                       shortened(text));
+  if (lacks_equals(without_blanks(line)))
+    return "a key and its value are joined by '=', allowed: key = value";
   return description + ", allowed: TOML 1.0";
 }
 

@@ -53,6 +53,9 @@ class Guard {
 
   void plain() {
     const char c = rest_.front();
+    for (const char* quote : {"\u201C", "\u201D", "\u201E", "\u2018", "\u2019"})
+      if (rest_.starts_with(quote))
+        fail(fmt::format("a typographic quote, {}, allowed: the straight quotes \" and '", quote));
     if (static_cast<unsigned char>(c) >= 0x80)
       fail("a non-ASCII character needs quotes, allowed: letters, digits, '_' and '-'");
     if (c == '[' || c == '{') ++depth_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "engine/files/input_file.hpp"
@@ -46,22 +47,36 @@ std::string matched_by(const std::string& path, const schema::Language& language
   return "";
 }
 
+// The key that every whole element of a repeated table without names has, such as the `kind` of a packing; empty if
+// there is none.
+std::string mark_of_whole(const std::string& path, const schema::Language& language) {
+  const schema::TableView* view = schema::find_table(path, language);
+  if (view == nullptr || !view->info.repeated || view->info.selector.empty()) return "";
+  const schema::KeyInfo* selector = schema::find_key(*view, view->info.selector);
+  return selector != nullptr && selector->required ? selector->name : "";
+}
+
 class Merge {
  public:
-  explicit Merge(const schema::Language& language) : language_(language) {}
+  Merge(const schema::Language& language, Problems& problems)
+      : language_(language), problems_(problems) {}
 
   void tables(Table& base, Table&& extending, const std::string& path) const {
+    std::map<std::string, std::size_t> known;  // a [let] may have thousands
+    for (std::size_t i = 0; i < base.size(); ++i) known.emplace(base[i].key, i);
     for (Entry& entry : extending) {
-      Entry* old = document::find(base, entry.key);
-      if (old == nullptr)
+      const auto old = known.find(entry.key);
+      if (old == known.end())
         base.push_back(std::move(entry));
       else
-        entries(*old, std::move(entry), schema::joined_path(path, entry.key));
+        entries(base[old->second], std::move(entry), schema::joined_path(path, entry.key));
     }
   }
 
  private:
   void entries(Entry& base, Entry&& extending, const std::string& path) const {
+    if (are_changes(base.value, extending.value, path))
+      return changes(base, std::move(extending), path);
     const std::string key = matched_by(path, language_);
     const bool are_tables =
         base.value.as<Table>() != nullptr && extending.value.as<Table>() != nullptr;
@@ -75,6 +90,36 @@ class Merge {
     if (are_tables) values(base.value, std::move(extending.value), path);
     if (are_elements)
       elements(base.value.get<Array>(), std::move(extending.value.get<Array>()), path, key);
+  }
+
+  // Elements without names replace those of the extended file, unless none of them is whole.
+  bool are_changes(const Value& base, const Value& extending, const std::string& path) const {
+    const std::string whole = mark_of_whole(path, language_);
+    return !whole.empty() && matched_by(path, language_).empty() &&
+           document::is_array_of_tables(base) && document::is_array_of_tables(extending) &&
+           std::ranges::none_of(extending.get<Array>(), [&](const Value& element) {
+             return document::find(element.get<Table>(), whole) != nullptr;
+           });
+  }
+
+  // By position.
+  void changes(Entry& base, Entry&& extending, const std::string& path) const {
+    auto& own = base.value.get<Array>();
+    auto& given = extending.value.get<Array>();
+    if (given.size() != own.size()) {
+      const std::string whole = mark_of_whole(path, language_);
+      problems_.add(
+          given.front().origin, path + "[0]",
+          fmt::format("without `{0}` it changes the element at its position of the "
+                      "extended file, which has {1}, but {2} given here, allowed: {1}, "
+                      "where an empty [[{3}]] changes nothing, or `{0}` in each to "
+                      "replace all of them",
+                      whole, own.size(),
+                      given.size() == 1 ? "1 is" : fmt::format("{} are", given.size()), path));
+      return;
+    }
+    base.origin = extending.origin;
+    for (std::size_t i = 0; i < own.size(); ++i) values(own[i], std::move(given[i]), path);
   }
 
   // Errors in the table as a whole are reported where it was last changed.
@@ -107,6 +152,7 @@ class Merge {
   }
 
   const schema::Language& language_;
+  Problems& problems_;
 };
 
 class Chain {
@@ -128,7 +174,7 @@ class Chain {
     });
     require_one_family(base, root);
     take_out(base, root);
-    Merge(language_).tables(base, std::move(root), "");
+    Merge(language_, problems_).tables(base, std::move(root), "");
     return base;
   }
 

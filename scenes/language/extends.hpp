@@ -3,7 +3,8 @@
 // Tables      are merged key by key: values in the extending file replace those in the base file
 // Repeated    an element with a name replaces keys of the element of that name, or is appended;
 //             moves and servos are matched by their tool. Elements without either ([[body]], [[packing]],
-//             [[friction]], [[action]], [[expect]]): if any are given, they replace all of the base file's
+//             [[friction]], [[action]], [[expect]]): if any are given, they replace all of the base file's,
+//             unless all lack the required selector (`kind`): then they change those at their positions
 // `remove`    removes keys, tables and elements from the base file before merging
 // Files       paths are relative to the folder of the file that names them, as everywhere
 //

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <span>
 
+#include "engine/shortened.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -54,7 +56,8 @@ std::size_t position_in(const std::string& brackets) {
   const char* const end = brackets.data() + brackets.size() - 1;
   const auto read = std::from_chars(brackets.data() + 1, end, position);
   if (brackets.back() != ']' || read.ec != std::errc() || read.ptr != end)
-    throw Refused(fmt::format("'{}' is not a position, allowed: [0], [1], ...", brackets));
+    throw Refused(
+        fmt::format("'{}' is not a position, allowed: [0], [1], ...", shortened(brackets)));
   return position;
 }
 
@@ -80,14 +83,21 @@ std::vector<Step> steps_of(std::string path) {
   return steps;
 }
 
-Value& element_at(document::Array& array, std::size_t position) {
+// "packing[0] to packing[2]"
+std::string positions_in(const document::Array& array, const std::string& list) {
+  const std::string first = fmt::format("{}[0]", shortened(list));
+  return array.size() < 2 ? first
+                          : fmt::format("{} to {}[{}]", first, shortened(list), array.size() - 1);
+}
+
+Value& element_at(document::Array& array, std::size_t position, const std::string& list) {
   if (position < array.size()) return array[position];
   throw Refused(
-      fmt::format("there is no element [{}], allowed: [0] to [{}]", position, array.size() - 1));
+      fmt::format("there is no element [{}], allowed: {}", position, positions_in(array, list)));
 }
 
 // By name; a move has none and is selected by its tool.
-Value& element_called(document::Array& array, const std::string& name) {
+Value& element_called(document::Array& array, const std::string& name, const std::string& list) {
   std::vector<std::string> names;
   for (Value& element : array) {
     const document::Table& table = element.get<document::Table>();
@@ -96,16 +106,22 @@ Value& element_called(document::Array& array, const std::string& name) {
     if (own != nullptr && *own == name) return element;
     if (own != nullptr) names.push_back(*own);
   }
+  const bool is_number = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+  const std::string hint =
+      is_number ? ": a position is written in brackets" : suggestion(name, names);
   throw Refused(
-      fmt::format("no element is called '{}'{}, allowed: a position such as [0], or {}", name,
-                  suggestion(name, names),
-                  names.empty() ? "not a name: these elements have none" : listed(names)));
+      fmt::format("no element is called '{}'{}, allowed: {}{}", shortened(name), hint,
+                  positions_in(array, list),
+                  names.empty() ? "; these elements have no names" : ", or " + listed(names)));
 }
 
-Value& entered(Value& here, const Step& step, const document::Origin& origin) {
+// `list`: the key that led here.
+Value& entered(Value& here, const Step& step, const std::string& list,
+               const document::Origin& origin) {
   if (document::is_array_of_tables(here)) {
     auto& array = here.get<document::Array>();
-    return step.position ? element_at(array, *step.position) : element_called(array, step.key);
+    return step.position ? element_at(array, *step.position, list)
+                         : element_called(array, step.key, list);
   }
   auto* table = here.as<document::Table>();
   if (table == nullptr || step.position)
@@ -140,9 +156,12 @@ Value parsed(const std::string& text, const document::Origin& origin) {
 }
 
 // Returns the origin of the value that was there.
-document::Origin assign(Value& here, const Step& last, Value value,
+document::Origin assign(Value& here, const Step& last, Value value, const std::string& list,
                         const document::Origin& origin) {
   auto* table = here.as<document::Table>();
+  if (document::is_array_of_tables(here) && !last.position)
+    throw Refused(fmt::format("'{}' is a list, allowed: a key of one of its elements, {}",
+                              shortened(list), positions_in(here.get<document::Array>(), list)));
   if (table == nullptr || last.position)
     throw Refused(
         fmt::format("the path ends at {}, allowed: a key of one element, such as "
@@ -165,8 +184,12 @@ document::Origin apply(Value& root, const std::string& path, const std::string& 
   const std::vector<Step> steps = steps_of(path);
   Value value = parsed(trimmed(text), origin);
   Value* here = &root;
-  for (std::size_t i = 0; i + 1 < steps.size(); ++i) here = &entered(*here, steps[i], origin);
-  return assign(*here, steps.back(), std::move(value), origin);
+  std::string list;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    here = &entered(*here, steps[i], list, origin);
+    if (!steps[i].position) list = steps[i].key;
+  }
+  return assign(*here, steps.back(), std::move(value), list, origin);
 }
 
 std::vector<std::string> keys_of(const document::Table& table) {
@@ -178,15 +201,15 @@ std::vector<std::string> keys_of(const document::Table& table) {
 document::Table::iterator entry_called(document::Table& table, const std::string& key) {
   const auto entry = std::ranges::find(table, key, &document::Entry::key);
   if (entry != table.end()) return entry;
-  throw Refused(fmt::format("there is no '{}'{}, allowed: {}", key, suggestion(key, keys_of(table)),
-                            listed(keys_of(table))));
+  throw Refused(fmt::format("there is no '{}'{}, allowed: {}", shortened(key),
+                            suggestion(key, keys_of(table)), listed(keys_of(table))));
 }
 
-void take_out(Value& here, std::span<const Step> steps) {
+void take_out(Value& here, std::span<const Step> steps, const std::string& list = "") {
   const bool last = steps.size() == 1;
   if (document::is_array_of_tables(here)) {
     auto& array = here.get<document::Array>();
-    Value& element = entered(here, steps.front(), {});
+    Value& element = entered(here, steps.front(), list, {});
     if (last)
       array.erase(array.begin() + (&element - array.data()));
     else
@@ -197,7 +220,7 @@ void take_out(Value& here, std::span<const Step> steps) {
   if (table == nullptr || steps.front().position)
     throw Refused(fmt::format("the path leads into {}", document::type_name(here)));
   const auto entry = entry_called(*table, steps.front().key);
-  if (!last) take_out(entry->value, steps.subspan(1));
+  if (!last) take_out(entry->value, steps.subspan(1), entry->key);
   const auto* array = entry->value.as<document::Array>();
   if (last || (array != nullptr && array->empty())) table->erase(entry);
 }
@@ -210,7 +233,7 @@ void remove_path(document::Table& root, const std::string& path, const document:
   try {
     take_out(top, steps_of(path));
   } catch (const Refused& refused) {
-    problems.add(where, "remove", fmt::format("\"{}\": {}", path, refused.what()));
+    problems.add(where, "remove", fmt::format("\"{}\": {}", shortened(path), refused.what()));
   }
   root = std::move(top.get<document::Table>());
 }

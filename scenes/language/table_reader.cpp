@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "engine/shortened.hpp"
+#include "scenes/language/key_hint.hpp"
+
 namespace pulvis::schema {
 
 TableReader::TableReader(const document::Table& root, Problems& problems, const Language& language)
@@ -42,14 +45,14 @@ void TableReader::collect_name(const std::string& table, const document::Value& 
   };
   const document::Origin origin = document::find(keys, "name")->value.origin;
   if (taken(table))
-    problems_.add(
-        origin, path,
-        fmt::format("'{}' is the name of another {}, allowed: each name once", *name, table));
+    problems_.add(origin, path,
+                  fmt::format("'{}' is the name of another {}, allowed: each name once",
+                              shortened(*name), table));
   else if (table == "tool" && taken("material"))
     problems_.add(origin, path,
                   fmt::format("'{}' is the name of a material, allowed: a name that differs from "
                               "those of all materials, for the friction pairs",
-                              *name));
+                              shortened(*name)));
   own.push_back(*name);
   const std::string* shape = document::find_text(keys, "shape");
   if (table == "tool" && shape != nullptr && *shape == "constraint")
@@ -65,8 +68,9 @@ const document::Array& TableReader::elements(const document::Table& parent,
   if (entry == nullptr) return none;
   if (document::is_array_of_tables(entry->value)) return entry->value.get<document::Array>();
   problems_.add(entry->origin, joined_path(parent_path, key),
-                fmt::format("wrong type, {} is given, allowed: [[{}]], once for each",
-                            document::type_name(entry->value), info.path));
+                fmt::format("wrong type, {} is given, allowed: [[{}]], once for each{}",
+                            document::type_name(entry->value), info.path,
+                            hint_of_value(*entry, *find_table(info.path, language_), language_)));
   return none;
 }
 
@@ -94,7 +98,7 @@ void TableReader::refuse_unknown(const document::Entry& entry, const TableView& 
   if (table != nullptr && !belongs(table->info, selected_)) {
     problems_.add(entry.origin, entry.key,
                   fmt::format("has no meaning with family = \"{}\", allowed: only with {}",
-                              selected_, quoted(table->info.families)));
+                              shortened(selected_), quoted(table->info.families)));
     return;
   }
   if (std::find(words.begin(), words.end(), entry.key) != words.end()) return;
@@ -108,7 +112,7 @@ void TableReader::refuse_unknown(const document::Entry& entry, const TableView& 
       entry.value.as<document::Table>() != nullptr || document::is_array_of_tables(entry.value);
   problems_.add(entry.origin, joined_path(path_, entry.key),
                 fmt::format("unknown {}{}, allowed: {}", is_table ? "table" : "key",
-                            suggestion(entry.key, words), listed(words)));
+                            hint_of_unknown(entry, view, language_), listed(words)));
 }
 
 std::optional<Decoded> TableReader::value_of(const KeyInfo& key) {
@@ -125,7 +129,10 @@ std::optional<Decoded> TableReader::value_of(const KeyInfo& key) {
   try {
     return decode(*find_key(*view_, key.name), entry->value, names_);
   } catch (const Refusal& refusal) {
-    problems_.add(refusal.origin, path, refusal.what());
+    const auto* text = entry->value.as<std::string>();
+    const bool explained = key.kind == Kind::reference && text != nullptr && explain_;
+    problems_.add(refusal.origin, path,
+                  refusal.what() + (explained ? explain_(key.refers_to, *text) : std::string()));
     return std::nullopt;
   }
 }
@@ -135,13 +142,20 @@ void TableReader::missing(const KeyInfo& key) {
                 fmt::format("required key is missing, allowed: {}", allowed(key)));
 }
 
+// False for a misspelt one.
+bool TableReader::is_choice_of_selector(const std::string& word) const {
+  const KeyInfo* selector = find_key(*view_, view_->info.selector);
+  return selector == nullptr || selector->choices.empty() ||
+         std::ranges::find(selector->choices, word, &Choice::word) != selector->choices.end();
+}
+
 void TableReader::without_effect(const KeyInfo& key, const document::Entry& entry) {
   const std::string path = joined_path(path_, key.name);
   if (!key.only_for.empty() && !key.only_for.has(selected_)) {
-    if (selected_.empty()) return;  // the missing selector has already been reported
+    if (selected_.empty() || !is_choice_of_selector(selected_)) return;  // reported already
     problems_.add(entry.origin, path,
                   fmt::format("has no effect with {} = \"{}\", allowed: only with {}",
-                              view_->info.selector, selected_, quoted(key.only_for)));
+                              view_->info.selector, shortened(selected_), quoted(key.only_for)));
     return;
   }
   problems_.add(

@@ -5,7 +5,9 @@
 #include "scenes/language/decode.hpp"
 #include "scenes/language/problem.hpp"
 
+#include <functional>
 #include <map>
+#include <utility>
 
 namespace pulvis::schema {
 
@@ -27,6 +29,12 @@ class TableReader {
   const document::Array& elements(const document::Table& parent, const std::string& parent_path,
                                   const TableInfo& info);
 
+  // What to add where no element of a table has the name that is referred to.
+  void explain_references(
+      std::function<std::string(const std::string& table, const std::string& name)> explain) {
+    explain_ = std::move(explain);
+  }
+
   // Source locations of every table and key that was read.
   const Origins& origins() const { return origins_; }
 
@@ -36,6 +44,7 @@ class TableReader {
   void refuse_unknown(const document::Entry& entry, const TableView& view);
   std::optional<Decoded> value_of(const KeyInfo& key);
   void missing(const KeyInfo& key);
+  bool is_choice_of_selector(const std::string& word) const;
   void without_effect(const KeyInfo& key, const document::Entry& entry);
   void collect_names(const document::Table& root);
   void collect_name(const std::string& table, const document::Value& element,
@@ -45,6 +54,7 @@ class TableReader {
   const Language& language_;
   Names names_;
   Origins origins_;
+  std::function<std::string(const std::string&, const std::string&)> explain_;
 
   // The table being read.
   const document::Value* table_ = nullptr;

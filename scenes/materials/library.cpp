@@ -1,4 +1,5 @@
 #include "scenes/materials/library.hpp"
+#include "engine/shortened.hpp"
 
 #include <fmt/format.h>
 
@@ -46,7 +47,7 @@ class LibraryFiller {
 
   void fill(Table& table, const std::string& path) const {
     const Entry* entry = document::find(table, "library");
-    if (entry == nullptr) return;
+    if (entry == nullptr) return refuse_bare_name(table, path);
     const LibraryMaterial* material = chosen(entry->value, path);
     if (material == nullptr) return;
     const bool elastic = is_elastic(table, path);
@@ -63,6 +64,17 @@ class LibraryFiller {
   }
 
  private:
+  // A material that is only named, as if its name were that of the library.
+  void refuse_bare_name(const Table& table, const std::string& path) const {
+    const std::string* name = document::find_text(table, "name");
+    const LibraryMaterial* likely = name != nullptr ? likely_material(*name) : nullptr;
+    if (table.size() != 1 || likely == nullptr) return;
+    problems_.add(table.front().origin, path,
+                  fmt::format("it has a name and no properties, allowed: library = \"{}\" ({}), or "
+                              "density, youngs_modulus and poissons_ratio",
+                              likely->name, likely->title));
+  }
+
   const LibraryMaterial* chosen(const Value& value, const std::string& path) const {
     const auto* name = value.as<std::string>();
     std::vector<std::string> names;
@@ -72,9 +84,17 @@ class LibraryFiller {
     }
     problems_.add(value.origin, path + ".library",
                   fmt::format("{} is not a material of the library{}, allowed: {}",
-                              document::value_text(value),
-                              name != nullptr ? suggestion(*name, names) : "", listed(names)));
+                              shortened(document::value_text(value)),
+                              name != nullptr ? hint_for(*name) : "", listed(names)));
     return nullptr;
+  }
+
+  static std::string hint_for(const std::string& name) {
+    const LibraryMaterial* likely = likely_material(name);
+    if (likely == nullptr) return "";
+    const std::string spelling = suggestion(name, {likely->name});
+    return spelling.empty() ? fmt::format(", did you mean '{}' ({})?", likely->name, likely->title)
+                            : spelling;
   }
 
   bool is_elastic(const Table& table, const std::string& path) const {
@@ -105,6 +125,28 @@ class LibraryFiller {
   std::string family_;
 };
 
+// What it is, without its form and its use: "stainless", "steel" of "stainless steel 316L, annealed".
+std::vector<std::string> substances_in(std::string title) {
+  constexpr std::size_t shortest = 4;
+  title.resize(std::min({title.find(','), title.find(" for "), title.size()}));
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < title.size();) {
+    const std::size_t end = std::min(title.find_first_of(" ,-", at), title.size());
+    if (end - at >= shortest) words.push_back(title.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+// "cu" of "Cu-OFHC".
+bool starts_like(const std::string& name, const std::string& word) {
+  const auto small = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
+  return word.size() >= 2 && word.size() <= name.size() &&
+         std::ranges::equal(name.substr(0, word.size()), word, {}, small, small);
+}
+
 std::string cell_of(const LibraryMaterial& material, const char* key) {
   const Entry* entry = document::find(material.values, key);
   if (entry == nullptr) return "-";
@@ -117,6 +159,23 @@ std::string cell_of(const LibraryMaterial& material, const char* key) {
 const std::vector<LibraryMaterial>& material_library() {
   static const std::vector<LibraryMaterial> materials = read_library();
   return materials;
+}
+
+const LibraryMaterial* likely_material(const std::string& word) {
+  constexpr std::size_t long_word = 6;  // in which a misspelling can be told from another word
+  const auto meant = [&](const std::string& candidate) {
+    const std::string hint = suggestion(word, {candidate});
+    return !hint.empty() && (word.size() >= long_word || starts_like(candidate, word));
+  };
+  const std::vector<LibraryMaterial>& all = material_library();
+  auto found = std::ranges::find(all, word, &LibraryMaterial::name);
+  if (found == all.end())
+    found = std::ranges::find_if(all, [&](const LibraryMaterial& one) {
+      return std::ranges::any_of(substances_in(one.title), meant) || starts_like(one.name, word);
+    });
+  if (found == all.end())
+    found = std::ranges::find_if(all, [&](const LibraryMaterial& one) { return meant(one.name); });
+  return found == all.end() ? nullptr : &*found;
 }
 
 void fill_materials(Table& root, const schema::Language& language, Problems& problems) {

@@ -15,6 +15,8 @@ struct LibraryMaterial {
 };
 
 const std::vector<LibraryMaterial>& material_library();
+// What somebody who writes "copper", "316l" or "aluminum" may mean; null if nothing is close.
+const LibraryMaterial* likely_material(const std::string& word);
 
 // Copies the values of `library` into every [[material]] that has one, except those it sets itself; the keys
 // `library` and `elastic` are removed.

@@ -1,4 +1,5 @@
 #include "scenes/space/plane_keys.hpp"
+#include "engine/shortened.hpp"
 
 #include <fmt/format.h>
 
@@ -52,7 +53,8 @@ class PlaneKeys {
       return std::ranges::find(info.choices, *text, &schema::Choice::word) != info.choices.end();
     };
     if (has(of_plane) && !has(key))
-      refuse(value.origin, path, schema::allowed(key), document::value_text(value) + " ");
+      refuse(value.origin, path, schema::allowed(key),
+             shortened(document::value_text(value)) + " ");
   }
 
   void refuse(const document::Origin& origin, const std::string& path, const std::string& allowed,

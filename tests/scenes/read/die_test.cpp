@@ -103,6 +103,38 @@ TEST(WrongDie, IsNotBlamedForWhatItsWidthComesFrom) {
   EXPECT_THAT(problems[0].message, HasSubstr("missing unit"));
 }
 
+// The width that the die lacks only follows from them.
+TEST(WrongDie, IsNotBlamedForMistakesElsewhere) {
+  const auto refusals = [](const std::string& from, const std::string& to) {
+    std::string text = powder + lattice + "[die]\n";
+    const auto at = text.find(from);
+    if (at == std::string::npos) throw std::logic_error(from);
+    std::string all;
+    for (const SceneProblem& problem : problems_of(text.replace(at, from.size(), to)))
+      all += problem.key + ": " + problem.message + "\n";
+    return all;
+  };
+  const auto only = [](const std::string& start) {
+    return testing::AllOf(testing::StartsWith(start), Not(HasSubstr("die.width")));
+  };
+  EXPECT_THAT(refusals("particle = \"disc\"", "particle = \"dics\""),
+              only("packing[0].particle: no particle is called \"dics\", did you mean 'disc'?"));
+  EXPECT_THAT(refusals("[[particle]]", "[[partcle]]"),
+              HasSubstr("partcle: unknown table, did you mean 'particle'?"));
+  EXPECT_THAT(refusals("[[packing]]", "[packing]"),
+              only("packing: wrong type, a table is given, allowed: [[packing]]"));
+  EXPECT_THAT(
+      refusals("[[packing]]", "[[particle.packing]]"),
+      only("particle[0].packing: unknown table: 'packing' belongs to the top level, allowed "
+           "there: [[packing]]"));
+  EXPECT_THAT(refusals("columns", "colums"),
+              HasSubstr("packing[0].colums: unknown key, did you mean 'columns'?"));
+  EXPECT_THAT(refusals("diameter", "radius"), HasSubstr("particle[0].radius: "));
+  EXPECT_THAT(refusals(lattice, ""),
+              HasSubstr("die.width: required key is missing, allowed: a quantity in m; there is no "
+                        "[[packing]] that it could follow from"));
+}
+
 TEST(WrongDie, IsRefusedAtItsPlace) {
   EXPECT_THAT(problem_with("[die]\nwidth = \"8 mm\"\n" + random_bed + "width = \"9 mm\"\n"),
               HasSubstr("packing[0].width: is 0.009 m, but the die is 0.008 m wide"));

@@ -142,6 +142,32 @@ body = [{ particle = "disc", position = ["0 mm", "10 mm"] }])")
   EXPECT_EQ(scene.expects.size(), 1U);
 }
 
+TEST_F(Extends, PackingsWithoutAKindChangeThoseAtTheirPosition) {
+  write("one.toml", std::string(base) + R"([[packing]]
+kind = "square"
+particle = "disc"
+rows = 2
+columns = 3
+corner = ["20 mm", "0 mm"]
+)");
+  const Scene one = load("extends = \"one.toml\"\n[[packing]]\nrows = 4\n").scene;
+  ASSERT_EQ(one.packings.size(), 1U);
+  EXPECT_EQ(one.packings[0].rows, 4);
+  EXPECT_EQ(one.packings[0].columns, 3);
+  EXPECT_EQ(one.packings[0].corner.x(), 0.02);
+  write("two.toml",
+        "extends = \"one.toml\"\npacking = [{ kind = \"square\", particle = \"disc\", rows "
+        "= 1, columns = 1, corner = [\"20 mm\", \"0 mm\"] }, { kind = \"square\", particle = "
+        "\"disc\", rows = 1, columns = 2, corner = [\"40 mm\", \"0 mm\"] }]\n");
+  const Scene two = load("extends = \"two.toml\"\n[[packing]]\n[[packing]]\ncolumns = 3\n").scene;
+  ASSERT_EQ(two.packings.size(), 2U);
+  EXPECT_EQ(two.packings[0].columns, 1);
+  EXPECT_EQ(two.packings[1].columns, 3);
+  EXPECT_THAT(wrong_with("extends = \"two.toml\"\n[[packing]]\ncolumns = 3\n"),
+              HasSubstr("scene.toml:2:1: packing[0]: without `kind` it changes the element at its "
+                        "position of the extended file, which has 2, but 1 is given here"));
+}
+
 TEST_F(Extends, ParticlesOfTheOtherFileComeFirst) {
   // Further down in its file than anything is here.
   const LoadedScene loaded = load(R"(extends = "base.toml"
@@ -312,7 +338,8 @@ TEST_F(Extends, WhatIsNotThereCannotBeRemoved) {
       refused("tol"),
       HasSubstr("scene.toml:2:21: remove: \"tol\": there is no 'tol', did you mean 'tool'?"));
   EXPECT_THAT(refused("tool.left"), HasSubstr("no element is called 'left'"));
-  EXPECT_THAT(refused("body[2]"), HasSubstr("there is no element [2], allowed: [0] to [1]"));
+  EXPECT_THAT(refused("body[2]"),
+              HasSubstr("there is no element [2], allowed: body[0] to body[1]"));
   EXPECT_THAT(refused("title.x"), HasSubstr("the path leads into a string"));
   EXPECT_THAT(wrong_with(std::string("remove = [\"tool\"]\n") + base),
               HasSubstr("scene.toml:1:1: remove: has no effect without extends"));

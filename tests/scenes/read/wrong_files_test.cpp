@@ -98,9 +98,10 @@ TEST(WrongScenes, OverridesThatLeadNowhere) {
   EXPECT_THAT(refusal("tim.safety=0.5"), HasSubstr("did you mean 'time'?"));
   EXPECT_THAT(refusal("time.safty=0.5"), HasSubstr("did you mean 'safety'?"));
   EXPECT_THAT(refusal("tool.topp.shape=plane"), HasSubstr("did you mean 'top'?"));
-  EXPECT_THAT(refusal("tool[2].shape=plane"), HasSubstr("allowed: [0] to [1]"));
+  EXPECT_THAT(refusal("tool[2].shape=plane"), HasSubstr("allowed: tool[0] to tool[1]"));
   EXPECT_THAT(refusal("tool[x].shape=plane"), HasSubstr("'[x]' is not a position"));
-  EXPECT_THAT(refusal("body.block.angle=1 rad"), HasSubstr("a position such as [0]"));
+  EXPECT_THAT(refusal("body.block.angle=1 rad"),
+              HasSubstr("allowed: body[0]; these elements have no names"));
   EXPECT_THAT(refusal("material=steel"), HasSubstr("ends at a table"));
   EXPECT_THAT(refusal("title.x.y=1"), HasSubstr("leads into a string"));
   EXPECT_THAT(refusal("title.x=1"), HasSubstr("ends at a string"));

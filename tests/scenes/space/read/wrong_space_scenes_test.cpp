@@ -104,7 +104,7 @@ const std::vector<WrongSpaceScene> wrong_in_space{
      as_it_is,
      "tool[1].point",
      {"length 2", "[x, y, z]"}},
-    {"FourDimensions", {"dimension=4"}, as_it_is, "dimension", {"out of range"}},
+    {"FourDimensions", {"dimension=4"}, as_it_is, "dimension", {"allowed: 2 or 3"}},
     {"OfAVariable", {"let.d=3", "dimension=d"}, as_it_is, "dimension", {"expression"}},
     {"Rounding", {"particle.pill.rounding=5 mm"}, as_it_is, "particle[1].rounding", {"half"}},
     {"ExtrudedRounding",
