@@ -165,26 +165,6 @@ TEST_F(CommandLine, RunWithoutAFolderGoesBelowRuns) {
   EXPECT_TRUE(fs::exists(place / "runs" / "oblique-impact" / "summary.json"));
 }
 
-// "..toml" is named "." and "...toml" "..": their results would lie in runs/ itself, or beside it.
-TEST_F(CommandLine, NamesOfOnlyDotsGiveNoFolder) {
-  const std::string text = text_of(scene("compaction/regular-25.toml"));
-  for (const char* name : {"..toml", "...toml"}) {
-    std::ofstream(place / name) << text;
-    const Outcome refused = pulvis(with({"run", name}, quick()));
-    EXPECT_EQ(refused.code, 2) << name;
-    EXPECT_THAT(refused.err, HasSubstr("allowed: -o FOLDER, or a file name that begins with more "
-                                       "than dots"));
-    EXPECT_FALSE(fs::exists(place / "runs")) << name;
-    EXPECT_FALSE(fs::exists(place / "run.h5")) << name;
-  }
-  std::ofstream(place / ".toml") << text;
-  std::ofstream(place / "-a b.toml") << text;
-  EXPECT_EQ(pulvis(with({"run"}, with(quick(), {".toml"}))).code, 0);
-  EXPECT_TRUE(fs::exists(place / "runs" / ".toml" / "run.h5"));
-  EXPECT_EQ(pulvis(with({"run"}, with(quick(), {"--", "-a b.toml"}))).code, 0);
-  EXPECT_TRUE(fs::exists(place / "runs" / "-a b" / "run.h5"));
-}
-
 TEST_F(CommandLine, CheckCountsWhatIsThereAndWritesNothing) {
   const Outcome end = pulvis({"check", scene("compaction/regular-25.toml")});
   EXPECT_EQ(end.code, 0);
