@@ -88,11 +88,13 @@ const TableDeclaration<ServoSpec>& servo() {
 const TableDeclaration<UntilSpec>& until() {
   static const TableDeclaration<UntilSpec> declaration{
       {"stage.until", false, "",
-       "Ends the preceding stage before its duration is over; its tools or strains "
-       "then come to rest as smoothly as they started, and so travel on by about half of "
-       "`ramp` times the distance of the whole stage. If the condition is not met within "
-       "the duration of the stage, the run stops. Exactly one of `force`, `displacement` "
-       "and `relative_density` is given.",
+       "Ends the preceding stage before its duration is over, at a displacement, relative "
+       "density or force. Its tools or strains come to rest as smoothly as they started. At "
+       "a displacement or relative density they are then at rest, as they begin to slow "
+       "down before it. A force is not known in advance: they begin to slow down where it "
+       "is reached, it rises further, and [[stage.servo]] holds one. If the condition is "
+       "not met within the duration of the stage, the run stops. Exactly one of `force`, "
+       "`displacement` and `relative_density` is given.",
        compaction_only, true},
       {{{.name = "tool",
          .kind = Kind::reference,
@@ -105,8 +107,8 @@ const TableDeclaration<UntilSpec>& until() {
          .unit = "N",
          .range = above(0, 1e12),
          .needs = "tool",
-         .doc = "Force of the powder on the tool: against the normal of a plane, the magnitude "
-                "for a polyline.",
+         .doc = "Force of the powder on the tool from which on the stage slows down: against the "
+                "normal of a plane, the magnitude for a polyline.",
          .fallback_doc = "none"},
         to(&UntilSpec::force)},
        {{.name = "displacement",
@@ -114,14 +116,14 @@ const TableDeclaration<UntilSpec>& until() {
          .unit = "m",
          .range = above(0, largest_size),
          .needs = "tool",
-         .doc = "Distance of the tool from its position at the start of the stage.",
+         .doc = "Distance of the tool at rest from its position at the start of the stage.",
          .fallback_doc = "none"},
         to(&UntilSpec::displacement)},
        {{.name = "relative_density",
          .kind = Kind::number,
          .range = above(0, 2),
-         .doc = "Relative density of the powder in a die of four planes, or in a periodic cell "
-                "after its strains have come to rest.",
+         .doc = "Relative density of the powder in a die of four planes, or in a periodic cell, "
+                "after its tools or strains have come to rest.",
          .fallback_doc = "none"},
         to(&UntilSpec::relative_density)}}};
   return declaration;

@@ -1,6 +1,8 @@
-// stage_control: ends a stage when the condition of its `until` is met. Its tools, or strains, come to rest smoothly, in
-// the time they took to start, and all that follows begins earlier.
+// stage_control: ends a stage at the condition of its `until`. Its tools, or strains, come to rest smoothly, in the time
+// they took to start, and all that follows begins earlier.
 //
+// Ends at  a relative density or displacement: they begin to come to rest when what is still to come completes it. A
+//          force is not known before: they begin to come to rest where it is reached, and it rises further
 // Runs     after tool_reaction, before tool_servo
 // Active   when a stage of the scene has an `until`
 // Watches  that it is met before the stage's time is over
@@ -23,51 +25,113 @@ namespace {
 
 using End = StageEnds::End;
 
+using Segment = ToolProgram::Segment;
+
 Point3 of_tool(const auto& column, Row<Tool> tool) {
   return {column(tool, 0), column(tool, 1), column(tool, 2)};
 }
 double size_of(const Point3& v) { return portable::hypot(portable::hypot(v[0], v[1]), v[2]); }
 
-double relative_density(const StageEnds::Cell& cell, const Read<ToolPosition>& at) {
-  const Row<Tool> bottom(cell.bottom);
-  const kernels::DieSides sides{at(Row<Tool>(cell.left), 0), at(Row<Tool>(cell.right), 0),
-                                at(Row<Tool>(cell.top), 1), at(bottom, 0), at(bottom, 1)};
+// ---- coming to rest -------------------------------------------------------------------------------
+bool is_falling(const Segment& move, double time) {
+  return time >= move.begin + (1 - move.ramp) * move.duration;
+}
+
+// When its tools and strains are at rest if they begin to come to rest at `time`.
+double rest_time(const ToolProgram& program, const MixedControl* control, int stage, double time) {
+  double latest = time;
+  const auto take = [&](double begin, double duration, double ramp) {
+    latest = std::max(latest, std::min(time + ramp * duration, begin + duration));
+  };
+  if (control != nullptr) {
+    const MixedControl::Stage& asked = entry(control->stages, stage);
+    for (int k = 0; k < MixedControl::parts; ++k)
+      if (entry(asked.law, k) == MixedControl::Law::strain && entry(asked.strain, k) != 0)
+        take(entry(program.stages, stage).begin, asked.duration, asked.ramp);
+  }
+  for (const Segment& s : program.segments)
+    if (s.stage == stage) take(s.begin, s.duration, s.ramp);
+  return latest;
+}
+
+// Strain still to come from a driven component if it begins to come to rest now.
+double strain_to_rest(const MixedControl& control, int part, const stage_control& s, int stage) {
+  const MixedControl::Stage& asked = entry(control.stages, stage);
+  if (entry(asked.law, part) != MixedControl::Law::strain) return 0;
+  const double since = s.clock->time - entry(s.program->stages, stage).begin;
+  return kernels::travel_to_rest(since / asked.duration, asked.ramp) * entry(asked.strain, part);
+}
+
+// The same for the way of a plane that is driven by strains: the two of an axis share their change of distance.
+double wall_to_rest(int tool, int k, const stage_control& s, int stage) {
+  const DrivenWalls& walls = **s.walls;
+  const int low = k == 0 ? walls.left : walls.bottom, high = k == 0 ? walls.right : walls.top;
+  if (k > 1 || (tool != low && tool != high)) return 0;
+  const Read<ToolPosition>& at = s.tools->position;
+  const double size = at(Row<Tool>(high), k) - at(Row<Tool>(low), k);
+  const double half = 0.5 * size * (portable::exp(strain_to_rest(walls.control, k, s, stage)) - 1);
+  return tool == high ? half : -half;
+}
+
+// The way that a servo adds to its tool until `rest` at the current speed. Behind an elastic drive that speed is of the
+// spring, and falls like that of its far end.
+double servo_to_rest(int tool, int k, const stage_control& s, int stage) {
+  const MixedControl* control = s.walls ? &(*s.walls)->control : nullptr;
+  const double left = rest_time(*s.program, control, stage, s.clock->time) - s.clock->time;
+  for (const ToolServos::Servo& servo : s.drives->servos->servos)
+    if (servo.tool == tool && servo.stage == stage)
+      return (servo.holds_force() ? 1 : 0.5) * left * s.drives->velocity(Row<Tool>(tool), k);
+  return 0;
+}
+
+// m: where a tool will have come to rest.
+double rest_position(int tool, int k, const stage_control& s, int stage) {
+  double at = s.tools->position(Row<Tool>(tool), k);
+  for (const Segment& move : s.program->segments)
+    if (move.tool == tool && move.stage == stage)
+      at += entry(move.displacement, k) *
+            kernels::travel_to_rest((s.clock->time - move.begin) / move.duration, move.ramp);
+  if (s.walls) at += wall_to_rest(tool, k, s, stage);
+  if (s.drives) at += servo_to_rest(tool, k, s, stage);
+  return at;
+}
+
+// ---- conditions -----------------------------------------------------------------------------------
+double density_at_rest(const stage_control& s, int stage) {
+  const StageEnds& ends = *s.ends;
+  if (s.cell) {
+    const MixedControl& control = (*s.cell)->control;
+    const double to_come = strain_to_rest(control, MixedControl::xx, s, stage) +
+                           strain_to_rest(control, MixedControl::yy, s, stage);
+    return ends.cell.particle_area / (*s.cell)->area() * portable::exp(-to_come);
+  }
+  const auto at = [&](int tool, int k) { return rest_position(tool, k, s, stage); };
+  if (ends.room) return ends.room->density(at);
+  const StageEnds::Cell& cell = ends.cell;
+  const kernels::DieSides sides{at(cell.left, 0), at(cell.right, 0), at(cell.top, 1),
+                                at(cell.bottom, 0), at(cell.bottom, 1)};
   return cell.particle_area / kernels::die_area(sides, cell.relief);
 }
 
-// Area strain still to come from the driven strains if they begin to come to rest now: half a ramp at the current
-// speed.
-double strain_to_rest(const MixedControl& control, const ToolProgram& program, int stage,
-                      const Clock& clock) {
-  const MixedControl::Stage& asked = entry(control.stages, stage);
-  const double since = clock.time - entry(program.stages, stage).begin;
-  const double share = 0.5 * asked.ramp * kernels::smooth_speed(since / asked.duration, asked.ramp);
-  double strain = 0;
-  for (const int k : {MixedControl::xx, MixedControl::yy})
-    if (entry(asked.law, k) == MixedControl::Law::strain) strain += entry(asked.strain, k);
-  return share * strain;
+double displacement_at_rest(const stage_control& s, const End& end) {
+  Point3 moved = entry(s.ends->tools_at_begin, end.tool);
+  for (int k = 0; k < tool_axes; ++k)
+    entry(moved, k) = rest_position(end.tool, k, s, end.stage) - entry(moved, k);
+  return size_of(moved);
 }
 
-double value_now(const End& end, const stage_control& s) {
-  const StageEnds& ends = *s.ends;
-  if (end.kind == StageEnds::Kind::density && s.cell)
-    return ends.cell.particle_area / (*s.cell)->area() *
-           portable::exp(-strain_to_rest((*s.cell)->control, *s.program, end.stage, *s.clock));
-  const Read<ToolPosition>& at = s.tools->position;
-  const Read<ToolForce>& force = s.tools->force;
-  const Row<Tool> tool(end.tool);
-  if (end.kind == StageEnds::Kind::density && ends.room)
-    return ends.room->density([&](int number, int k) { return at(Row<Tool>(number), k); });
-  if (end.kind == StageEnds::Kind::density) return relative_density(ends.cell, at);
-  if (end.kind == StageEnds::Kind::displacement) {
-    const Point3& from = entry(ends.tools_at_begin, end.tool);
-    return size_of({at(tool, 0) - from[0], at(tool, 1) - from[1], at(tool, 2) - from[2]});
-  }
-  const Point3 borne = of_tool(force, tool);
+double force_now(const stage_control& s, const End& end) {
+  const Point3 borne = of_tool(s.tools->force, Row<Tool>(end.tool));
   const bool any_way = end.direction == Point3{};
   return any_way ? size_of(borne)
                  : -(borne[0] * end.direction[0] + borne[1] * end.direction[1] +
                      borne[2] * end.direction[2]);
+}
+
+double value_at_rest(const End& end, const stage_control& s) {
+  if (end.kind == StageEnds::Kind::density) return density_at_rest(s, end.stage);
+  return end.kind == StageEnds::Kind::displacement ? displacement_at_rest(s, end)
+                                                   : force_now(s, end);
 }
 
 // A displacement may be the whole of a move, which ends there except for round-off.
@@ -77,34 +141,24 @@ bool is_reached(const End& end, double value) {
   return value >= (moved ? (1 - rounding) * end.value : end.value);
 }
 
-// How long its tools, or strains, take to come to rest; 0 if none is moving.
-double time_to_rest(const ToolProgram& program, const MixedControl* control, int stage) {
-  double longest = 0;
-  if (control != nullptr) {
-    const MixedControl::Stage& asked = entry(control->stages, stage);
-    for (int k = 0; k < MixedControl::parts; ++k)
-      if (entry(asked.law, k) == MixedControl::Law::strain && entry(asked.strain, k) != 0)
-        longest = asked.ramp * asked.duration;
-  }
-  for (const ToolProgram::Segment& s : program.segments)
-    if (s.stage == stage) longest = std::max(longest, s.ramp * s.duration);
-  return longest;
-}
-
+// Moves whose speed falls already end as they would.
 void end_early(const End& end, double time, MixedControl* control, ToolProgram& program,
                double& run_end) {
   ToolProgram::Stage& stage = entry(program.stages, end.stage);
-  const double saved = stage.end - (time + time_to_rest(program, control, end.stage));
-  if (saved <= 0) return;  // its time is almost over
-  if (control != nullptr) control->cut = time;
+  const double rest = rest_time(program, control, end.stage, time);
+  const double saved = std::max(stage.end - rest, 0.0);
+  if (control != nullptr) {
+    const MixedControl::Stage& asked = entry(control->stages, end.stage);
+    if (saved > 0 || time < stage.begin + (1 - asked.ramp) * asked.duration) control->cut = time;
+  }
   stage.end -= saved;
   run_end -= saved;
   for (auto s = static_cast<std::size_t>(end.stage) + 1; s < program.stages.size(); ++s) {
     program.stages[s].begin -= saved;
     program.stages[s].end -= saved;
   }
-  for (ToolProgram::Segment& s : program.segments) {
-    if (s.stage == end.stage) s.cut = time;
+  for (Segment& s : program.segments) {
+    if (s.stage == end.stage && !is_falling(s, time)) s.cut = time;
     if (s.stage > end.stage) s.begin -= saved;
   }
 }
@@ -134,7 +188,7 @@ void stage_control::operator()() const {
   if (new_stage)
     for (End& end : ends->ends)
       if (static_cast<std::size_t>(end.stage) == ends->stage && !end.reached)
-        if (const double value = value_now(end, *this); !is_reached(end, value))
+        if (const double value = value_at_rest(end, *this); !is_reached(end, value))
           stop(end, *program, *clock, value);
   if (new_stage && tools) {
     ends->tools_at_begin.resize(static_cast<std::size_t>(tools->position.rows()));
@@ -146,7 +200,7 @@ void stage_control::operator()() const {
   MixedControl* control = cell ? &(*cell)->control : walls ? &(*walls)->control : nullptr;
   for (End& end : ends->ends) {
     if (static_cast<std::size_t>(end.stage) != stage || end.reached) continue;
-    end.reached = is_reached(end, value_now(end, *this));
+    end.reached = is_reached(end, value_at_rest(end, *this));
     if (end.reached) end_early(end, clock->time, control, *program, ends->run_end);
   }
 }

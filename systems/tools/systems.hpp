@@ -26,6 +26,11 @@ struct stage_control {
     Read<ToolForce> force;
   };
   Optional<Tools> tools;
+  struct Drives {
+    Read<ServoVelocity> velocity;
+    Read<ToolServos> servos;
+  };
+  Optional<Drives> drives;
   Optional<Write<PeriodicCell>> cell;
   Optional<Write<DrivenWalls>> walls;
   Write<StageEnds> ends;

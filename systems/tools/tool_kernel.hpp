@@ -37,4 +37,9 @@ inline double cut_travel(double tau, double ramp, double cut) {
   return smooth_travel(cut, ramp) + smooth_speed(cut, ramp) * ramp * (u - ramp_integral(u));
 }
 
+// Share of the displacement still to come if the speed begins to fall at `tau`; at the end it does anyway.
+inline double travel_to_rest(double tau, double ramp) {
+  return tau < 1 - ramp ? 0.5 * ramp * smooth_speed(tau, ramp) : 1 - smooth_travel(tau, ramp);
+}
+
 }  // namespace pulvis::kernels

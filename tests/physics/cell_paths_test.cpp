@@ -174,15 +174,17 @@ TEST(CellEnergies, PerVolumeAreTheWorkOfTheStresses) {
 }
 
 TEST(CellStages, EndAtTheirDensity) {
-  Experiment e(own_scene(
-      std::string(powder) + cell_of_16 +
-      stage("press", "strain_yy = -0.3\nramp = 0.05\n", "until.relative_density = 0.86\n") +
-      stage("hold", "strain_yy = 0\n")));
-  e.simulation.run_until(1);
-  e.simulation.observe();
-  e.results.sample();
-  EXPECT_NEAR(e.value("relative_density"), 0.86, 1e-4);  // at rest
-  EXPECT_LT(e.simulation.clock().time, 0.7e-3);
+  for (const char* powder_in : {cell_of_16, die_of_16}) {
+    Experiment e(own_scene(
+        std::string(powder) + powder_in +
+        stage("press", "strain_yy = -0.3\nramp = 0.05\n", "until.relative_density = 0.86\n") +
+        stage("hold", "strain_yy = 0\n")));
+    e.simulation.run_until(1);
+    e.simulation.observe();
+    e.results.sample();
+    EXPECT_NEAR(e.value("relative_density"), 0.86, 1e-4);  // at rest
+    EXPECT_LT(e.simulation.clock().time, 0.7e-3);
+  }
 }
 
 TEST(CellStages, ThatDoNotReachTheirDensityStopTheRun) {

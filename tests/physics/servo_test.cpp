@@ -117,7 +117,25 @@ TEST(Servo, MayBeEndedBeforeItsForceIsReached) {
   e.run(100, [&] { maximum = std::max(maximum, e.value("tool/top/force_y")); });
   EXPECT_GT(maximum, 500);
   EXPECT_LT(maximum, 10000);
-  EXPECT_NEAR(e.value("relative_density"), 0.8, 0.01);
+  EXPECT_NEAR(e.value("relative_density"), 0.8, 0.002);
+}
+
+// What a servo adds while another tool comes to rest is counted, and what the spring of a drive takes up.
+TEST(Servo, LetsAStageEndAtItsDensityBesideAMove) {
+  const auto density = [](const std::string& drive) {
+    Experiment e(own_scene(metal + flows + disc + square(1) + die(10, 10) +
+                           stage("press", "compact", 1) +
+                           "[stage.until]\nrelative_density = 0.84\n" + drive +
+                           stage("hold", "hold", 0.05) + contact(1, 0.1)));
+    e.run(100);
+    return e.value("relative_density");
+  };
+  const std::string move =
+      "[[stage.move]]\ntool = \"bottom\"\ndisplacement = [\"0 mm\", \"1.5 mm\"]\n";
+  EXPECT_NEAR(density(move), 0.84, 1e-4);
+  EXPECT_NEAR(density(move + servo("top", 3000, 0.6)), 0.84, 0.002);
+  EXPECT_NEAR(density(move + "stiffness = \"2e7 N/m\"\nmass = \"5 g\"\ndamping = 0.5\n"), 0.84,
+              0.002);
 }
 
 // ---- a law ------------------------------------------------------------------------------------------------

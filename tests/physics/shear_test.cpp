@@ -1,4 +1,4 @@
-// Tools that hold a force, stages that end early, target surfaces.
+// Tools that hold a force, target surfaces.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -22,78 +22,6 @@ std::vector<std::string> joined(std::vector<std::string> first,
                                 const std::vector<std::string>& more) {
   first.insert(first.end(), more.begin(), more.end());
   return first;
-}
-
-// One disc in its die, pressed by 0.5 mm in 0.5 ms.
-const std::vector<std::string> one_disc{
-    "packing[0].rows=1",
-    "packing[0].columns=1",
-    "tool.right.point=[\"10 mm\", \"0 mm\"]",
-    "tool.top.point=[\"0 mm\", \"10 mm\"]",
-    "stage.press.duration=0.5 ms",
-    "stage.press.move.top.displacement=[\"0 mm\", \"-0.5 mm\"]"};
-
-Experiment pressed_until(const std::vector<std::string>& until) {
-  return Experiment("compaction/regular-25.toml", joined(one_disc, until));
-}
-
-double end_after_running(Experiment& e) {
-  while (!e.simulation.finished()) e.simulation.run_steps(1);
-  e.simulation.observe();
-  e.results.sample();
-  return e.simulation.clock().time;
-}
-
-// The punch goes at 0.5 mm / 0.45 ms. Where its stage ends it takes the 0.05 ms of its ramp to come to rest, and half
-// of the way that it would go in them.
-constexpr double pressing = 0.5e-3 / 0.45e-3, rest = 0.05e-3;
-
-TEST(StageUntil, ADisplacementEndsItEarlyAndTheToolComesToRest) {
-  Experiment e =
-      pressed_until({"stage.press.until.tool=top", "stage.press.until.displacement=0.2 mm"});
-  const double end = end_after_running(e);
-  EXPECT_NEAR(end, 0.025e-3 + 0.2e-3 / pressing + rest, 2e-7);
-  EXPECT_NEAR(0.01 - e.value("tool/top/position_y"), 0.2e-3 + pressing * rest / 2, 1e-6);
-  EXPECT_LT(std::abs(e.column<ToolVelocity>().values()[tool_axes * 3 + 1]), 1e-3);
-}
-
-struct Met {
-  double time, step, top;
-};
-// Runs until `series` is at `bound` for the first time.
-Met run_until(Experiment& e, const char* series, double bound) {
-  do {
-    e.simulation.run_steps(1);
-    e.simulation.observe();
-    e.results.sample();
-  } while (e.value(series) < bound && !e.simulation.finished());
-  return {e.simulation.clock().time, e.simulation.clock().dt, e.value("tool/top/position_y")};
-}
-
-// To the step in which it is met.
-void expect_end_at(Experiment& e, const Met& met) {
-  EXPECT_NEAR(end_after_running(e), met.time + rest, 2 * met.step);
-  EXPECT_NEAR(met.top - e.value("tool/top/position_y"), pressing * rest / 2,
-              2 * pressing * met.step);
-}
-
-TEST(StageUntil, AForceEndsItInTheStepThatReachesIt) {
-  Experiment e = pressed_until({"stage.press.until.tool=top", "stage.press.until.force=1 kN"});
-  expect_end_at(e, run_until(e, "tool/top/force_y", 1000));
-}
-
-TEST(StageUntil, ADensityEndsItInTheStepThatReachesIt) {
-  Experiment e = pressed_until({"stage.press.until.relative_density=0.8"});
-  expect_end_at(e, run_until(e, "relative_density", 0.8));
-  const double height = std::numbers::pi / 4 * 0.01 / 0.8 - pressing * rest / 2;
-  EXPECT_NEAR(e.value("relative_density") * height / (std::numbers::pi / 4 * 0.01), 1, 1e-4);
-}
-
-TEST(StageUntil, StopsTheRunWhenItsTimeIsOverBefore) {
-  Experiment e = pressed_until({"stage.press.until.relative_density=1.1"});
-  EXPECT_THAT(message_of<RunFailure>([&] { end_after_running(e); }),
-              AllOf(HasSubstr("stage_control: relative density is 0.82"),
-                    HasSubstr("stage 'press'"), HasSubstr("1.1")));
 }
 
 const std::vector<std::string> one_sheared{"packing[0].rows=1", "packing[0].columns=1",
@@ -287,24 +215,10 @@ TEST(Shear, ShearStrengthCapsTheForceByTheContactsArea) {
 }
 
 TEST(Servo, IsNotThereWhereNoStageAsks) {
-  Experiment e("compaction/regular-25.toml", one_disc);
+  Experiment e("compaction/regular-25.toml");
   EXPECT_FALSE(e.simulation.world().has<ServoTravel>());
   EXPECT_FALSE(e.simulation.world().has<ToolServos>());
   EXPECT_FALSE(e.simulation.world().has<StageEnds>());
-}
-
-// A displacement that is the whole of the move is reached, however it rounds: the run goes to its end.
-TEST(StageControl, AStageMayEndWithTheWholeOfItsMove) {
-  for (const char* way : {"0.03 mm", "0.07 mm", "0.1 mm", "0.3 mm"}) {
-    const std::string length = way;
-    Experiment e(
-        "compaction/regular-25.toml",
-        joined(one_disc,
-               {"stage.press.duration=60 us",
-                "stage.press.move[0].displacement=[\"0 mm\", \"-" + length + "\"]",
-                "stage.press.until.tool=top", "stage.press.until.displacement=" + length}));
-    EXPECT_NO_THROW(e.run(2)) << length;
-  }
 }
 
 // ---- target surfaces --------------------------------------------------------------------------------

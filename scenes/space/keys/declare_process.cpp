@@ -191,16 +191,19 @@ const TableDeclaration<UntilSpec>& until() {
   static const TableDeclaration<UntilSpec> declaration = [] {
     TableDeclaration<UntilSpec> table = schema::until();
     table.info.doc =
-        "Ends the preceding stage before its duration is over; its tools then come to "
-        "rest as smoothly as they started. If the condition is not met within the "
-        "duration of the stage, the run stops. Exactly one of `force`, `displacement` "
-        "and `relative_density` is given.";
+        "Ends the preceding stage before its duration is over, at a displacement, relative "
+        "density or force. Its tools come to rest as smoothly as they started. At a "
+        "displacement or relative density they are then at rest, as they begin to slow down "
+        "before it. A force is not known in advance: they begin to slow down where it is "
+        "reached, it rises further, and [[stage.servo]] holds one. If the condition is not "
+        "met within the duration of the stage, the run stops. Exactly one of `force`, "
+        "`displacement` and `relative_density` is given.";
     key_of(table, "force").info.doc =
-        "Force of the powder on the tool: against the normal of a plane or punch, the "
-        "magnitude for other tools.";
+        "Force of the powder on the tool from which on the stage slows down: against the "
+        "normal of a plane or punch, the magnitude for other tools.";
     key_of(table, "relative_density").info.doc =
         "Relative density of the powder between six planes, or in a round die between "
-        "two planes or punches.";
+        "two planes or punches, after they have come to rest.";
     return table;
   }();
   return declaration;

@@ -83,6 +83,15 @@ TEST(CutTravel, IsTheWholeWayWhereNothingIsCut) {
     EXPECT_EQ(cut_travel(tau, 0.1, 1e300), smooth_travel(tau, 0.1));
 }
 
+// Whenever it is cut; from where the speed falls anyway, the whole way.
+TEST(TravelToRest, IsWhatCutTravelGoesOn) {
+  for (const double ramp : {0.0, 0.1, 0.5})
+    for (const double tau : {-0.1, 0.0, 0.03, 0.3, 0.49, 0.5, 0.6, 0.95, 1.0, 1.2}) {
+      const double end = tau < 1 - ramp ? cut_travel(tau + 2, ramp, tau) : 1;
+      EXPECT_NEAR(smooth_travel(tau, ramp) + travel_to_rest(tau, ramp), end, 1e-14) << tau << ramp;
+    }
+}
+
 TEST(CutTravel, ComesToRestSmoothlyHalfARampOfItsSpeedFurther) {
   const double ramp = 0.2, step = 1e-5;
   for (const double cut : {0.05, 0.2, 0.6}) {

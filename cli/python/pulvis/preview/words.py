@@ -83,12 +83,10 @@ def servo_text(servo):
 
 def until_text(until):
     if "relative_density" in until:
-        what = f"relative density {number(until['relative_density'])}"
-    elif "force" in until:
-        what = f"{quantity(until['force'], 'N')}"
-    else:
-        what = f"a travel of {quantity(until['displacement'], 'm')}"
-    return f"slows down from {what}" + (f" of {until['tool']}" if "tool" in until else "")
+        return f"ends at relative density {number(until['relative_density'])}"
+    if "force" in until:
+        return f"slows down from {quantity(until['force'], 'N')} of {until['tool']}"
+    return f"ends at a travel of {quantity(until['displacement'], 'm')} of {until['tool']}"
 
 
 STRAINS = {"strain_xx": "ε_xx", "strain_yy": "ε_yy", "strain_xy": "ε_xy"}
