@@ -109,8 +109,9 @@ void add_figures(Json& json, const Results& results) {
 
 void add_quality(Json& json, const World& world, const RunQuality& quality) {
   const ContactFindings& found = quality.contacts;
-  Json contacts{{"narrow_share", found.narrow_share}};
-  if (found.narrow_share > 0) {
+  Json contacts = Json::object();
+  if (found.narrow_share) contacts["narrow_share"] = *found.narrow_share;
+  if (found.narrow_edges > 0) {
     contacts["narrow_edges"] = found.narrow_edges;
     contacts["edge_to_do"] = found.edge_to_do;
   }

@@ -56,17 +56,17 @@ struct ContactNetwork {
 };
 
 // ---- in every scene with contact --------------------------------------------------------------------
-// How well the meshes resolve the contacts, as last observed. A contact is everything between an outline
-// and one other, or one tool; in a pair of particles each side counts separately.
+// How well the meshes resolve the contacts, as last observed. A contact is everything between an outline, or surface,
+// and one other, or one tool; in a pair of particles each side counts separately. In three dimensions edges are faces.
 struct ContactQuality {
   static constexpr const char* resource_name = "contact_quality";
   static constexpr double min_edges = 2;  // narrower contacts are not resolved
-  double overlap = 0;                     // m^2, of outlines with each other and with tools
-  double penetration_work = 0;            // J, normal force times penetration, summed
-  double force = 0;                       // N, sum over the contacts
-  double narrow_force = 0;                // N, of contacts narrower than two boundary edges
-  double narrow_width = 0;                // N m, their widths times their forces
-  double narrow_edges = 0;                // N, their widths in edges times their forces
+  double overlap = 0;           // m^2, of outlines with each other and with tools; 0 in 3D
+  double penetration_work = 0;  // J, normal force times penetration, summed; 0 in 3D
+  double force = 0;             // N, sum over the contacts
+  double narrow_force = 0;      // N, of contacts narrower than two boundary edges
+  double narrow_width = 0;      // N m, their widths times their forces
+  double narrow_edges = 0;      // N, their widths in edges times their forces
 
   template <class Bytes>
   void state(Bytes& bytes) {

@@ -22,7 +22,8 @@ double value_at(const std::vector<double>& xs, const std::vector<double>& ys, do
 
 }  // namespace
 
-ContactLoading::ContactLoading(const Scene& scene) : stiffness_(scene.contact.stiffness) {
+ContactLoading::ContactLoading(const Scene& scene)
+    : in_space_(scene.space != nullptr), stiffness_(scene.contact.stiffness) {
   using Kind = StageSpec::Kind;
   bool loads = true;
   for (const StageSpec& stage : scene.stages) {
@@ -32,20 +33,17 @@ ContactLoading::ContactLoading(const Scene& scene) : stiffness_(scene.contact.st
 }
 
 bool ContactLoading::loads(const World& world) const {
-  if (!world.has<ToolForce>() || !world.has<ContactRules>()) return false;
-  if (world.column<ToolForce>().table.rows == 0) return false;
+  if (!world.has<ToolProgram>() || !world.has<ContactQuality>()) return false;
   const std::size_t stage = world.resource<ToolProgram>().stage_at(world.resource<Clock>().time);
   return stage < loads_.size() ? loads_[stage] : loads_.back();
 }
 
 void ContactLoading::sample(const Results& results, const World& world) {
   if (!loads(world)) return;
-  double penetration_work = 2 * results.energies().contact;
-  if (world.has<ContactQuality>()) {  // in two dimensions
-    const ContactQuality& now = world.resource<ContactQuality>();
-    if (now.force > heaviest_.force) heaviest_ = now;
-    penetration_work = now.penetration_work;
-  }
+  const ContactQuality& now = world.resource<ContactQuality>();
+  if (now.force > heaviest_.force) heaviest_ = now;
+  if (!world.has<ToolForce>() || world.column<ToolForce>().table.rows == 0) return;
+  const double penetration_work = in_space_ ? 2 * results.energies().contact : now.penetration_work;
   const double work = results.energies().external - work_, force = results.load();
   work_ = results.energies().external;
   const double mean = force_.empty() ? force : 0.5 * (force + force_.back());
@@ -75,8 +73,9 @@ ContactFindings ContactLoading::findings() const {
   ContactFindings found;
   found.stiffness = stiffness_;
   found.force_error = force_error();
-  if (!(heaviest_.narrow_force > 0)) return found;
+  if (!(heaviest_.force > 0)) return found;
   found.narrow_share = heaviest_.narrow_force / heaviest_.force;
+  if (!(heaviest_.narrow_force > 0)) return found;
   found.narrow_edges = heaviest_.narrow_edges / heaviest_.narrow_force;
   found.edge_to_do = heaviest_.narrow_width / heaviest_.narrow_force / ContactQuality::min_edges;
   return found;

@@ -6,7 +6,8 @@
 //              contact springs. Rigid contacts would have given F at the approach a - u, with a = integral of
 //              dW/F, W the work of the tools. So the force at a - u is too low by the share
 //              1 - F(a - u)/F(a): all from the run's own curve
-// Narrow       A contact narrower than two boundary edges is not resolved (docs/accuracy.md)
+// Narrow       A contact narrower than two boundary edges, in three dimensions two faces, is not resolved
+//              (docs/accuracy.md)
 // Range        up to the largest force before any shearing or unloading
 #pragma once
 
@@ -25,9 +26,9 @@ struct ContactFindings {
   static constexpr double most_narrow = 0.1;       // -, of the force
   static constexpr double max_force_error = 0.05;  // -
 
-  double narrow_share = 0;            // -, of the contact force, when that was largest
-  double narrow_edges = 0;            // -, mean width of those contacts in boundary edges
-  double edge_to_do = 0;              // m, boundary edge length at which they would span two edges
+  std::optional<double> narrow_share;  // -, of the contact force, when that was largest
+  double narrow_edges = 0;             // -, mean width of those contacts in boundary edges or faces
+  double edge_to_do = 0;  // m, length of edges, or size of faces, of which they would span two
   std::optional<double> force_error;  // -, of the largest force, due to penetration: < 0, too low
   double stiffness = 0;               // -, the scene's contact.stiffness
 
@@ -54,6 +55,7 @@ class ContactLoading {
   std::optional<double> force_error() const;
 
   std::vector<bool> loads_;  // [stages]
+  bool in_space_ = false;
   double stiffness_ = 0;
   std::vector<double> approach_, force_, sunk_;  // m, N, m: of every sample
   double work_ = 0;                              // J, of the tools so far

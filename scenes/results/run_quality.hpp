@@ -28,8 +28,8 @@ struct QualityFigure {
 inline constexpr const char* release_figure = "Released energy in contact springs";
 inline constexpr double most_in_springs = 0.15;  // its limit
 
-// The keys that refine the scene's meshes, whatever gives their present size: these replace `accuracy`, which may be "fine"
-// already, or have no effect because the meshes have keys of their own.
+// The keys that refine the meshes of a scene in two dimensions, whatever gives their present size: these replace `accuracy`,
+// which may be "fine" already, or have no effect because the meshes have keys of their own.
 std::string refining_keys(const Scene& scene);
 
 // Omits those that the run does not have.

@@ -233,6 +233,7 @@ void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& 
     index.reach = std::max(index.reach, add_bonds(world, scene, touching, rules));
   index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
   world.emplace<ContactRules>(std::move(rules));
+  world.emplace<ContactQuality>();
 }
 
 }  // namespace pulvis::space

@@ -43,6 +43,7 @@ std::vector<System> observed_in_space(World& w) {
   observe.add<plastic_work<F>>    ("plastic_work",      w.has<PlasticStrain<F::points>>());
   observe.add<hourglass_energy>   ("hourglass_energy",  F::stabilised);
   observe.add<particle_stress<F>> ("particle_stress",   w.has<ParticleStress>());
+  observe.add<contact_quality>    ("contact_quality",   w.has<ContactQuality>());
   // clang-format on
   if (!w.has<RankLink>()) observe_whole(w, observe);
   return observe.taken();

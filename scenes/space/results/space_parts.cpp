@@ -7,6 +7,7 @@
 
 #include "components/body.hpp"
 #include "components/contact.hpp"
+#include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
 #include "components/space/body.hpp"
@@ -137,7 +138,11 @@ class SpaceParts : public ResultParts {
     if (room_) append_room(row);
   }
 
-  void append_contacts(std::vector<double>&) const override {}
+  void append_contacts(std::vector<double>& row) const override {
+    ContactQuality now;
+    if (world_.has<ContactQuality>()) now = world_.resource<ContactQuality>();
+    row.push_back(now.force > 0 ? now.narrow_force / now.force : 0);
+  }
   void append_observed(std::vector<double>& row) const override {
     if (room_) append_stress_sample(world_, volume_of_room(), row);
     append_network_sample(world_, row);

@@ -79,7 +79,9 @@ std::vector<SeriesInfo> tool_series(const Scene& scene) {
 
 std::vector<SeriesInfo> contact_series() {
   return {{"contacts", "-", "faces in contact with another particle or a tool"},
-          {"penetration", "-", "deepest so far, relative to the size of a face"}};
+          {"penetration", "-", "deepest so far, relative to the size of a face"},
+          {"narrow_contacts", "-",
+           "share of the contact force carried by contacts narrower than two faces"}};
 }
 
 std::vector<SeriesInfo> momentum_series() {

@@ -31,6 +31,16 @@ struct contact_network {
   void operator()() const;
 };
 
+struct contact_quality {
+  ShapedBodies bodies;
+  Read<ContactIndex> index;
+  Optional<contact_force::Pairs> pairs;
+  Optional<TouchingRows> tools;
+  Write<ContactQuality> quality;
+  Link link;
+  void operator()() const;
+};
+
 struct force_chains {
   Read<Bodies> bodies;
   Read<ParticleStress> stress;

@@ -60,7 +60,7 @@ TEST(ContactFindings, TellHowMuchForceAHertzContactMisses) {
     EXPECT_LT(soft.force / hertz_force(soft.approach), 0.6);  // too soft by half and more
     ASSERT_TRUE(soft.findings.force_error);
     EXPECT_NEAR(1 + *soft.findings.force_error, soft.force / hard.force, 0.05) << count;
-    EXPECT_GT(soft.findings.narrow_share, 0.99);
+    EXPECT_GT(soft.findings.narrow_share.value(), 0.99);
     EXPECT_TRUE(soft.findings.too_narrow());
     EXPECT_TRUE(soft.findings.too_soft());
   }
@@ -100,7 +100,7 @@ TEST(ContactFindings, TellHowMuchForceADenseCompactMisses) {
 
 TEST(ContactFindings, SayNothingOfAnOrdinaryCompactAndOfFirstTouches) {
   const Pressed pressed = press("compaction/unit-cell.toml", cell(0.9, {}));
-  EXPECT_LT(pressed.findings.narrow_share, 0.1);
+  EXPECT_LT(pressed.findings.narrow_share.value(), 0.1);
   EXPECT_FALSE(pressed.findings.too_narrow() || pressed.findings.too_soft());
 }
 

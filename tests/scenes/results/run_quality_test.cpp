@@ -80,7 +80,27 @@ TEST(RunQuality, AdvisesOfKeysThatTheSceneAccepts) {
   };
   EXPECT_EQ(keys("bonds/brazilian-disc.toml"), "edges of [particle.grains]");
   EXPECT_EQ(keys("bonds/pulled-blocks.toml"), "columns and rows of [particle.mesh]");
-  EXPECT_EQ(keys("compaction-3d/unit-cell-sc.toml"), "divisions and rings of [particle.mesh]");
+}
+
+// Its elements bend at contacts of any mesh: a figure to look at, not a warning that no mesh silences.
+TEST(RunQuality, GivesTheHourglassEnergyOfHexahedraWithoutALimit) {
+  const QualityFigure bent = figure(judged("extreme/space-box-rd-97.toml", {}), "Hourglass energy");
+  EXPECT_GT(bent.value, 0.03);
+  EXPECT_FALSE(bent.limit);
+  EXPECT_EQ(bent.advice, "");
+}
+
+// A contact of two faces a plane, and one of many.
+TEST(RunQuality, AsksForSmallerFacesWhereContactsInSpaceAreNarrow) {
+  const QualityFigure first =
+      figure(judged("compaction-3d/one-sphere.toml",
+                    {"stage.press.duration=20 us",
+                     "stage.press.move.top.displacement=[\"0 mm\", \"0 mm\", \"-0.2 mm\"]"}),
+             "Narrow contacts");
+  EXPECT_GT(first.value, 0.99);
+  EXPECT_THAT(first.advice, HasSubstr("faces wide on average: use faces of "));
+  EXPECT_THAT(first.advice, HasSubstr(" um (particle.mesh.divisions)"));
+  EXPECT_EQ(figure(judged("extreme/space-box-rd-97.toml", {}), "Narrow contacts").value, 0);
 }
 
 // Of a powder in three dimensions stiffness alone is no help: coarse faces bear too much.
