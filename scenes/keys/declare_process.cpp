@@ -343,7 +343,8 @@ const TableDeclaration<LimitSpec>& limits() {
          .kind = Kind::number,
          .range = above(0, 1e6),
          .doc = "`kinetic_ratio`: largest ratio of kinetic to internal energy under more than a "
-                "tenth of the largest load so far, checked at the end of every stage. "
+                "tenth of the largest load and with more than 1% of the largest internal energy "
+                "so far, checked at the end of every stage. "
                 "Without it the quality table judges by 0.1 and the run goes on, unless bodies "
                 "start with a velocity. A run that is dynamic on purpose sets a large value.",
          .fallback_doc = "none that stops the run"},

@@ -97,23 +97,26 @@ double Results::load() const {
   return std::sqrt(std::max(0.0, energies_.elastic + energies_.contact + energies_.bonds));
 }
 
-// Samples under hardly any load do not count, and internal energy is also that in contact springs and bonds: as a round
-// contact begins, most of it is in springs. Which these are is only known at the end, so all samples are kept that no
-// other exceeds in both figures.
-void Results::take_kinetic_ratio(double load) {
-  largest_load_ = std::max(largest_load_, load);
-  const double minimum = 0.1 * largest_load_;
-  std::erase_if(kinetic_ratios_, [&](const auto& sample) { return sample.second <= minimum; });
+// Samples under hardly any load or with hardly any internal energy do not count: a tenth of the force of a plastic powder
+// comes with next to no energy. Which these are is only known at the end, so all samples are kept that no other exceeds in
+// all figures. Internal energy is also that in contact springs and bonds: as a round contact begins, most of it is in springs.
+void Results::take_kinetic_ratio() {
   const double internal = energies_.internal() + energies_.contact + energies_.bonds;
-  if (load <= minimum || internal == 0) return;
-  const double ratio = energies_.kinetic / internal;
-  const auto outdone_by = [](double r, double l) {
-    return [=](const auto& sample) { return sample.first <= r && sample.second <= l; };
+  largest_load_ = std::max(largest_load_, load());
+  largest_internal_ = std::max(largest_internal_, internal);
+  const KineticSample now{energies_.kinetic / internal, load(), internal};
+  const auto is_first_touch = [&](const KineticSample& sample) {
+    return sample.load <= 0.1 * largest_load_ || sample.internal <= 0.01 * largest_internal_;
   };
-  for (const auto& [r, l] : kinetic_ratios_)
-    if (r >= ratio && l >= load) return;
-  std::erase_if(kinetic_ratios_, outdone_by(ratio, load));
-  kinetic_ratios_.emplace_back(ratio, load);
+  const auto outdoes = [](const KineticSample& a, const KineticSample& b) {
+    return a.ratio >= b.ratio && a.load >= b.load && a.internal >= b.internal;
+  };
+  std::erase_if(kinetic_samples_, is_first_touch);
+  if (is_first_touch(now)) return;
+  for (const KineticSample& other : kinetic_samples_)
+    if (outdoes(other, now)) return;
+  std::erase_if(kinetic_samples_, [&](const KineticSample& other) { return outdoes(now, other); });
+  kinetic_samples_.push_back(now);
 }
 
 void Results::take_peaks() {
@@ -132,8 +135,8 @@ void Results::take_peaks() {
 
 double Results::kinetic_ratio() const {
   double worst = 0;
-  for (const auto& [ratio, internal] : kinetic_ratios_)
-    if (!(ratio <= worst)) worst = ratio;
+  for (const KineticSample& sample : kinetic_samples_)
+    if (!(sample.ratio <= worst)) worst = sample.ratio;
   return worst;
 }
 
@@ -163,9 +166,8 @@ std::vector<double> Results::sample() {
   parts_->append_observed(row);
   shear_.append_sample(energies_.plastic, row);
   last_ = row;
-  const double loaded = load();
-  take_kinetic_ratio(loaded);
-  release_.sample(loaded, energies_.elastic, energies_.contact);
+  take_kinetic_ratio();
+  release_.sample(load(), energies_.elastic, energies_.contact);
   return row;
 }
 

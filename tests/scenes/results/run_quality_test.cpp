@@ -126,19 +126,24 @@ TEST(RunQuality, JudgesKineticEnergyUnderLoad) {
     Experiment e(scene, {"accuracy=draft", "output.samples=200"});
     const std::string force = e.scene.space ? "tool/top/force_z" : "tool/top/force_y";
     const std::string other = e.scene.space ? "tool/bottom/force_z" : "tool/bottom/force_y";
-    std::vector<std::pair<double, double>> samples;  // load, ratio
-    double largest = 0, at_first_touch = 0;
+    struct Sample {
+      double load, internal, ratio;
+    };
+    std::vector<Sample> samples;
+    double largest = 0, most_internal = 0, at_first_touch = 0;
     e.run(200, [&] {
       const double load = std::max(std::abs(e.value(force)), std::abs(e.value(other)));
       const double internal = e.results.energies().internal() + e.results.energies().contact;
       largest = std::max(largest, load);
+      most_internal = std::max(most_internal, internal);
       if (!(internal > 0)) return;
-      samples.emplace_back(load, e.results.energies().kinetic / internal);
-      at_first_touch = std::max(at_first_touch, samples.back().second);
+      samples.push_back({load, internal, e.results.energies().kinetic / internal});
+      at_first_touch = std::max(at_first_touch, samples.back().ratio);
     });
     double under_load = 0;
-    for (const auto& [load, ratio] : samples)
-      if (load > 0.1 * largest) under_load = std::max(under_load, ratio);
+    for (const auto& [load, internal, ratio] : samples)
+      if (load > 0.1 * largest && internal > 0.01 * most_internal)
+        under_load = std::max(under_load, ratio);
     EXPECT_NEAR(e.results.kinetic_ratio() / under_load, 1, 1e-6) << scene;
     EXPECT_LT(e.results.kinetic_ratio(), at_first_touch) << scene;
     EXPECT_GT(e.results.kinetic_ratio(), 0) << scene;
@@ -173,8 +178,8 @@ TEST(RunQuality, DoesNotJudgeTheKineticEnergyOfCollisions) {
 TEST(RunQuality, TellsWhatSpringsReleaseOnUnloading) {
   using Changes = std::vector<std::string>;
   for (const auto& [scene, changes, stiffness] :
-       {std::tuple("extreme/crush-to-half.toml", Changes{}, "10"),
-        {"compaction-3d/one-sphere.toml", {"accuracy=draft"}, "20"}}) {
+       {std::tuple("extreme/springback-plastic.toml", Changes{}, "100"),
+        {"compaction-3d/one-sphere.toml", {"accuracy=draft"}, "100"}}) {
     const QualityFigure soft = figure(judged(scene, changes), release_figure);
     EXPECT_EQ(soft.limit, most_in_springs);
     EXPECT_TRUE(soft.beyond()) << scene << " " << soft.value;
