@@ -1,4 +1,6 @@
 // Declarations of the atomic force microscope: lever, tip, laser, detector.
+#include <array>
+
 #include "scenes/keys/declare.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
@@ -191,9 +193,9 @@ std::vector<Key<LeverSpec>> further_lever_keys() {
         .doc = "Formulation of the lever's hexahedra. Hexahedra from a file that do not form "
                "thin layers need `solid`. Tetrahedra have a single formulation."},
        [](LeverSpec& lever, const Decoded& value) {
-         static constexpr HexFormulation order[] = {HexFormulation::plate, HexFormulation::solid,
-                                                    HexFormulation::standard};
-         lever.element = order[value.index];
+         static constexpr std::array order{HexFormulation::plate, HexFormulation::solid,
+                                           HexFormulation::standard};
+         lever.element = order.at(static_cast<std::size_t>(value.index));
        }},
   };
 }

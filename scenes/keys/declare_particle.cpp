@@ -1,6 +1,6 @@
 // Declarations of particle classes and their outlines.
+#include <array>
 #include <concepts>
-#include <iterator>
 
 #include "scenes/keys/declare.hpp"
 
@@ -16,17 +16,17 @@ void emplace_outline(ParticleSpec& particle) {
 // The first key of a particle, its words in this order: the keys after it access the outline and mesh
 // that they belong to.
 void choose_outline(ParticleSpec& particle, const Decoded& value) {
-  constexpr void (*choices[])(ParticleSpec&) = {emplace_outline<DiscOutline>,
-                                                emplace_outline<RectangleOutline>,
-                                                emplace_outline<RoundedRectangleOutline>,
-                                                emplace_outline<RingOutline>,
-                                                emplace_outline<EllipseOutline>,
-                                                emplace_outline<SuperellipseOutline>,
-                                                emplace_outline<PolygonOutline>,
-                                                emplace_outline<PointsOutline>,
-                                                emplace_outline<FourierOutline>};
-  static_assert(std::size(choices) == std::variant_size_v<Outline> - 1);  // grains have no word
-  choices[value.index](particle);
+  constexpr std::array choices{emplace_outline<DiscOutline>,
+                               emplace_outline<RectangleOutline>,
+                               emplace_outline<RoundedRectangleOutline>,
+                               emplace_outline<RingOutline>,
+                               emplace_outline<EllipseOutline>,
+                               emplace_outline<SuperellipseOutline>,
+                               emplace_outline<PolygonOutline>,
+                               emplace_outline<PointsOutline>,
+                               emplace_outline<FourierOutline>};
+  static_assert(choices.size() == std::variant_size_v<Outline> - 1);  // grains have no word
+  choices.at(static_cast<std::size_t>(value.index))(particle);
 }
 
 // A key of every outline that has the member: only_for ensures that the selected one does.

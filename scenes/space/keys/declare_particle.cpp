@@ -1,6 +1,6 @@
 // Declarations of the particle classes: their shapes and their meshes.
+#include <array>
 #include <concepts>
-#include <iterator>
 
 #include "scenes/space/keys/declare.hpp"
 
@@ -14,12 +14,11 @@ void emplace_shape(ParticleSpec& particle) {
 
 // The first key of a particle, words in this order: later keys find the shape they belong to.
 void choose_shape(ParticleSpec& particle, const Decoded& value) {
-  constexpr void (*choices[])(ParticleSpec&) = {
-      emplace_shape<SphereShape>,       emplace_shape<EllipsoidShape>,
-      emplace_shape<SuperquadricShape>, emplace_shape<CylinderShape>,
-      emplace_shape<PolyhedronShape>,   emplace_shape<StlShape>};
-  static_assert(std::size(choices) == std::variant_size_v<ParticleShape>);
-  choices[value.index](particle);
+  constexpr std::array choices{emplace_shape<SphereShape>,       emplace_shape<EllipsoidShape>,
+                               emplace_shape<SuperquadricShape>, emplace_shape<CylinderShape>,
+                               emplace_shape<PolyhedronShape>,   emplace_shape<StlShape>};
+  static_assert(choices.size() == std::variant_size_v<ParticleShape>);
+  choices.at(static_cast<std::size_t>(value.index))(particle);
 }
 
 // A key of every shape that has this member: the selected one has it, which only_for ensures.
