@@ -132,7 +132,7 @@ TEST(TestProbe, TellsTheLateralSensitivityOfAnotherTip) {
   measured.side = lab::Mean{1 / std::abs(probe.lateral_invols), 0};
   measured.loops.loops = {{0, 1, 0.1, 0, 0.001, 0.001, 0, {}, {}}};
   volts::VoltsSpec spec;
-  spec.afm.lateral = static_cast<int>(volts::LateralMethod::test_probe);
+  spec.afm.lateral = volts::LateralMethod::test_probe;
   spec.lever.k_n_error = spec.lever.k_l_error = 0.0;
   spec.test_probe.arm = probe.arm;
   spec.test_probe.twist_share = probe.twist_share;
