@@ -1,6 +1,5 @@
 #include "engine/files/hdf5.hpp"
 
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "engine/files/hdf5_api.hpp"
 #include "engine/files/hdf5_journal.hpp"
 #include "engine/files/input_file.hpp"
 #include "engine/files/output_error.hpp"

@@ -1,6 +1,5 @@
 // Atomic changes: how File deals with HDF5's metadata cache, with the first page of the file, and with other processes that
 // write into it.
-#include <hdf5.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/files/hdf5.hpp"
+#include "engine/files/hdf5_api.hpp"
 #include "engine/files/hdf5_journal.hpp"
 #include "engine/files/output_error.hpp"
 

@@ -32,6 +32,10 @@ herr_t failure_told(const std::system_error& error) {
   return -1;
 }
 constexpr haddr_t max_addresses = (haddr_t{1} << 62U) - 1;
+#ifdef H5FD_CLASS_VERSION
+// Below it are those of HDF5's own drivers.
+constexpr H5FD_class_value_t first_value_of_others = H5_VFD_RESERVED;
+#endif
 #pragma GCC diagnostic pop
 
 template <class Action>
@@ -125,6 +129,10 @@ herr_t truncate(H5FD_t* file, hid_t, hbool_t) {
 
 H5FD_class_t description() {
   H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION  // from HDF5 1.14
+  driver.version = H5FD_CLASS_VERSION;
+  driver.value = first_value_of_others;
+#endif
   driver.name = "pulvis_journal";
   driver.maxaddr = max_addresses;
   driver.fc_degree = H5F_CLOSE_WEAK;

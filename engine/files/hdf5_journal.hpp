@@ -3,7 +3,7 @@
 // hdf5.cpp and hdf5_change.cpp only.
 #pragma once
 
-#include <hdf5.h>
+#include "engine/files/hdf5_api.hpp"
 
 #include <cstdint>
 
