@@ -58,7 +58,7 @@ Json inputs_json(const volts::Reduced& reduced) {
   return json;
 }
 
-const volts::Quantity& named(const volts::MonteCarlo& result, const std::string& name) {
+const volts::Quantity& named(const volts::MonteCarlo& result, std::string_view name) {
   return *std::ranges::find(result.quantities, name, &volts::Quantity::name);
 }
 

@@ -5,6 +5,7 @@ identical results. Reading results (`pulvis.open`, `pulvis.open_study`) and plot
 """
 
 import importlib
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # resolves the lazy names for type checkers and editors
@@ -46,7 +47,23 @@ _HOMES = {
 __all__ = sorted(_HOMES)
 
 
+def _compiled():
+    try:
+        return importlib.import_module("pulvis._core")
+    except ModuleNotFoundError as missing:
+        if missing.name != "pulvis._core":
+            raise
+        version = "{}.{}".format(*sys.version_info)
+        raise ImportError(
+            f"the compiled module of pulvis is not built for this Python ({version}). In the source folder, "
+            "./pulvis --version builds it into build/release/python, for /usr/bin/python3 (with the Debian packages "
+            "python3-dev, pybind11-dev and python3-numpy, which it installs); pip install . builds it for the Python of "
+            "this pip. Results are read and plotted without it.", name="pulvis._core") from None
+
+
 def __getattr__(name):
+    if name == "_core":  # `from pulvis import _core`, before it is imported
+        return _compiled()
     if name not in _HOMES:
         raise AttributeError(f"module 'pulvis' has no attribute '{name}'")
     value = getattr(importlib.import_module(_HOMES[name]), name)
