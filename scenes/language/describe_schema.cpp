@@ -31,8 +31,11 @@ void add_range(Json& json, const schema::Range& range) {
     json[range.without_high ? "exclusiveMaximum" : "maximum"] = range.high;
 }
 
+// A number and its unit, which after a space may begin with a digit: "20000 1/s". What looks like the rest of a number
+// (".5", "e3") is none.
 constexpr const char* quantity_pattern =
-    "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*[^0-9\\s].*$";
+    "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?(\\s+[0-9]+)?"
+    "\\s*([^0-9\\s.eE]|[eE][^0-9+-]).*$";
 
 Json quantity_type() { return {{"type", "string"}, {"pattern", quantity_pattern}}; }
 
@@ -185,15 +188,22 @@ Json branch(const schema::TableView& view, const std::string& selected,
   return json;
 }
 
+// Whether the selector has this value. A selector that is left out has its default, except in a file that extends another.
+Json selects(const schema::KeyInfo& selector, const std::string& word, Extent extent) {
+  Json test{{"properties", {{selector.name, {{"const", word}}}}}};
+  const auto* usual = selector.fallback ? selector.fallback->as<std::string>() : nullptr;
+  if (extent == Extent::part || usual == nullptr || *usual != word)
+    test["required"] = {selector.name};
+  return test;
+}
+
 void add_branches(Json& json, const schema::TableView& view, const schema::Language& language,
                   Extent extent) {
   const schema::KeyInfo* selector = schema::find_key(view, view.info.selector);
   if (selector == nullptr) return;
-  for (const schema::Choice& choice : selector->choices) {
-    Json test{{"properties", {{selector->name, {{"const", choice.word}}}}}};
-    if (extent == Extent::part) test["required"] = {selector->name};
-    json["allOf"].push_back({{"if", test}, {"then", branch(view, choice.word, language, extent)}});
-  }
+  for (const schema::Choice& choice : selector->choices)
+    json["allOf"].push_back({{"if", selects(*selector, choice.word, extent)},
+                             {"then", branch(view, choice.word, language, extent)}});
 }
 
 // User-defined names, as in [let].
