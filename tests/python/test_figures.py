@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 import numpy as np
 from matplotlib import pyplot as plt
 
-from pulvis.figures import afm, bonds, cell, colours, look, network, probe
+from pulvis.figures import afm, bonds, cell, colours, look, network, probe, study
 
 plt.rcParams.update(look.STYLE)
 
@@ -33,6 +33,42 @@ class FiguresTest(unittest.TestCase):
         looks = {(line.get_color(), line.get_linestyle()) for line in axes.lines if len(line.get_xdata()) == 5}
         self.assertEqual(len(looks), 12)
         self.assertEqual(len({line.get_color() for line in axes.lines[:9]}), 9)
+
+    def drawn(self, *curves):
+        """The dashes of curves in one figure, with a sample of the picture along each."""
+        x = "time", np.linspace(0, 1, 300), "s"
+        lines = [(f"{i}", values(x[1]), "N") for i, values in enumerate(curves)]
+        figure = look.draw_lines(types.SimpleNamespace(title=""), x, lines, ("force", "F"), "Forces")
+        figure.canvas.draw()
+        picture, axes = np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int), figure.axes[0]
+        return [line for line in axes.lines if len(line.get_xdata()) == 300], picture, axes
+
+    def share_seen(self, line, picture, axes):
+        """Of the pixels along a curve, those in its colour."""
+        at = np.round(axes.transData.transform(line.get_xydata())[5:-5]).astype(int)
+        colour = 255 * np.array(matplotlib.colors.to_rgb(line.get_color()))
+        return np.mean(np.abs(picture[len(picture) - 1 - at[:, 1], at[:, 0]] - colour).max(axis=1) < 60)
+
+    def test_curves_that_lie_on_one_another_are_all_seen(self):
+        for count in (2, 3, 4):
+            lines, picture, axes = self.drawn(*[lambda x: 5e3 * x ** 2] * count, lambda x: 8e3 * x)
+            for line in lines[:count]:
+                self.assertGreater(self.share_seen(line, picture, axes), 0.5 / count)
+            self.assertGreater(self.share_seen(lines[count], picture, axes), 0.9)
+            self.assertEqual([line.get_linestyle() for line in (lines[0], lines[count])], ["-", "-"])
+
+    def test_only_curves_that_hide_others_are_dashed(self):
+        lines, *_ = self.drawn(lambda x: x, lambda x: 1.05 * x, lambda x: x * (x < 0.5) + (1 - x) * (x >= 0.5), lambda x: 0 * x)
+        self.assertEqual([line.get_linestyle() for line in lines], ["-"] * 4)
+        lines, *_ = self.drawn(lambda x: x, lambda x: 1.001 * x, lambda x: np.where(x < 0.5, x, np.nan))
+        self.assertEqual([line.get_linestyle() for line in lines], ["-", "--", "-"])  # the last one hides half of it
+
+    def test_curves_of_a_study_that_lie_on_one_another_are_dashed(self):
+        lines = [{"variation": f"{n} samples", "runs": 1, "x": np.linspace(0.1, 1, n).tolist(),
+                  "y": (np.linspace(0.1, 1, n) ** 2).tolist()} for n in (60, 97)]
+        curve = {"x": "time", "x_unit": "s", "y": "energy/kinetic", "y_unit": "J", "title": "Energies", "lines": lines}
+        axes = study.draw(curve, "A study", look.Options()).axes[0]
+        self.assertEqual([line.get_linestyle() for line in axes.lines], ["-", "--"])
 
     def test_ticks_of_the_rose_stand_where_they_say(self):
         for most in (0.2, 0.13, 0.07, 0.5):

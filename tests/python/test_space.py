@@ -430,7 +430,7 @@ def test_all_figures_of_the_command(blocks, tmp_path):
     told = call("figure", blocks, "-o", tmp_path / "all", "--width", "85mm", "--no-title")
     names = sorted(path.name for path in (tmp_path / "all").glob("*.png"))
     assert names == ["density_profile.png", "effective_stress.png", "force.png", "section.png"]
-    assert "nothing recorded for energies.png" in told
+    assert "nothing recorded" not in told and "energies.png" not in told
     with Image.open(tmp_path / "all/effective_stress.png") as picture:
         assert picture.width == pytest.approx(85 / 25.4 * 200, abs=2)
     call("figure", blocks, "--animate", tmp_path / "film.gif", "--range", "0:400MPa", "--cmap", "cividis")

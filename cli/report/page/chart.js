@@ -238,18 +238,36 @@ function dashOf(i) {
   return around ? [...(dash || [14, 3]), 2 + around, 3] : dash;
 }
 
-function coincide(line, other) {
-  const scale = 0.005 * largest(line.values);
-  return line.x === other.x && line.values.length === other.values.length &&
-    line.values.every((value, i) => !(Math.abs(value - other.values[i]) > scale));
+// The value of a line at x, between its samples.
+function valueAt(xs, values, x) {
+  let low = 0, high = xs.length - 1;
+  if (!(x >= xs[low] && x <= xs[high])) return NaN;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (xs[middle] <= x) low = middle;
+    else high = middle;
+  }
+  return xs[high] > xs[low] ? values[low] + (values[high] - values[low]) * (x - xs[low]) / (xs[high] - xs[low]) : values[high];
+}
+
+const areEqual = (a, b) => a === b || (a.length === b.length && a.every((value, i) => value === b[i]));
+
+// Lines of one chart may have samples of their own, as those of several runs.
+function coincide(line, other, axis) {
+  const scale = 0.005 * largest(line.values), xs = line.x || axis, there = other.x || axis;
+  const apart = (value, from) => Math.abs(value - from) > scale;
+  if (areEqual(xs, there)) return line.values.length === other.values.length && line.values.every((value, i) => !apart(value, other.values[i]));
+  if (!isSorted(xs) || !isSorted(there)) return false;
+  const values = Array.from(xs, x => valueAt(there, other.values, x)), shared = values.filter(Number.isFinite).length;
+  return shared > 0.5 * xs.length && line.values.every((value, i) => !apart(value, values[i]));
 }
 
 // A line that covers an earlier one of the same pattern has gaps in which that is seen.
 function distinct(spec) {
-  const lines = [];
+  const lines = [], axis = spec.x?.values || [];
   spec.lines.forEach((line, i) => {
     const isGiven = line.dash || line.colour || line.hue !== undefined || line.isMarks, own = isGiven ? line.dash : dashOf(i);
-    const covered = isGiven ? [] : lines.filter(other => coincide(line, other)).map(({dash}) => String(dash));
+    const covered = isGiven ? [] : lines.filter(other => !other.isMarks && coincide(line, other, axis)).map(({dash}) => String(dash));
     const dash = covered.includes(String(own)) ? DASHES.find(one => one && !covered.includes(String(one))) || own : own;
     lines.push(isGiven ? line : {...line, dash});
   });

@@ -7,6 +7,7 @@ from matplotlib.ticker import MaxNLocator
 
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import fragment_colours
+from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.tools import draw_tools, outlines
 
@@ -93,8 +94,8 @@ def breaking(run, options=None):
     for axes, (label, si, names) in zip(places, groups):
         series = {name: run.series(name) for name in names}
         size, shown = unit_for(si, np.concatenate(list(series.values())))
+        dash_hidden(axes, [axes.plot(factor * time, size * values, label=names[name])[0] for name, values in series.items()])
         for name, values in series.items():
-            axes.plot(factor * time, size * values, label=names[name])
             figure.table.append((name, si, values))
         text = worded(label, shown)
         axes.set_ylabel(text.replace(" $", "\n$", 1) if options.narrow else text)
@@ -125,8 +126,8 @@ def fragment_sizes(run, options=None, axes=None):
     factor, unit = unit_for("m", diameter)
     figure, axes = sheet(options, (6.4, 4.2), axes)
     x = factor * np.concatenate([[0], diameter])
-    for label, share in ((f"of the {kind}", size), ("of the number", number)):
-        axes.step(x, 100 * np.concatenate([[0], share]), where="post", label=label)
+    dash_hidden(axes, [axes.step(x, 100 * np.concatenate([[0], share]), where="post", label=label)[0]
+                       for label, share in ((f"of the {kind}", size), ("of the number", number))])
     axes.set(xlabel=worded(("equivalent diameter", "d"), unit), ylabel="Cumulative share / %",
              xlim=(0, 1.03 * x[-1]), ylim=(0, 102))
     options.head(axes, f"Sizes of {len(diameter)} fragments at {moment(frame)}", run)

@@ -2,9 +2,9 @@
 For a run: field of a frame, forces, stress ratio, energies, local densities, contact network, cracks and fragments;
 for a lever: mesh and curves; for a study: its charts; for a probe: yield surfaces. `pulvis figure` runs this module.
 
-All figures go into FOLDER/pictures/ (or the folder given by -o). Figures without recorded data are skipped with a
-message. With --series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its data in SI units. With
---format gsf, raster images are written as Gwyddion Simple Fields, one per file.
+All figures go into FOLDER/pictures/ (or the folder given by -o), except those of which nothing was recorded. With
+--series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its data in SI units. With --format gsf, raster
+images are written as Gwyddion Simple Fields, one per file.
 Exit codes: 2 if the requested data does not exist, 4 if the machine lacks a required program.
 """
 import argparse
@@ -98,6 +98,7 @@ def picture_for(run):
 def save_all(run, asked, options, place):
     field = (options.field or DEFAULT_FIELD).replace(":", "_")
     names = AFM_FIGURES if run.is_solid else {field: picture_for(run), **(SPACE_FIGURES if run.in_space else PLANE_FIGURES)}
+    drawn = 0
     for name, draw in names.items():
         path = asked.to / f"{name}.{asked.format}"
         try:
@@ -105,10 +106,11 @@ def save_all(run, asked, options, place):
         except NotDrawn as reason:
             print(f"figures: no {path.name}: {reason}")
             continue
-        if figure is None or path.suffix == ".csv" and not hasattr(figure, "table"):
-            print(f"figures: nothing recorded for {path.name}")
-        else:
+        if figure is not None and (path.suffix != ".csv" or hasattr(figure, "table")):
             place.save(figure, path)
+            drawn += 1
+    if not drawn:
+        print("figures: nothing recorded of what they show")
 
 
 def save_group(figures, what, asked, options, place):

@@ -3,6 +3,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from pulvis.figures.colours import colour_map
+from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.look import Options, bar_beside, close_up, moment, name_lengths, recorded, sheet
 from pulvis.figures.names import label
 
@@ -45,8 +46,8 @@ def draw_map(axes, frame, ends, colours, room):
 
 def draw_profiles(axes, along, profiles):
     """profiles: (time in words, densities [slices], places [slices + 1] m along the axis `along`) of each curve."""
-    for time, density, places in profiles:
-        axes.plot(np.repeat(density, 2), 1e3 * np.repeat(places, 2)[1:-1], label=f"$t$ = {time}")
+    dash_hidden(axes, [axes.plot(np.repeat(density, 2), 1e3 * np.repeat(places, 2)[1:-1], label=f"$t$ = {time}")[0]
+                       for time, density, places in profiles])
     axes.set_xlabel(label("relative_density", ""))
     name_lengths(axes, np.concatenate([places for _, _, places in profiles]), y=along)
     axes.legend(loc="upper left", bbox_to_anchor=(1, 1))

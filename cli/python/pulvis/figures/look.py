@@ -9,6 +9,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.ticker import FuncFormatter
 
 from pulvis.errors import RunError
+from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.names import capital, label, over, plain
 from pulvis.figures.quantities import limits_of, unit_for, with_unit
 
@@ -190,8 +191,8 @@ def draw_lines(run, x, lines, ylabel, title, options=None, into=None):
     figure, axes = sheet(options, (6.4, 4.2 + below), into, below)
     x_factor, x_unit = unit_for(x[2], x[1])
     factor, unit = unit_for(lines[0][2], np.concatenate([values for _, values, _ in lines]))
-    for one, values, _ in lines:
-        axes.plot(x_factor * x[1], factor * values, label=one)
+    drawn = [axes.plot(x_factor * x[1], factor * values, label=one)[0] for one, values, _ in lines]
+    dash_hidden(axes, drawn)
     axes.set_xlabel(worded(x[0], x_unit))
     axes.set_ylabel(options.broken(worded(ylabel, unit)))
     options.head(axes, title, run)

@@ -8,6 +8,7 @@ import re
 import numpy as np
 from matplotlib import pyplot as plt
 
+from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for, worded
 from pulvis.figures.names import capital, name_of
 
@@ -25,10 +26,12 @@ def draw(curve, title, options, axes=None):
     x_factor, x_unit = factor_of(curve["x_unit"], lines, "x")
     factor, unit = factor_of(curve["y_unit"], lines, "y")
     figure, axes = sheet(options, (6.4, 4.2), axes)
+    curves = []
     for k, line in enumerate(lines):
         style = {"color": LINES[k % len(LINES)], "linestyle": ("-", "--", ":")[k // len(LINES) % 3]}
         label = line["variation"] + (f" ({line['runs']} seeds)" if line["runs"] > 1 else "")
         drawn, = axes.plot(x_factor * line["x"], factor * line["y"], label=label, **style)
+        curves.append(drawn)
         if "low" in line:
             axes.fill_between(x_factor * line["x"], factor * line["low"], factor * line["high"],
                               color=drawn.get_color(), alpha=0.2, linewidth=0)
@@ -37,6 +40,7 @@ def draw(curve, title, options, axes=None):
             axes.errorbar(x_factor * line["x"][some], factor * line["y"][some],
                           factor * line["standard_deviation"][some], color=drawn.get_color(), fmt="none",
                           capsize=2, linewidth=1)
+    dash_hidden(axes, curves)
     axes.set_xlabel(worded(curve["x"], x_unit))
     axes.set_ylabel(worded(curve["y"], unit))
     options.head(axes, f"{titled(curve['title'])}\n{title}")
