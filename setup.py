@@ -18,7 +18,7 @@ class BuildByCMake(build_ext):
     def build_extension(self, ext):
         place = Path(self.get_ext_fullpath(ext.name)).resolve().parent  # .../pulvis
         build = Path(self.build_temp).resolve()
-        options = ["-DCMAKE_BUILD_TYPE=Release", "-DPULVIS_TESTS=OFF", "-DPULVIS_BENCH=OFF", "-DPULVIS_PYTHON=ON",
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DPULVIS_TESTS=OFF", "-DPULVIS_BENCH=OFF", "-DPULVIS_PYTHON=ON", "-DPULVIS_WERROR=OFF",
                    f"-DPython3_EXECUTABLE={sys.executable}", "-DPULVIS_PYTHON_DESTINATION=.",
                    "-DCMAKE_INSTALL_LIBDIR=pulvis/lib"]
         subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", *options,
