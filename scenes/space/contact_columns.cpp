@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "components/body.hpp"
+#include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "components/space/body.hpp"
 #include "components/space/bond.hpp"
