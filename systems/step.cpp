@@ -203,17 +203,20 @@ const std::vector<int>& chunks_of(const World& world) {
   return world.resource<Bodies>().own_chunks;
 }
 
-// With several ranks: a failure on one is sent to the others at the end of the step, which all of them complete.
-std::vector<System> watched(std::vector<System> systems, World& world) {
-  if (!world.has<RankLink>()) return systems;
-  RankLink& link = world.resource<RankLink>();
+// A failure is noted, and thrown once all systems have completed the step: the state that a failed run ends with then
+// depends neither on the number of threads nor on that of ranks, to which it is sent at the end of the step.
+std::vector<System> watched(std::vector<System> systems, World& world, StepFailure& failure) {
+  RankLink* link = world.has<RankLink>() ? &world.resource<RankLink>() : nullptr;
   for (std::size_t i = 0; i < systems.size(); ++i)
-    systems[i].run = [&link, position = static_cast<int>(i),
+    systems[i].run = [link, &failure, position = static_cast<int>(i),
                       run = std::move(systems[i].run)](Chunk chunk) {
       try {
         run(chunk);
-      } catch (const RunFailure& failure) {
-        note_failure(link, position, failure.what());
+      } catch (const RunFailure& found) {
+        if (link == nullptr)
+          failure.note(position, chunk.index, found.what());
+        else
+          note_failure(*link, position, found.what());
       }
     };
   return systems;
@@ -243,40 +246,40 @@ void WholeObservers::run() { observe_.run(); }
 
 Step::Step(World& world)
     : world_(with_transients(world)),
-      whole_(watched(whole_step(world), world), chunks_of(world), passes_of(world),
+      failure_(std::make_unique<StepFailure>()),
+      whole_(watched(whole_step(world), world, *failure_), chunks_of(world), passes_of(world),
              Transients::dropped, from_memory(world) ? &world : nullptr),
-      observed_(watched(joined(step_list(world).forces, step_list(world).observe), world),
+      observed_(watched(joined(step_list(world).forces, step_list(world).observe), world, *failure_),
                 chunks_of(world), passes_of(world)),
-      motion_(watched(step_list(world).motion, world), chunks_of(world)) {}
+      motion_(watched(step_list(world).motion, world, *failure_), chunks_of(world)) {}
 
 void Step::start() {
-  TaskGraph(watched(start_list(world_), world_), chunks_of(world_)).run();
+  TaskGraph(watched(start_list(world_), world_, *failure_), chunks_of(world_)).run();
   end_of_step();
 }
-void Step::run() {
+void Step::run() { run_to_next(whole_); }
+void Step::observe() {
+  observed_.run();
+  if (world_.has<RankLink>()) agree(world_.resource<RankLink>(), {});
+  end_of_step();
+}
+void Step::move() { run_to_next(motion_); }
+
+// A step that fails is completed, but the run ends in it.
+void Step::run_to_next(TaskGraph& systems) {
   const Clock before = world_.resource<Clock>();
-  whole_.run();
+  systems.run();
   try {
     end_of_step();
   } catch (const RunFailure&) {
-    // The other ranks have completed the step; the run stops in it, as it does alone.
     world_.resource<Clock>() = before;
     throw;
   }
 }
-void Step::observe() {
-  observed_.run();
-  if (!world_.has<RankLink>()) return;
-  agree(world_.resource<RankLink>(), {});
-  end_of_step();
-}
-void Step::move() {
-  motion_.run();
-  end_of_step();
-}
 
-void Step::end_of_step() const {
+void Step::end_of_step() {
   if (world_.has<RankLink>()) throw_failure_of_any(world_.resource<RankLink>());
+  if (*failure_) throw RunFailure(failure_->take());
 }
 
 std::vector<std::string> Step::sampled_systems() const {

@@ -1,10 +1,12 @@
 // The step: the one ordered list of systems, and the task graphs built from it.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/task_graph.hpp"
+#include "systems/step_failure.hpp"
 
 namespace pulvis {
 
@@ -49,9 +51,11 @@ class Step {
   std::vector<SystemCost> costs() const;  // plain and sampled steps together
 
  private:
-  void end_of_step() const;
+  void run_to_next(TaskGraph& systems);
+  void end_of_step();
 
   World& world_;
+  std::unique_ptr<StepFailure> failure_;  // of a world without ranks
   TaskGraph whole_, observed_, motion_;
 };
 

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "engine/run_failure.hpp"
 
@@ -17,7 +18,11 @@ void note_failure(RankLink& link, int position, const std::string& message) {
 }
 
 void throw_failure_of_any(RankLink& link) {
-  if (!link.any_failed) return;
+  // What fails after agree() fails on all ranks alike: it depends only on what they agreed on.
+  if (!link.any_failed) {
+    if (link.failure.empty()) return;
+    throw RunFailure(std::exchange(link.failure, {}));
+  }
   constexpr double none = std::numeric_limits<double>::infinity();
   double first = link.failure.empty() ? -none : -static_cast<double>(link.failed_at);
   const double own = first;

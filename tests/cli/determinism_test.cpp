@@ -4,12 +4,17 @@
 
 #include <bit>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <map>
 
+#include "components/body.hpp"
 #include "engine/files/hdf5.hpp"
+#include "engine/run_failure.hpp"
+#include "systems/step_failure.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/paths.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -82,6 +87,52 @@ TEST(Determinism, ThreadsDoNotChangeABitOfFourPointElements) {
   ASSERT_FALSE(one.contains("element/plastic_hourglass"));
   expect_same(one, state_after(2, "four-point"));
   expect_same(one, state_after(3, "four-point"));
+}
+
+TEST(StepFailure, TheFirstInTheListIsReportedWhicheverIsNoticedFirst) {
+  StepFailure failure;
+  EXPECT_FALSE(failure);
+  failure.note(3, 1, "third system, chunk 1");
+  failure.note(3, 0, "third system, chunk 0");
+  failure.note(3, 2, "third system, chunk 2");
+  EXPECT_EQ(failure.take(), "third system, chunk 0");
+  failure.note(2, 7, "second system");
+  failure.note(4, 0, "fourth system");
+  EXPECT_EQ(failure.take(), "second system");
+  EXPECT_FALSE(failure);
+  failure.note(5, 0, "of another step");
+  EXPECT_EQ(failure.take(), "of another step");
+}
+
+// A failed step is completed, as if the limit were out of the way: whatever else the threads were at, and in
+// whichever order, the state is the same.
+TEST(Determinism, AFailedStepIsCompletedOnAnyNumberOfThreads) {
+  const std::vector<std::string> fast{"stage.press.duration=10 us",
+                                      "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]"};
+  std::vector<std::string> unlimited = fast;
+  unlimited.emplace_back("limits.penetration=1e6");
+  std::string first_failure, first_hash;
+  for (const int threads : {1, 2, 3}) {
+    Experiment failed("compaction/regular-25.toml", fast, threads);
+    const std::string failure =
+        message_of<RunFailure>([&] { failed.simulation.run_steps(10000); });
+    ASSERT_NE(failure, "");
+    const std::string hash = failed.simulation.state_hash();
+    if (threads == 1) {
+      first_failure = failure;
+      first_hash = hash;
+    }
+    EXPECT_EQ(failure, first_failure) << threads;
+    EXPECT_EQ(hash, first_hash) << threads;
+    Experiment going("compaction/regular-25.toml", unlimited);
+    going.simulation.run_steps(failed.simulation.clock().step + 1);
+    const auto same = [&]<class C>() {
+      const Column<C>&a = failed.column<C>(), &b = going.column<C>();
+      return std::memcmp(a.values(), b.values(), a.bytes()) == 0;
+    };
+    EXPECT_TRUE(same.template operator()<Position>()) << threads;
+    EXPECT_TRUE(same.template operator()<Velocity>()) << threads;
+  }
 }
 
 // What a sample looks at must not disturb the run.
