@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include "cli/python_scripts/python_scripts.hpp"
+#include "cli/tell.hpp"
+#include "engine/files/hdf5.hpp"
+#include "engine/files/run_folder.hpp"
 
 namespace pulvis {
 namespace {
@@ -36,15 +39,30 @@ std::vector<std::string> arguments(const ScriptFolder& scripts, const FigureOpti
   return all;
 }
 
+// Figures are drawn from what there is. A run that goes on changes its history meanwhile.
+bool tell_damage(const std::filesystem::path& folder) {
+  const std::filesystem::path results = folder / "run.h5";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(results, ignored) || is_locked(folder)) return false;
+  const std::vector<std::string> damaged = hdf5::File::open(results).damaged_datasets();
+  for (const std::string& dataset : damaged)
+    tell(stderr,
+         "figure: {}: {}: its bytes are not those that were written: the checksum differs; its "
+         "values are lost, and figures that show them are wrong\n",
+         results.string(), dataset);
+  return !damaged.empty();
+}
+
 }  // namespace
 
 ExitCode draw_figures(const FigureOptions& options) {
+  const bool is_damaged = tell_damage(options.folder);
   const ScriptFolder scripts("pulvis/");
   const int code = run_python(arguments(scripts, options));
   put_in_place(scripts.drawn());
   switch (code) {
     case 0:
-      return ExitCode::done;
+      return is_damaged ? ExitCode::machine : ExitCode::done;
     case 2:
       return ExitCode::usage;
     default:

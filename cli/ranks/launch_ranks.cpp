@@ -133,8 +133,7 @@ void tell_how_to_go_on(const fs::path& folder, const Written& before) {
   else if (now.checkpoints.empty())
     tell(stderr,
          "pulvis: there is no checkpoint to continue from; once the cause is fixed, run it again, "
-         "with --overwrite if {} holds a run.h5\n",
-         folder.string());
+         "with --overwrite\n");
   else
     tell(stderr, "pulvis: once the cause is fixed, continue with: pulvis resume {}\n",
          shell_word(folder.string()));

@@ -21,6 +21,10 @@ OpenSession open_session(const LoadedScene& loaded, const Session::Options& opti
 // The checks common to all families, before that.
 void require_free_folder(const LoadedScene& loaded, const std::filesystem::path& folder);
 
+// Calls `begin`, which writes the first files of a run. If the disk is full, they are removed, and the same command can
+// be given again.
+void whole_or_nothing(const std::filesystem::path& folder, const std::function<void()>& begin);
+
 // The folder of a stopped run, locked and repaired.
 struct OpenFolder {
   std::unique_ptr<FolderLock> lock;

@@ -34,13 +34,25 @@ void print_balance(Simulation& simulation) {
          one.after.empty() ? "" : fmt::format(", then {:.0f}%", 100 * imbalance_of(one.after)));
 }
 
+}  // namespace
+
+void tell_unmet(const std::vector<Verdict>& verdicts) {
+  for (const Verdict& verdict : verdicts)
+    if (!verdict.met) tell(stderr, "pulvis: expectation {}\n", verdict.text());
+}
+
+namespace {
+
 void print_end(Session& run, const RunOptions& options) {
   if (options.json) print_summary(run.folder());
   const auto warn = [&] {
     for (const std::string& line : run.quality().lines())
       tell(options.warns_on(), "warning: {}\n", line);
   };
-  if (!options.talks()) return warn();
+  if (!options.talks()) {
+    warn();
+    return tell_unmet(run.verdicts());
+  }
   const Results& r = run.results();
   const double seconds = run.seconds();
   const std::int64_t steps = run.clock().step;
@@ -93,20 +105,6 @@ ExitCode stopped(Session& run, const RunOptions& options, const std::string& mes
   if (!run.verdicts().empty() || options.json) print_end(run, options);
   end_with_report(run);
   return expected && all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
-}
-
-// After a machine error ended the run.
-void tell_what_is_left(const std::filesystem::path& folder) {
-  if (checkpoints_in(folder).empty())
-    tell(stderr,
-         "pulvis: there is no checkpoint to continue from; once the cause is fixed, run it again, "
-         "with --overwrite if {} holds a run.h5\n",
-         folder.string());
-  else
-    tell(stderr,
-         "pulvis: the results up to then are in {}; once the cause is fixed, continue with: pulvis "
-         "resume {}\n",
-         folder.string(), shell_word(folder.string()));
 }
 
 // From the current state of the run to its end.
@@ -172,6 +170,18 @@ class RankOfRun {
 
 std::filesystem::path folder_of(const RunOptions& options) {
   return results_folder(options.folder, options.scene);
+}
+
+void tell_what_is_left(const std::filesystem::path& folder) {
+  if (checkpoints_in(folder).empty())
+    tell(stderr,
+         "pulvis: there is no checkpoint to continue from; once the cause is fixed, run it again, "
+         "with --overwrite\n");
+  else
+    tell(stderr,
+         "pulvis: the results up to then are in {}; once the cause is fixed, continue with: pulvis "
+         "resume {}\n",
+         folder.string(), shell_word(folder.string()));
 }
 
 ExitCode run_scene(const RunOptions& options) {

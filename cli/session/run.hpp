@@ -13,6 +13,7 @@
 namespace pulvis {
 
 class Simulation;
+struct Verdict;
 
 struct RunOptions {
   std::filesystem::path scene;
@@ -28,6 +29,12 @@ struct RunOptions {
   bool talks() const { return !quiet && !json; }
   std::FILE* warns_on() const { return talks() ? stdout : stderr; }
 };
+
+// What a quiet run prints of its expectations, on standard error: those that are not met.
+void tell_unmet(const std::vector<Verdict>& verdicts);
+
+// After a machine error ended a run that had begun: how to continue once the cause is fixed.
+void tell_what_is_left(const std::filesystem::path& folder);
 
 std::filesystem::path folder_of(const RunOptions& options);  // for the results
 

@@ -6,6 +6,8 @@
 #include "cli/plan.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/session/afm_session.hpp"
+#include "cli/session/open_session.hpp"
+#include "cli/session/run.hpp"
 #include "cli/shell_word.hpp"
 #include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
@@ -45,12 +47,20 @@ void refuse_checkpoint_time(const LoadedScene& loaded, const RunOptions& options
 
 ExitCode complete_programme(AfmSession& run, const RunOptions& options, const Checkpoint* from) {
   run.hooks.stop = interrupted;
-  run.run(from);
+  try {
+    run.run(from);
+  } catch (const OutputError&) {
+    tell_what_is_left(run.folder());
+    throw;
+  }
   run.finish();
   const ProgrammeEnd& end = run.end();
   const AfmReport& report = run.report();
   if (options.json) print_summary(run.folder());
-  if (options.talks() && report.calibration) print_afm_end(report, run.folder());
+  if (!options.talks())
+    tell_unmet(report.verdicts);
+  else if (report.calibration)
+    print_afm_end(report, run.folder());
   const bool expected = end.failure.empty() || ended_as_expected(run.loaded().scene, end.failure);
   if (!expected) tell(stderr, "pulvis: the run failed: {}\n", end.failure);
   if (!end.done && end.failure.empty()) {
@@ -77,8 +87,10 @@ ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
   AfmSession run(loaded, threads);
   take_interrupts();
   const FolderLock lock = open_run_folder(folder, options.overwrite);
-  save_scene(folder, loaded);
-  run.write_to(folder, options.checkpoints);
+  whole_or_nothing(folder, [&] {
+    save_scene(folder, loaded);
+    run.write_to(folder, options.checkpoints);
+  });
   return complete_programme(run, options, nullptr);
 }
 

@@ -12,6 +12,7 @@
 #include "engine/files/hdf5_journal.hpp"
 #include "engine/files/input_file.hpp"
 #include "engine/files/output_error.hpp"
+#include "engine/files/xxh3.hpp"
 
 namespace pulvis::hdf5 {
 namespace {
@@ -242,24 +243,9 @@ void File::write_any(const std::string& dataset, Id type, const void* values, st
                             "write", dataset));
   if (count == 0) return;
   checked(H5Dwrite(made.get(), type, whole, whole, defaults, values), "write", dataset);
-}
-
-void File::write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
-                        std::span<const double> values, Stored stored) {
-  const hsize_t rows = kept + values.size();
-  const Handle links = with_groups_on_the_way();
-  const Handle space(H5Screate_simple(1, &rows, nullptr));
-  const Id type = stored == Stored::whole ? H5T_NATIVE_INT32 : H5T_NATIVE_DOUBLE;
-  const Handle made(checked(H5Dcreate2(handle_.get(), dataset.c_str(), type, space.get(),
-                                       links.get(), defaults, defaults),
-                            "make", dataset));
-  for (std::uint64_t at = 0; at < kept; at += max_chunk_rows) {
-    const std::uint64_t count = std::min(max_chunk_rows, kept - at);
-    std::vector<double> rows_there(count);
-    read_rows(old, H5T_NATIVE_DOUBLE, at, count, rows_there.data());
-    write_rows(made.get(), dataset, at, rows_there);
-  }
-  write_rows(made.get(), dataset, kept, values);
+  if (type == H5T_NATIVE_UINT8) return;
+  set_attribute(dataset, checksum_attribute,
+                xxh3({static_cast<const std::byte*>(values), count * H5Tget_size(type)}));
 }
 
 void File::write_rows(Id dataset, const std::string& name, std::uint64_t first,
@@ -374,6 +360,13 @@ std::uint64_t File::size_of(const std::string& dataset) const { return product(s
 void File::read_any(const std::string& dataset, Id type, void* values) const {
   const Handle found(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
   checked(H5Dread(found.get(), type, whole, whole, defaults, values), "read", dataset);
+  const Handle stored(H5Dget_type(found.get()));
+  if (H5Tequal(stored.get(), type) > 0)
+    require_as_written(
+        found.get(), dataset,
+        xxh3({static_cast<const std::byte*>(values), size_of(dataset) * H5Tget_size(type)}));
+  else
+    require_as_written(found.get(), dataset);
 }
 
 std::vector<double> File::read_doubles(const std::string& dataset) const {

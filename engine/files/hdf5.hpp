@@ -80,6 +80,8 @@ class File {
   // with a commit.
   std::optional<std::uint64_t> make_room(const std::string& dataset, Number number,
                                          const Shape& shape);
+  // Records the checksum of a dataset that others have filled, once their bytes are in the file.
+  void record_checksum(const std::string& dataset, std::uint64_t begin);
   // A 1-D series: the first `kept` rows of another one (none: 0 rows), then `values`.
   void write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
                     std::span<const double> values, Stored stored = Stored::real);
@@ -94,12 +96,15 @@ class File {
   void remove(const std::string& object);
   void remove_attribute(const std::string& object, const std::string& name);
 
-  // Reading.
+  // Reading. Every dataset of numbers has its XXH3 as attribute "xxh3" (those of checkpoints, whose files have one, do
+  // not). One that differs is an OutputError, wherever the dataset is read as a whole or continued.
   bool contains(const std::string& object) const;
   bool is_group(const std::string& object) const;
   std::vector<std::string> children(const std::string& group) const;        // sorted by name
   std::vector<std::string> datasets_below(const std::string& group) const;  // "tool/top/force_y"
   Shape shape(const std::string& dataset) const;
+  // Those with other bytes than were written: reads the whole file.
+  std::vector<std::string> damaged_datasets() const;
   std::vector<double> read_doubles(const std::string& dataset) const;
   std::vector<std::int32_t> read_integers(const std::string& dataset) const;
   std::vector<std::byte> read_bytes(const std::string& dataset) const;
@@ -114,6 +119,10 @@ class File {
   enum class Layout { plain, to_change };
   File(std::filesystem::path path, Handle handle);
   static File create(const std::filesystem::path& path, std::uint64_t user_block, Layout layout);
+  static constexpr const char* checksum_attribute = "xxh3";
+  bool is_as_written(Id dataset) const;
+  void require_as_written(Id dataset, const std::string& name) const;
+  void require_as_written(Id dataset, const std::string& name, std::uint64_t checksum) const;
   void write_rows(Id dataset, const std::string& name, std::uint64_t first,
                   std::span<const double> values);
   void read_rows(const std::string& dataset, Id type, std::uint64_t first, std::uint64_t rows,

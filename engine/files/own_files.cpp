@@ -46,29 +46,29 @@ std::string text_of(const Line& line) {
                      line.name);
 }
 
+Line line_in(std::istream& words) {
+  Line line;
+  words >> line.state >> std::hex >> line.checksum >> std::dec >> line.bytes >> line.role;
+  std::getline(words >> std::ws, line.name);
+  return line;
+}
+
+bool is_state(std::string_view word) {
+  return word == "next" || word == "whole" || word == "start";
+}
+
 // What may be in the file: the last valid line, and what was about to be written since.
 std::vector<Line> lines_of(const fs::path& file, std::string_view of) {
   std::ifstream list(folder_of(file) / list_name);
   std::vector<Line> lines;
   for (std::string text; std::getline(list, text);) {
     std::istringstream words(text);
-    Line line;
-    words >> line.state >> std::hex >> line.checksum >> std::dec >> line.bytes >> line.role;
-    std::getline(words >> std::ws, line.name);
+    const Line line = line_in(words);
     if (!words || line.role != of || line.name != file.filename().string()) continue;
     if (line.state != "next") lines.clear();
     lines.push_back(line);
   }
   return lines;
-}
-
-void add_line(const fs::path& file, const Line& line) {
-  const fs::path list = folder_of(file) / list_name;
-  const FileDescriptor opened(
-      open(list.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666));
-  const std::string text = text_of(line);
-  if (!opened || write(opened.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-    fail_to(list, "write");
 }
 
 // Opens a regular file, without following links.
@@ -78,6 +78,51 @@ FileDescriptor open_regular(const fs::path& file, std::uint64_t& bytes) {
   if (!opened || fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
   bytes = static_cast<std::uint64_t>(status.st_size);
   return opened;
+}
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(file, ignored));
+}
+
+// Whether a list was written by Pulvis: its first line tells. A full disk may have cut that short.
+bool is_own_list(const fs::path& list) {
+  std::uint64_t bytes = 0;
+  if (!open_regular(list, bytes)) return false;
+  std::ifstream stream(list);
+  std::string text;
+  std::getline(stream, text);
+  std::istringstream words(text);
+  const bool whole = !stream.eof();
+  const Line line = line_in(words);
+  return bytes == 0 || (is_state(line.state) && (words || !whole));
+}
+
+void require_own_list(const fs::path& list) {
+  if (!is_there(list) || is_own_list(list)) return;
+  throw ForeignFile(list, "list the files of the folder in it",
+                    "there is already a file of this name that was not written by Pulvis; allowed: "
+                    "another folder, or moving the file away");
+}
+
+// A full disk may have cut the last line short: it is left alone, and ignored.
+std::string_view ending_of(const FileDescriptor& list) {
+  const off_t bytes = lseek(list.get(), 0, SEEK_END);
+  char last = '\n';
+  if (bytes > 0 && pread(list.get(), &last, 1, bytes - 1) != 1) return "";
+  return last == '\n' ? "" : "\n";
+}
+
+void add_line(const fs::path& file, const Line& line) {
+  const fs::path list = folder_of(file) / list_name;
+  require_own_list(list);
+  const FileDescriptor opened(
+      open(list.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!opened) fail_to(list, "write");
+  const std::string text = std::string(ending_of(opened)) + text_of(line);
+  errno = ENOSPC;  // of a write that is cut short
+  if (write(opened.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+    fail_to(list, "write");
 }
 
 bool begins_with(const FileDescriptor& file, const Line& line) {
@@ -107,18 +152,20 @@ std::string_view own_beginning(const std::string& name) {
   return {};
 }
 
-// A program killed immediately leaves an empty file.
-bool may_be_empty(const std::string& name) {
+// A program that was killed at once, or met a full disk, leaves a file that is empty or not yet marked: zeros.
+bool may_be_unmarked(const std::string& name) {
   return name.ends_with(".new") || name.ends_with(".journal");
 }
 
-bool is_there(const fs::path& file) {
-  std::error_code ignored;
-  return fs::exists(fs::symlink_status(file, ignored));
-}
+constexpr const char* new_suffix = ".pulvis-new";
 
 fs::path beside(const fs::path& file) {
-  return folder_of(file) / fmt::format(".{}.pulvis-new", file.filename().string());
+  return folder_of(file) / fmt::format(".{}{}", file.filename().string(), new_suffix);
+}
+
+bool is_half_written(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with('.') && name.ends_with(new_suffix);
 }
 
 void write_beside(const fs::path& new_file, const fs::path& file, std::string_view text) {
@@ -148,11 +195,14 @@ bool is_own(const fs::path& file, std::string_view of) {
   if (beginning.empty())
     return std::ranges::any_of(lines_of(file, of),
                                [&](const Line& line) { return fits(opened, bytes, line); });
-  if (bytes == 0) return may_be_empty(name);
   std::array<char, marker_bytes> head{};
-  return pread(opened.get(), head.data(), head.size(), 0) > 0 &&
-         std::string_view(head.data(), head.size()).starts_with(beginning);
+  if (pread(opened.get(), head.data(), head.size(), 0) < 0) return false;
+  const std::string_view start(head.data(), head.size());
+  return start.starts_with(beginning) ||
+         (may_be_unmarked(name) && start.find_first_not_of('\0') == std::string_view::npos);
 }
+
+void require_own_list_in(const fs::path& folder) { require_own_list(folder / list_name); }
 
 void require_own_or_none(const fs::path& file, std::string_view of) {
   if (!is_there(file) || is_own(file, of)) return;
@@ -227,9 +277,11 @@ void remove_own(const fs::path& file, std::string_view of) {
 void remove_own_below(const fs::path& folder, std::string_view of) {
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;
-  for (const auto& entry : fs::directory_iterator(folder, error)) remove_own(entry.path(), of);
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    is_half_written(entry.path()) ? void(fs::remove(entry.path(), error))
+                                  : remove_own(entry.path(), of);
   const auto left = std::distance(fs::directory_iterator(folder, error), fs::directory_iterator());
-  if (left == 1) fs::remove(folder / list_name, error);
+  if (left == 1 && is_own_list(folder / list_name)) fs::remove(folder / list_name, error);
   fs::remove(folder, error);  // only removes an empty folder
 }
 

@@ -43,6 +43,8 @@ enum class Extent { whole, start };
 bool is_own(const std::filesystem::path& file, std::string_view of);
 // Throws ForeignFile if there is a file that is not Pulvis's own; links and folders never are.
 void require_own_or_none(const std::filesystem::path& file, std::string_view of);
+// Likewise if the folder has a list, .pulvis-files, that is not Pulvis's own.
+void require_own_list_in(const std::filesystem::path& folder);
 // Likewise if `file`, by whatever path, is the input file being read.
 void require_another(const std::filesystem::path& read, const std::filesystem::path& file);
 
@@ -66,7 +68,8 @@ void note_own(const std::filesystem::path& file, std::string_view of, std::uint6
 // Writes text in front of the HDF5 part of a file: its mark.
 void write_head(const std::filesystem::path& file, std::string_view text);
 
-// Removes the file if it is Pulvis's own; for a folder, all such files, and the folder itself if it is then empty.
+// Removes the file if it is Pulvis's own; for a folder, all such files, those half-written, and the folder itself if it is
+// then empty.
 void remove_own(const std::filesystem::path& file, std::string_view of);
 void remove_own_below(const std::filesystem::path& folder, std::string_view of);
 

@@ -220,6 +220,8 @@ void Recorder::commit(Extent extent) {
   }
   const bool has_new_frames = has_new_frames_;
   if (has_new_frames && writers_.flush) writers_.flush();
+  for (const auto& [dataset, begin] : std::exchange(unsummed_, {}))
+    file_.record_checksum(dataset, begin);
   replace(renewed);
   csv_.flush();
   if (has_new_frames) xdmf_.write();
@@ -373,6 +375,7 @@ bool Recorder::is_written_by_others(const std::string& group, std::size_t number
                       shape_of(places_[static_cast<std::size_t>(field.place)], stored));
   if (!begin) return false;
   describe_field(dataset, field);
+  if (*begin > 0) unsummed_.push_back({dataset, *begin});
   writers_.write(number, {{std::filesystem::absolute(file_.path()).string(), *begin},
                           field.place,
                           field.components,

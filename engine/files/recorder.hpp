@@ -14,7 +14,8 @@
 //        /history/<name>        one 1-D dataset per series; /history/time
 //        /<table>/<name>        one 1-D dataset per column, if the run has tables: rows are written with the history
 //        /images/<name>         [lines, pixels], a raster image; attributes pixel_width, pixel_height in m
-// Every dataset has the attributes unit and meaning, a field also place (node, cell, particle, list) and
+// Every dataset has the attributes unit and meaning, and xxh3, the checksum of its values: C++ readers refuse those that
+// were changed since (engine/files/hdf5.hpp). A field also has place (node, cell, particle, list) and
 // components. A field of nodes or cells with two components is stored with a third one of zeros, because
 // XDMF has no plane vectors (components = 2 indicates this); `position` is not. XDMF shows these fields only.
 //
@@ -135,6 +136,8 @@ class Recorder {
   std::vector<std::uint64_t> places_;         // number of places for each FieldPlace
   std::vector<double> pending_time_;          // samples not yet in run.h5
   std::vector<std::vector<double>> pending_;  // [series][sample]
+  std::vector<std::pair<std::string, std::uint64_t>>
+      unsummed_;  // filled by others, and where they begin
   std::vector<GrowingTable> tables_;
   std::int64_t frames_ = 0, samples_ = 0;              // samples: in run.h5
   bool is_changing_ = false, has_new_frames_ = false;  // since the last commit

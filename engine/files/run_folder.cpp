@@ -100,10 +100,12 @@ bool is_locked(const fs::path& folder) {
 }
 
 void require_own_files(const fs::path& folder) {
+  require_own_list_in(folder);
   for (const fs::path& file : files_of_a_run(folder)) require_own_or_none(file, role::run);
 }
 
 void require_own_results(const fs::path& folder) {
+  require_own_list_in(folder);
   for (const char* const name : {"run.xdmf", "history.csv", "summary.json", "report.html"})
     require_own_or_none(folder / name, role::run);
 }

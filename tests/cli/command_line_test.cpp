@@ -350,6 +350,17 @@ TEST_F(CommandLine, RunGoneBadNamesTheCulpritAndKeepsWhatWasBefore) {
   EXPECT_TRUE(fs::exists(run / "report.html"));
 }
 
+TEST_F(CommandLine, AQuietRunTellsWhichExpectationIsNotMet) {
+  for (const char* silent : {"--quiet", "--json"}) {
+    const Outcome end = short_run({silent, "--overwrite", "--set",
+                                   "expect=[{series=\"energy_balance_error\", below=1e-300}, "
+                                   "{series=\"energy_balance_error\", below=1.0}]"});
+    EXPECT_EQ(end.code, 3) << end.err;
+    EXPECT_THAT(end.err, HasSubstr("pulvis: expectation NOT met  energy_balance_error"));
+    EXPECT_THAT(end.err, Not(HasSubstr("expectation met")));
+  }
+}
+
 // Before the first sample there is nothing to keep, but the message and the code are the same. The block
 // stands a hair too low: not enough to be refused, enough to pass this limit at once.
 TEST_F(CommandLine, RunThatIsBadFromTheStartSaysSoToo) {

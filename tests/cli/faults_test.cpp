@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -140,6 +141,24 @@ TEST_F(Faults, AFullFileSystemKeepsTheFramesBefore) {
   EXPECT_GT(whole_frames(), 5U);
 }
 
+// The advice, followed to the letter once there is room.
+TEST_F(Faults, AfterAFullFileSystemTheAdviceIsNotRefused) {
+  if (!may_mount()) GTEST_SKIP() << "may not mount";
+  fs::create_directory(place / "run");
+  for (const int kilobytes : {4, 8, 12, 16, 40, 160, 400, 1000}) {
+    const std::string mount = fmt::format("mount -t tmpfs -o size={}k none run", kilobytes);
+    const Outcome end = mounted(mount, short_run("run/r"),
+                                "mount -o remount,size=50m run; "
+                                "if grep -q \"resume run/r\" err; then \"$1\" resume run/r; "
+                                "elif grep -q overwrite err; then \"$@\" --overwrite; "
+                                "else grep -q \"again in the same way\" err && \"$@\"; fi "
+                                ">out2 2>err2; echo $? >code2");
+    EXPECT_EQ(end.code, 4) << kilobytes << " kB: " << end.err;
+    EXPECT_EQ(text_of(place / "code2"), "0\n")
+        << kilobytes << " kB: " << end.err << text_of(place / "err2");
+  }
+}
+
 TEST_F(Faults, AFolderMountedReadOnlyIsNamed) {
   if (!may_mount()) GTEST_SKIP() << "may not mount";
   fs::create_directory(place / "run");
@@ -175,6 +194,77 @@ TEST_F(Faults, AFolderThatVanishesIsNamed) {
   EXPECT_THAT(end.err,
               ContainsRegex("run/[a-z.0-9-]+: cannot .*: (No such file or directory|it is no "
                             "longer there)"));
+}
+
+// ---- bits that flip on the disk --------------------------------------------------------------------
+class Damage : public Faults {
+ protected:
+  // Flips the lowest bit of the largest value of a dataset. The values stand in the file as they are in memory.
+  void damage(const std::string& dataset) const {
+    const fs::path path = place / "run" / "run.h5";
+    const std::vector<double> values = hdf5::File::open(path).read_doubles(dataset);
+    const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
+                                 values.size() * sizeof(double));
+    const std::string text = text_of(path);
+    const std::size_t at = text.find(bytes);
+    ASSERT_NE(at, std::string::npos) << dataset;
+    const auto largest = std::ranges::max_element(values) - values.begin();
+    const auto byte = static_cast<std::streamoff>(at) + 8 * largest;
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(byte);
+    file.put(static_cast<char>(text[static_cast<std::size_t>(byte)] ^ 1));
+  }
+  Words stopped_run() const {
+    return short_run("run", {"--stop-after", "150", "--threads", "1", "--overwrite"});
+  }
+};
+
+TEST_F(Damage, EveryDatasetOfARunHasAChecksum) {
+  ASSERT_EQ(pulvis(short_run("run")).code, 0);
+  const auto file = hdf5::File::open(place / "run" / "run.h5");
+  const std::vector<std::string> datasets = file.datasets_below("/");
+  EXPECT_GT(datasets.size(), 50U);
+  for (const std::string& name : datasets) {
+    const bool empty = std::ranges::count(file.shape("/" + name), 0U) > 0;
+    EXPECT_TRUE(empty || file.has_attribute("/" + name, "xxh3")) << name;
+  }
+  EXPECT_EQ(file.damaged_datasets(), std::vector<std::string>());
+}
+
+TEST_F(Damage, ResumeTellsWhatIsLostOfAFrameAndGoesOn) {
+  ASSERT_EQ(pulvis(stopped_run()).code, 130);
+  damage("/frames/000001/velocity");
+  const Outcome rest = pulvis({"resume", "run"});
+  EXPECT_EQ(rest.code, 4) << rest.err;
+  EXPECT_THAT(rest.err, ContainsRegex("warning: run/run.h5: /frames/000001/velocity: .*checksum.*"
+                                      "'velocity' is lost for the frame at t = 5[.0-9]*e-06 s"));
+  EXPECT_THAT(rest.err, HasSubstr("the results in run are complete, but the report is missing"));
+  const auto file = hdf5::File::open(place / "run" / "run.h5");
+  EXPECT_EQ(file.text_attribute("/", "outcome"), "done");
+  EXPECT_THAT(file.damaged_datasets(), ::testing::ElementsAre("/frames/000001/velocity"));
+}
+
+TEST_F(Damage, ResumeDoesNotContinueADamagedHistory) {
+  ASSERT_EQ(pulvis(stopped_run()).code, 130);
+  damage("/history/tool/top/force_y");
+  const std::string before = text_of(place / "run" / "run.h5");
+  const Outcome rest = pulvis({"resume", "run"});
+  EXPECT_EQ(rest.code, 4) << rest.err;
+  EXPECT_THAT(rest.err, ContainsRegex("run/run.h5: cannot continue: /history/tool/top/force_y: "
+                                      ".*checksum.*it is lost"));
+  EXPECT_TRUE(text_of(place / "run" / "run.h5") == before);
+}
+
+TEST_F(Damage, ReportsAndFiguresNameWhatIsLost) {
+  ASSERT_EQ(pulvis(short_run("run")).code, 0);
+  damage("/frames/000002/position");
+  const Outcome report = pulvis({"report", "run"});
+  EXPECT_EQ(report.code, 4) << report.err;
+  EXPECT_THAT(report.err, ContainsRegex("run.h5: cannot read /frames/000002/position: .*lost"));
+  const Outcome figure = pulvis({"figure", "run", "--series", "tool/top/force_y", "-o", "f.csv"});
+  EXPECT_EQ(figure.code, 4) << figure.err;
+  EXPECT_THAT(figure.err, ContainsRegex("run/run.h5: /frames/000002/position: .*lost"));
+  EXPECT_TRUE(fs::exists(place / "f.csv"));
 }
 
 // The root's machine holds the results, too; the others only their ranks' shares.

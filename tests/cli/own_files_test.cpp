@@ -63,6 +63,18 @@ TEST_F(OwnFilesOfCommands, ARunIsReplacedIfAskedAndWhatIsNotOfItStays) {
   EXPECT_FALSE(fs::exists(place / "run/pictures/force.csv"));
 }
 
+TEST_F(OwnFilesOfCommands, AListOfSomebodyElseIsLeftAlone) {
+  fs::create_directory(place / "run");
+  std::ofstream(place / "run" / ".pulvis-files") << "mine\n";
+  for (const Words& more : {Words{}, Words{"--overwrite"}}) {
+    const Outcome end = pulvis(short_run("run", more));
+    EXPECT_EQ(end.code, 2) << end.err;
+    EXPECT_THAT(end.err, HasSubstr("run/.pulvis-files: cannot list the files of the folder in it"));
+    EXPECT_EQ(text_of(place / "run" / ".pulvis-files"), "mine\n");
+    EXPECT_EQ(std::distance(fs::directory_iterator(place / "run"), fs::directory_iterator()), 1);
+  }
+}
+
 TEST_F(OwnFilesOfCommands, WhatSomebodyChangedIsHis) {
   ASSERT_EQ(run("run").code, 0);
   for (const char* name :

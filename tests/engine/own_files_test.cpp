@@ -51,6 +51,38 @@ TEST_F(OwnFiles, WhatWasWrittenIsReplacedAndRemoved) {
   EXPECT_FALSE(fs::exists(file));
 }
 
+TEST_F(OwnFiles, AListOfSomebodyElseIsLeftAlone) {
+  const fs::path list = folder / ".pulvis-files";
+  for (const std::string text : {"my notes", "my notes\n", "next week: dentist\n", "\n"}) {
+    put(list, text);
+    EXPECT_THROW(require_own_list_in(folder), ForeignFile) << text;
+    EXPECT_THROW(write_own(file, role::run, "new"), ForeignFile) << text;
+    remove_own_below(folder, role::run);
+    EXPECT_EQ(text_of(list), text);
+    EXPECT_FALSE(fs::exists(file));
+  }
+  fs::remove(list);
+  fs::create_directory(list);
+  EXPECT_THROW(write_own(file, role::run, "new"), ForeignFile);
+}
+
+// A full disk cuts a line short: also the first one.
+TEST_F(OwnFiles, ALineThatWasCutShortIsIgnored) {
+  const fs::path list = folder / ".pulvis-files";
+  write_own(file, role::run, "first");
+  const std::string whole = text_of(list);
+  for (const std::size_t bytes : {std::size_t{7}, std::size_t{25}}) {
+    put(list, whole.substr(0, bytes));
+    fs::remove(file);
+    write_own(file, role::run, "second");
+    EXPECT_TRUE(is_own(file, role::run));
+    put(list, whole + whole.substr(0, bytes));
+    fs::remove(file);
+    write_own(file, role::run, "third");
+    EXPECT_TRUE(is_own(file, role::run));
+  }
+}
+
 TEST_F(OwnFiles, WhatSomebodyPutThereOrChangedIsHis) {
   put(file, "mine");
   expect_refused(file);
