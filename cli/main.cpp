@@ -4,12 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <iterator>
 #include <new>
 #include <sstream>
@@ -329,6 +327,13 @@ std::string explained(const SceneError& error, int argc, char** argv) {
   return error.what();
 }
 
+// The results of these commands are files; what they print is a log.
+bool prints_a_log(const CLI::App& app, const Options& options) {
+  for (const char* command : {"run", "resume", "study", "probe", "fit"})
+    if (app.got_subcommand(command)) return !options.run.json;
+  return false;
+}
+
 // Prints help, or the errors on the command line.
 int tell_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
@@ -337,7 +342,7 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error) {
   constexpr std::size_t longest = 4000;  // it quotes what was given
   const std::string text = err.str();
   tell(stderr, "{}{}", shortened(text, longest), text.size() > longest ? "\n" : "");
-  return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  return code == 0 ? end_output(0, false) : static_cast<int>(ExitCode::usage);
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -393,7 +398,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return tell_usage(app, error);
   }
-  return static_cast<int>(code);
+  return end_output(static_cast<int>(code), prints_a_log(app, options));
 }
 
 int fail(const char* what, ExitCode code) {
@@ -406,15 +411,11 @@ int fail(const char* what, ExitCode code) {
 
 int main(int argc, char** argv) {
   using namespace pulvis;
+  prepare_standard_streams();
   if (!__builtin_cpu_supports("avx2"))
     return fail("pulvis: this build needs a processor with AVX2", ExitCode::machine);
   try {
-    const int code = parse_and_run(argc, argv);
-    // Messages may still be buffered, and the disk may be full.
-    errno = 0;
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      throw OutputError("standard output", "write", std::strerror(errno));
-    return code;
+    return parse_and_run(argc, argv);
   } catch (const SceneError& error) {
     return fail(explained(error, argc, argv).c_str(), ExitCode::usage);
   } catch (const RunFolderTaken& error) {

@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "cli/tell.hpp"
+
 namespace pulvis {
 
 Progress::Progress(double end, std::int64_t elements, bool shown, const Before& before)
@@ -36,13 +38,13 @@ void Progress::show(double time, std::int64_t step) {
       "{:.0f} s left",
       100 * share, time, end_, step, rate, rate * static_cast<double>(elements_) * 1e-6,
       share > 0 ? wall * (1 - share) / share : 0);
-  fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
-  std::fflush(stderr);
+  put(stderr, fmt::format("{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n"));
+  flush(stderr);
   line_open_ = terminal_;
 }
 
 void Progress::finish() {
-  if (line_open_) fmt::print(stderr, "\n");
+  if (line_open_) put(stderr, "\n");
   line_open_ = false;
 }
 

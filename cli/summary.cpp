@@ -214,7 +214,7 @@ Json ranks_json(const RunCost& cost) {
 void print_summary(const std::filesystem::path& folder) {
   std::ostringstream text;
   text << std::ifstream(folder / "summary.json").rdbuf();
-  fmt::print("{}", text.str());
+  put(stdout, text.str());
 }
 
 std::vector<std::string> RunQuality::lines() const {

@@ -121,7 +121,7 @@ void tell_findings(const SceneFindings& findings) {
 
 void tell_lever_memory(const Scene& scene) {
   tell("memory: about {}\n", bytes_text(static_cast<std::uint64_t>(afm_size(*scene.afm).bytes())));
-  std::fflush(stdout);
+  flush(stdout);
   require_afm_memory(scene);
 }
 

@@ -117,7 +117,7 @@ class StudyRunner::Parts {
     tell_elsewhere();
     const auto resumed = std::ranges::count(results_, true, &StudyResult::resumed);
     if (resumed > 0) tell("interrupted before, resumed from their checkpoints: {}\n", resumed);
-    std::fflush(stdout);
+    flush(stdout);
     std::vector<Job> jobs;
     for (const std::size_t i : waiting_) jobs.push_back(job_of(results_[i]));
     run_jobs(jobs, times_.jobs,
@@ -214,7 +214,7 @@ class StudyRunner::Parts {
     clear_state();
     tell("[{}/{}] {}: {} in {:.1f} s\n", done_, waiting_.size(), result.run->name,
          told.failure.empty() ? "done" : "BAD: " + told.failure, end.seconds);
-    std::fflush(stdout);
+    flush(stdout);
   }
 
   double seconds() const { return std::chrono::duration<double>(Time::now() - start_).count(); }
@@ -229,13 +229,13 @@ class StudyRunner::Parts {
           fmt::format("; about {:.0f} s left", seconds() / static_cast<double>(done_) *
                                                    static_cast<double>(waiting_.size() - done_));
     constexpr std::size_t widest = 110;
-    fmt::print(stderr, "\r\033[K{}", printable(line.substr(0, widest)));
-    std::fflush(stderr);
+    put(stderr, fmt::format("\r\033[K{}", printable(line.substr(0, widest))));
+    flush(stderr);
     open_ = true;
   }
 
   void clear_state() {
-    if (open_) fmt::print(stderr, "\r\033[K");
+    if (open_) put(stderr, "\r\033[K");
     open_ = false;
   }
 

@@ -1,12 +1,14 @@
 #include "cli/python/module/module.hpp"
 #include "cli/python/module/process.hpp"
 #include "cli/summary.hpp"
+#include "cli/tell.hpp"
 #include "engine/instruction_set.hpp"
 
 PYBIND11_MODULE(_core, core) {
   namespace py = pybind11;
   if (!__builtin_cpu_supports("avx2"))
     throw py::import_error("pulvis: this build needs a processor with AVX2");
+  pulvis::hold_standard_streams();
   core.doc() = "Compiled part of pulvis.";
   core.attr("version") = pulvis::program_version();
   core.attr("commit") = pulvis::program_commit();
