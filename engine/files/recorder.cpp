@@ -220,8 +220,8 @@ void Recorder::commit(Extent extent) {
   }
   const bool has_new_frames = has_new_frames_;
   if (has_new_frames && writers_.flush) writers_.flush();
-  for (const auto& [dataset, begin] : std::exchange(unsummed_, {}))
-    file_.record_checksum(dataset, begin);
+  for (const auto& [dataset, from] : std::exchange(unsummed_, {}))
+    file_.record_checksum(dataset, from);
   replace(renewed);
   csv_.flush();
   if (has_new_frames) xdmf_.write();
