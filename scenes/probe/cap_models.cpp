@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "engine/portable_math.hpp"
-#include "scenes/records/lab_statistics.hpp"
+#include "scenes/solve/lab_statistics.hpp"
 #include "scenes/solve/least_squares.hpp"
 
 namespace pulvis {

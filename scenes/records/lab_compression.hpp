@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "scenes/records/lab_press.hpp"
-#include "scenes/records/lab_statistics.hpp"
+#include "scenes/solve/lab_statistics.hpp"
 #include "scenes/records/lab_uncertainty.hpp"
 #include "scenes/results/density_fits.hpp"
 

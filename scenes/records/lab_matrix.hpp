@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "scenes/records/lab_settings.hpp"
-#include "scenes/records/lab_statistics.hpp"
+#include "scenes/solve/lab_statistics.hpp"
 
 namespace pulvis::lab {
 

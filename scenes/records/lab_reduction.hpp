@@ -11,8 +11,8 @@
 #pragma once
 
 #include "scenes/records/lab_clock.hpp"
-#include "scenes/records/lab_statistics.hpp"
 #include "scenes/records/lab_stick_slip.hpp"
+#include "scenes/solve/lab_statistics.hpp"
 
 #include <optional>
 #include <string>

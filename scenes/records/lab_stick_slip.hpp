@@ -3,15 +3,18 @@
 // How      The straight line through the curve is subtracted. Turning points are those from which the
 //          curve returns by more than a threshold: six times the noise of the load cell at
 //          standstill, and at least 0.5 % of the mean. A slip is a drop from a peak to the next trough.
-//            amplitude   mean drop, peak to peak
+//            amplitude   mean drop from the straight line through the stick before the slip, where that begins,
+//                        to the line through the next stick, where the slip ends
 //            period      mean distance from peak to peak
 //          It counts as stick-slip when there are at least three slips, the periods scatter by less
 //          than half of their mean, and the strongest line of the spectrum (Lomb 1976, Scargle 1982:
 //          samples need not be evenly spaced) lies within a quarter of that period. Otherwise the
 //          fluctuation is random, and only its standard deviation is reported.
-// Bias     A peak or trough between two samples is missed: the amplitude is too low by up to
-//          `resolution`, the rise of the curve from one sample to the next. Noise increases it, by
-//          about twice the standard deviation where that is larger than this rise.
+// Bias     Noise raises the highest of many samples and lowers the lowest, but not a fitted line: the lines are
+//          fitted to all samples of a stick, extremes or not. A slip begins and ends in the middle between the last
+//          sample that is on one line and the first that is not. A stick that curves adds the deviation of its ends
+//          from its line. A stick of one or two samples has no line that averages noise; `resolution`, the mean
+//          rise of a stick from one sample to the next, is then no longer small beside the amplitude.
 #pragma once
 
 #include <cstddef>

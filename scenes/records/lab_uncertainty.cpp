@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/records/lab_statistics.hpp"
+#include "scenes/solve/lab_statistics.hpp"
 
 namespace pulvis::lab {
 

@@ -1,4 +1,4 @@
-#include "scenes/records/lab_statistics.hpp"
+#include "scenes/solve/lab_statistics.hpp"
 
 #include <cmath>
 #include <numbers>
