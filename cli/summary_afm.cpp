@@ -78,6 +78,7 @@ Json loop_json(const FrictionLoop& loop) {
             {"volts_offset", loop.volts_offset}};
   if (loop.needed > 0) json["needed_distance"] = loop.needed;
   if (loop.friction) json["friction"] = *loop.friction;
+  if (loop.other_root) json["other_root"] = *loop.other_root;
   if (loop.sensitivity) json["sensitivity"] = *loop.sensitivity;
   return json;
 }
@@ -111,7 +112,7 @@ std::string invols_text(double invols) {
 const char* without_wedge(const FrictionLoop& loop) {
   if (loop.load <= 0) return "the load is not above 0";
   if (loop.volts_half_width == 0) return "the detector shows no friction, its gain is 0";
-  return "no coefficient of friction up to 1 fits W and Delta";
+  return "no coefficient of friction fits W and Delta";
 }
 
 std::string unsettled_text(const FrictionLoop& loop) {
@@ -166,6 +167,7 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
     if (verdict.value) entry["value"] = *verdict.value;
     json["expectations"].push_back(entry);
   }
+  if (!report.warnings.empty()) json["warnings"] = report.warnings;
   return json.dump(2) + "\n";
 }
 
@@ -200,6 +202,10 @@ std::string loop_text(const FrictionLoop& loop) {
   if (loop.friction)
     text += fmt::format("  wedge calibration of the detector: friction {:.5f}, {:.5g} N/V\n",
                         *loop.friction, *loop.sensitivity);
+  if (loop.other_root)
+    text += fmt::format(
+        "  the volts also fit a friction of {:.5f}, with which W would not be {:.5g} N\n",
+        *loop.other_root, loop.half_width);
   return text;
 }
 

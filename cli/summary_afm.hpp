@@ -23,6 +23,7 @@ struct AfmReport {
   std::optional<wedge::Calibration> wedge;
   std::map<std::string, double> figures;  // scenes/lever/afm_figures.hpp
   std::vector<Verdict> verdicts;
+  std::vector<std::string> warnings;  // one line each
   std::size_t elements = 0, nodes = 0, increments = 0;
   int threads = 1;
   double wall_seconds = 0;

@@ -56,6 +56,7 @@ ExitCode complete_programme(AfmSession& run, const RunOptions& options, const Ch
   run.finish();
   const ProgrammeEnd& end = run.end();
   const AfmReport& report = run.report();
+  for (const std::string& line : report.warnings) tell(stderr, "warning: {}\n", line);
   if (options.json) print_summary(run.folder());
   if (!options.talks())
     tell_unmet(report.verdicts);

@@ -5,9 +5,14 @@
 //          2, so that the remaining error is 0.6 to 1.7 times that drop; docs/accuracy.md has converged references.
 //          A uniform mesh resolves neither the strips at the sides nor the rim of the foot, so that a coarser one is
 //          hardly stiffer: it is compared with the graded mesh instead
+// Judged    the largest of the three. From `doubtful` on it is a warning: more than careful calibrations of real levers
+//          disagree by (5 to 10%), and ten times that of any default mesh of a usual lever. From `unusable` on there is
+//          no stiffness: should the error fall no faster than the edge, it is then 100% itself, and more of the
+//          stiffness is the mesh's than the lever's.
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "scenes/lever/afm_calibration.hpp"
 
@@ -16,5 +21,11 @@ namespace pulvis {
 // Empty where the user supplies the mesh in a file, or where the graded mesh would be too large.
 std::optional<MeshError> mesh_error(const Scene& scene, const Calibration& calibration,
                                     int threads);
+
+struct MeshVerdict {
+  static constexpr double doubtful = 0.05, unusable = 0.6;  // -
+  std::string warning, failure;                             // one line each, or empty
+};
+MeshVerdict judged(const MeshError& error);
 
 }  // namespace pulvis
