@@ -61,15 +61,71 @@ std::string facets_csv(const wedge::Calibration& calibration) {
   return text;
 }
 
+const char* word_of(wedge::Choice choice) {
+  switch (choice) {
+    case wedge::Choice::only:
+      return "the only one";
+    case wedge::Choice::agreement:
+      return "agreement of the loops";
+    case wedge::Choice::expected:
+      return "wedge.expected_friction";
+    case wedge::Choice::undecided:
+      return "undecided";
+    case wedge::Choice::meeting:
+      return "double root";
+    case wedge::Choice::given:
+      break;
+  }
+  return "given";
+}
+
+std::string roots_text(const wedge::Calibration& c) {
+  if (c.choice == wedge::Choice::meeting)
+    return "both roots for the friction coefficient lie within this uncertainty\n";
+  if (!c.other) return "";
+  const std::string other = fmt::format("friction {} with {}", text_of(c.other->friction, 1, ""),
+                                        text_of(c.other->sensitivity, 1e9, "nN/V"));
+  if (c.choice == wedge::Choice::agreement)
+    return fmt::format("the loops contradict the other root, {}\n", other);
+  if (c.choice == wedge::Choice::expected)
+    return fmt::format("wedge.expected_friction excludes the other root, {}\n", other);
+  return fmt::format("or else {}: the loops fit both\n", other);
+}
+
 }  // namespace
+
+std::vector<std::string> wedge_warnings(const wedge::Calibration& c) {
+  if (c.choice == wedge::Choice::meeting)
+    return {
+        fmt::format("the friction coefficient is near {:.3g}, where loops on slopes hardly depend "
+                    "on it: it and "
+                    "the sensitivity are known within their uncertainty only",
+                    c.friction.value)};
+  if (c.choice != wedge::Choice::undecided) return {};
+  return {fmt::format(
+      "the loops fit a friction coefficient of {:.4g} and one of {:.4g}, and do not decide between "
+      "them: measure loops on a flat facet at several loads and on two different slopes, or give "
+      "wedge.expected_friction",
+      c.friction.value, c.other->friction.value)};
+}
+
+nlohmann::ordered_json wedge_root_json(const wedge::Calibration& c) {
+  Json json{{"root", c.root == wedge::Root::upper ? "upper" : "lower"},
+            {"root_by", word_of(c.choice)}};
+  if (c.other)
+    json["other_root"] = {{"friction", value_json(c.other->friction)},
+                          {"sensitivity", value_json(c.other->sensitivity)}};
+  return json;
+}
 
 WedgeReduction wedge_reduction(const lab::LoadedSettings& loaded) {
   const lab::WedgeSpec& spec = loaded.settings.wedge;
   WedgeReduction reduction{loaded, loaded.settings.file.parent_path() / spec.loops, {}, {}};
   reduction.loops = wedge::read_loops(reduction.file, spec.skip);
   try {
-    reduction.calibration =
-        wedge::calibrate(reduction.loops, {spec.adhesion, spec.slope_error, spec.load_error});
+    reduction.calibration = wedge::calibrate(
+        reduction.loops,
+        {spec.adhesion, spec.slope_error, spec.load_error, spec.expected_friction});
   } catch (const std::runtime_error& error) {
     throw SceneError({{reduction.file.string(), 1, 1, "", "wedge", error.what()}});
   }
@@ -85,7 +141,9 @@ nlohmann::ordered_json wedge_json(const WedgeReduction& reduction) {
             {"sensitivity", value_json(calibration.sensitivity)}};
   if (calibration.crosstalk) json["crosstalk"] = value_json(*calibration.crosstalk);
   if (calibration.flat_friction) json["flat_friction"] = *calibration.flat_friction;
+  json.update(wedge_root_json(calibration));
   for (const wedge::Facet& facet : calibration.facets) json["facets"].push_back(facet_json(facet));
+  json["warnings"] = wedge_warnings(calibration);
   return json;
 }
 
@@ -110,6 +168,7 @@ std::string wedge_text(const wedge::Calibration& calibration) {
   }
   text += fmt::format("friction {}\nlateral sensitivity {}\n", text_of(calibration.friction, 1, ""),
                       text_of(calibration.sensitivity, 1e9, "nN/V"));
+  text += roots_text(calibration);
   if (calibration.crosstalk)
     text +=
         fmt::format("crosstalk of the load {} was subtracted; friction on the flat facet {:.5g}\n",

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/lever/wedge_calibration.hpp"
+#include "scenes/wedge/wedge_calibration.hpp"
 #include "scenes/records/lab_settings.hpp"
 
 namespace pulvis {
@@ -23,6 +23,12 @@ WedgeReduction wedge_reduction(const lab::LoadedSettings& loaded);
 
 // Content of summary.json, all in SI units.
 nlohmann::ordered_json wedge_json(const WedgeReduction& reduction);
+
+// Which of the two roots the result is, why, and the other one.
+nlohmann::ordered_json wedge_root_json(const wedge::Calibration& calibration);
+
+// Where the loops do not determine the friction coefficient.
+std::vector<std::string> wedge_warnings(const wedge::Calibration& calibration);
 
 // summary.json, facets.csv and the settings.
 void write_wedge(const std::filesystem::path& folder, const WedgeReduction& reduction);

@@ -200,6 +200,11 @@ void print_run(const lab::ReducedRun& run) {
   tell("\n");
 }
 
+// On standard error: results on standard output may go to a file.
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) tell(stderr, "warning: {}\n", warning);
+}
+
 ExitCode reduce_volts(const ReduceOptions& options, const Inputs& inputs,
                       const lab::LoadedSettings& loaded) {
   if (!inputs.records.empty())
@@ -210,6 +215,7 @@ ExitCode reduce_volts(const ReduceOptions& options, const Inputs& inputs,
   open_folder(options, volts_files());
   write_volts(options.folder, done);
   write_volts_report(options.folder, done);
+  if (done.reduced.slopes) warn(wedge_warnings(*done.reduced.slopes));
   tell("{}results in {}\n", volts_text(done), options.folder.string());
   return ExitCode::done;
 }
@@ -252,6 +258,7 @@ ExitCode reduce_records(const ReduceOptions& options) {
     open_folder(options, {"reduce.toml", "summary.json", "report.html", "facets.csv"});
     write_wedge(options.folder, calibrated);
     write_wedge_report(options.folder, calibrated);
+    warn(wedge_warnings(calibrated.calibration));
     tell("{}results in {}\n", wedge_text(calibrated.calibration), options.folder.string());
     return ExitCode::done;
   }

@@ -5,6 +5,7 @@
 #include "cli/csv_cell.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
+#include "cli/wedge_files.hpp"
 #include "engine/files/own_files.hpp"
 #include "scenes/language/counted.hpp"
 
@@ -97,7 +98,8 @@ VoltsReduction volts_reduction(const lab::LoadedSettings& loaded) {
   const std::filesystem::path folder = settings.file.parent_path();
   volts::WedgeLoops wedge;
   if (!settings.wedge.loops.empty()) wedge.file = folder / settings.wedge.loops;
-  wedge.known = {settings.wedge.adhesion, settings.wedge.slope_error, settings.wedge.load_error};
+  wedge.known = {settings.wedge.adhesion, settings.wedge.slope_error, settings.wedge.load_error,
+                 settings.wedge.expected_friction};
   wedge.skip = settings.wedge.skip;
   return {loaded, volts::reduce(settings.volts, wedge, folder, settings.analysis.confidence)};
 }
@@ -121,6 +123,14 @@ nlohmann::ordered_json volts_json(const VoltsReduction& reduction) {
       {"seed", settings.volts.afm.seed}};
   for (const volts::Quantity& quantity : result.quantities)
     json[quantity.name] = quantity_json(quantity, reduced.groups);
+  if (reduced.slopes) {
+    json["slopes"] = wedge_root_json(*reduced.slopes);
+    json["warnings"] = wedge_warnings(*reduced.slopes);
+  }
+  if (reduced.other_root)
+    for (const char* name : {"friction", "lateral_sensitivity"})
+      json["with_other_root"][name] =
+          quantity_json(named(*reduced.other_root, name), reduced.groups);
   for (std::size_t i = 0; i < result.nominal.load.size(); ++i)
     json["loops"].push_back({{"load", result.nominal.load[i]},
                              {"force", result.nominal.force[i]},
@@ -165,6 +175,13 @@ std::string volts_text(const VoltsReduction& reduction) {
   const bool has_line = result.nominal.adhesion_of_line.has_value();
   text += line(has_line ? "friction, slope over the loads" : "friction", "friction", 1, "");
   if (has_line) text += line("friction, mean of the loops", "friction_of_loops", 1, "");
+  if (reduced.other_root) {
+    const volts::MonteCarlo& other = *reduced.other_root;
+    text += line_of("or, with the other root: lateral", named(other, "lateral_sensitivity"), 1e9,
+                    "nN/V ", confidence);
+    text +=
+        line_of("or, with the other root: friction", named(other, "friction"), 1, "", confidence);
+  }
   text += "contributions to the variance of the friction coefficient\n";
   for (std::size_t g = 0; g < reduced.groups.size(); ++g) {
     const volts::Share& share = named(result, "friction").shares[g];

@@ -23,10 +23,10 @@ double downhill(double load, double adhesion, double mu, double slope) {
   return (load * (s - mu * c) - mu * adhesion) / (c + mu * s);
 }
 
-std::optional<double> friction(double half_width, double offset, double slope,
-                               double adhesion_by_load) {
+std::optional<Roots> friction(double half_width, double offset, double slope,
+                              double adhesion_by_load) {
   if (half_width == 0 || slope == 0) return {};
-  return friction_of_ratio(offset / half_width, 1, adhesion_by_load, slope);
+  return roots_of_ratio(offset / half_width, 1, adhesion_by_load, slope);
 }
 
 }  // namespace wedge
@@ -68,26 +68,51 @@ bool on_incline(const TargetSpec& target, const ActionSpec& scan) {
          target.direction == scan.direction;
 }
 
+// Friction and sensitivity from the volts; of the two roots that whose half-width is the loop's in newtons.
+void recover(FrictionLoop& loop, double slope, double adhesion) {
+  const auto roots =
+      wedge::friction(loop.volts_half_width, loop.volts_offset, slope, adhesion / loop.load);
+  if (!roots || wedge::locks(roots->lower, slope)) return;
+  const auto width = [&](double mu) { return wedge::half_width(loop.load, adhesion, mu, slope); };
+  const double seen = std::abs(loop.half_width);
+  loop.friction = roots->lower;
+  if (roots->upper && !wedge::locks(*roots->upper, slope)) {
+    loop.other_root = *roots->upper;
+    if (std::abs(width(*roots->upper) - seen) < std::abs(width(roots->lower) - seen))
+      std::swap(*loop.friction, *loop.other_root);
+  }
+  loop.sensitivity = width(*loop.friction) / loop.volts_half_width;
+}
+
+// The root of the first loop, which that loop's forces have chosen.
+std::optional<wedge::Calibration> calibrated_like(const FrictionLoop& loop,
+                                                  const std::vector<wedge::Loop>& loops,
+                                                  double adhesion) {
+  const bool is_upper = loop.friction && loop.other_root && *loop.friction > *loop.other_root;
+  try {
+    return wedge::calibrate_at(loops, {adhesion, 0, 0},
+                               is_upper ? wedge::Root::upper : wedge::Root::lower);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
                                                   const std::vector<FrictionLoop>& loops) {
   std::vector<wedge::Loop> seen;
-  for (const FrictionLoop& loop : loops)
-    if (loop.full() &&
-        on_incline(*scene.afm->target, scene.afm->actions[static_cast<std::size_t>(loop.action)]))
-      seen.push_back({scene.afm->target->incline,
-                      loop.load,
-                      loop.volts_half_width,
-                      loop.volts_offset,
-                      {},
-                      {}});
-  if (seen.empty()) return std::nullopt;
-  try {
-    return wedge::calibrate(seen, {pull_off_force(scene), 0, 0});
-  } catch (const std::runtime_error&) {
-    return std::nullopt;
+  const FrictionLoop* first = nullptr;
+  for (const FrictionLoop& loop : loops) {
+    if (!loop.full() ||
+        !on_incline(*scene.afm->target, scene.afm->actions[static_cast<std::size_t>(loop.action)]))
+      continue;
+    if (first == nullptr) first = &loop;
+    seen.push_back(
+        {scene.afm->target->incline, loop.load, loop.volts_half_width, loop.volts_offset, {}, {}});
   }
+  if (seen.empty()) return std::nullopt;
+  return calibrated_like(*first, seen, pull_off_force(scene));
 }
 
 std::vector<SeriesInfo> afm_series() {
@@ -161,17 +186,8 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     judge(loop, plateau_of(scene, history, a, false), plateau_of(scene, history, a, true));
     const TargetSpec& target = *scene.afm->target;
     loop.on_slope = on_incline(target, action);
-    if (loop.full() && loop.load > 0 && loop.on_slope) {
-      const double adhesion = pull_off_force(scene);
-      loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline,
-                                      adhesion / loop.load);
-      if (loop.friction) {
-        const double s = portable::sin(target.incline), c = portable::cos(target.incline);
-        const double mu = *loop.friction;
-        loop.sensitivity =
-            mu * (loop.load + adhesion * c) / (c * c - mu * mu * s * s) / loop.volts_half_width;
-      }
-    }
+    if (loop.full() && loop.load > 0 && loop.on_slope)
+      recover(loop, target.incline, pull_off_force(scene));
     loops.push_back(loop);
   }
   return loops;

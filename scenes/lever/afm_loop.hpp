@@ -6,6 +6,8 @@
 //            W = (T_u - T_d)/2 = mu (L + A cos)/(cos^2 - mu^2 sin^2),  Delta = (T_u + T_d)/2
 //          With a = A/L, mu^2 (1 + a/cos) - mu (Delta/W) (1 + a cos)/(sin cos) + 1 = 0 in any unit of W and
 //          Delta: friction follows from volts, and the lateral sensitivity from mu. A is the scene's pull-off force.
+//          Of its two roots that is taken whose W is the loop's own in newtons: the volts of one slope do not tell
+//          them apart.
 #pragma once
 
 #include <optional>
@@ -13,7 +15,7 @@
 #include <vector>
 
 #include "engine/files/record.hpp"
-#include "scenes/lever/wedge_calibration.hpp"
+#include "scenes/wedge/wedge_calibration.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
@@ -22,9 +24,9 @@ namespace wedge {
 
 double uphill(double load, double adhesion, double mu, double slope);
 double downhill(double load, double adhesion, double mu, double slope);
-// mu <= 1 from a loop's offset, half-width and adhesion over load; empty where no mu fits, or slope = 0.
-std::optional<double> friction(double half_width, double offset, double slope,
-                               double adhesion_by_load);
+// Both mu of a loop from its offset, half-width and adhesion over load; empty where no mu fits, or slope = 0.
+std::optional<Roots> friction(double half_width, double offset, double slope,
+                              double adhesion_by_load);
 
 }  // namespace wedge
 
@@ -45,6 +47,7 @@ struct FrictionLoop {
   double volts_half_width = 0, volts_offset = 0;  // V, of the lateral detector
   bool on_slope = false;                          // along the scan: a wedge calibration
   std::optional<double> friction;     // recovered from the volts, on a slope along the scan
+  std::optional<double> other_root;   // of it, where that would not lock the tip
   std::optional<double> sensitivity;  // N/V, recovered along with it
   bool full() const { return slides > 1 - 1e-3 && turned > 1 - 1e-3 && drift < 0.01; }
 };

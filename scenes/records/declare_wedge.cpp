@@ -38,6 +38,14 @@ const TableDeclaration<WedgeSpec>& declared_wedge() {
          .doc = "Relative standard uncertainty of the load from the normal calibration; it "
                 "affects only the sensitivity."},
         to(&WedgeSpec::load_error)},
+       {{.name = "expected_friction",
+         .kind = Kind::number,
+         .range = within(0.001, 100),
+         .doc = "Approximate friction coefficient. The loops of a slope fit two coefficients, mu "
+                "and about 1/mu: where all loops together do not decide, the one nearer to this "
+                "(by ratio) is the result.",
+         .fallback_doc = "none: both are given, and a warning says so"},
+        to(&WedgeSpec::expected_friction)},
        {{.name = "skip",
          .kind = Kind::number,
          .range = within(0, 0.45),

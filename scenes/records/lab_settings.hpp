@@ -117,6 +117,7 @@ struct WedgeSpec {         // another kind of record: friction loops of an AFM
   double slope_error = 0;  // rad
   double load_error = 0;   // -
   double skip = 0;         // -, of a raw trace at each end
+  std::optional<double> expected_friction = {};
 };
 
 struct GaugesSpec {                                     // of an instrumented die

@@ -1,4 +1,4 @@
-// Experimental friction loops for the wedge calibration (scenes/lever/wedge_calibration.hpp).
+// Experimental friction loops for the wedge calibration (scenes/wedge/wedge_calibration.hpp).
 //
 // One CSV file: `slope` of the facet (> 0: the trace runs uphill), `load`, and either
 //   half_width, offset   volts of each loop, with half_width_error, offset_error if known
@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scenes/lever/wedge_calibration.hpp"
+#include "scenes/wedge/wedge_calibration.hpp"
 
 namespace pulvis::wedge {
 

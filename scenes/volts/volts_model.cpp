@@ -51,7 +51,7 @@ lab::Mean share_of(double value, double relative) { return {value, std::abs(valu
 
 }  // namespace
 
-Model::Model(const Measured& measured, const VoltsSpec& spec)
+Model::Model(const Measured& measured, const VoltsSpec& spec, bool takes_other_root)
     : measured_(measured), lateral_(spec.lateral()) {
   add("normal stiffness", "k_n", "N/m", share_of(measured.lever.k_n, *spec.lever.k_n_error));
   add("deflection sensitivity", "sensitivity", "V/m", measured.hard.slope);
@@ -59,7 +59,7 @@ Model::Model(const Measured& measured, const VoltsSpec& spec)
   add("pull-off, volts", "pull_off", "V", measured.sample.pull_off);
   if (measured.crosstalk) add("crosstalk", "crosstalk", "-", *measured.crosstalk);
   if (lateral_ == LateralMethod::wedge)
-    add_wedge();
+    add_wedge(takes_other_root);
   else
     add_test_probe(spec);
   add("free level of the loops", "level", "V", {0, spec.afm.level_error});
@@ -99,7 +99,7 @@ Model::LoopInputs Model::add_loops(const std::string& group, const LoopRecord& r
   return made;
 }
 
-void Model::add_wedge() {
+void Model::add_wedge(bool takes_other_root) {
   wedge_ = add_loops("loops on slopes", *measured_.wedge, true);
   for (const VoltsLoop& loop : measured_.wedge->loops)
     if (!slope_at_.contains(loop.slope))
@@ -108,7 +108,7 @@ void Model::add_wedge() {
               fmt::format("slope of {:.4g} deg", loop.slope * 180 / std::numbers::pi), "rad",
               {loop.slope, measured_.known.slope_error});
   add("loads on the slopes", "wedge_load", "-", {1, measured_.known.load_error});
-  weigh_slopes();
+  weigh_slopes(takes_other_root);
 }
 
 void Model::add_test_probe(const VoltsSpec& spec) {
@@ -153,7 +153,8 @@ std::vector<wedge::Loop> Model::loops_on_slopes(const std::vector<double>& x, do
 }
 
 wedge::Calibration Model::on_slopes(const std::vector<wedge::Loop>& loops) const {
-  return wedge::calibrate(loops, {measured_.known.adhesion, measured_.known.slope_error, 0});
+  return wedge::calibrate_at(
+      loops, {measured_.known.adhesion, measured_.known.slope_error, 0, std::nullopt}, root_);
 }
 
 // The mean over the slopes with the weights of the nominal values: weights that vary with a draw would count the
@@ -185,12 +186,19 @@ double Model::lateral_by_wedge(const std::vector<double>& x, double normal,
   return sensitivity * (disagree_ ? x[at_.at("disagreement")] : 1);
 }
 
-void Model::weigh_slopes() {
+void Model::weigh_slopes(bool takes_other_root) {
   const double normal = measured_.lever.k_n / measured_.hard.slope.value;
   const double crosstalk = measured_.crosstalk ? measured_.crosstalk->value : 0;
+  const auto loops = loops_on_slopes(values(), normal, crosstalk);
+  const WedgeKnown& known = measured_.known;
   wedge::Calibration calibration;
   try {
-    calibration = on_slopes(loops_on_slopes(values(), normal, crosstalk));
+    slopes_ =
+        wedge::calibrate(loops, {known.adhesion, known.slope_error, 0, known.expected_friction});
+    root_ = slopes_->root;
+    if (takes_other_root)
+      root_ = root_ == wedge::Root::lower ? wedge::Root::upper : wedge::Root::lower;
+    calibration = on_slopes(loops);
   } catch (const std::runtime_error& error) {
     throw SceneError({{measured_.wedge->file.string(), 1, 1, "", "wedge", error.what()}});
   }

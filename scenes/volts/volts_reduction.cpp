@@ -64,9 +64,13 @@ Reduced reduce(const VoltsSpec& spec, const WedgeLoops& wedge, const std::filesy
   const Model model(measured, spec);
   all.inputs = model.inputs();
   all.groups = model.groups();
+  all.slopes = model.slopes();
+  const DrawSpec draws{spec.afm.draws, static_cast<std::uint64_t>(spec.afm.seed), confidence};
   try {
-    all.result =
-        propagate(model, {spec.afm.draws, static_cast<std::uint64_t>(spec.afm.seed), confidence});
+    all.result = propagate(model, draws);
+    if (all.slopes && (all.slopes->choice == wedge::Choice::undecided ||
+                       all.slopes->choice == wedge::Choice::meeting))
+      all.other_root = propagate(Model(measured, spec, true), draws);
   } catch (const std::runtime_error& error) {
     refuse_file(measured.wedge ? wedge.file : folder / spec.afm.loops, "afm", error.what());
   }

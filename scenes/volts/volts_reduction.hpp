@@ -30,6 +30,8 @@ struct Reduced {
   std::vector<Input> inputs;
   std::vector<std::string> groups;
   MonteCarlo result;
+  std::optional<wedge::Calibration> slopes;  // of the loops on slopes
+  std::optional<MonteCarlo> other_root;      // the result with it, where the loops do not decide
 };
 
 // `folder`: that of the settings. Throws SceneError.

@@ -194,6 +194,10 @@ function fillTiles(summary) {
   tile("normal sensitivity", measured(summary.normal_sensitivity, "N/V"), "k_n over the slope of force curves");
   tile("lateral sensitivity", measured(summary.lateral_sensitivity, "N/V"),
        summary.lateral === "wedge" ? "loops on slopes" : "test probe");
+  if (summary.with_other_root) {
+    const {friction: other, lateral_sensitivity: sensitivity} = summary.with_other_root;
+    tile("or else, friction coefficient", measured(other), `with ${measured(sensitivity, "N/V")}: the loops on slopes fit both`);
+  }
   if (summary.crosstalk) tile("crosstalk", measured(summary.crosstalk), "of the normal signal, removed");
 }
 

@@ -52,6 +52,11 @@ function fillTiles(summary) {
   const inclined = summary.facets.filter(facet => facet.friction).length;
   tile("friction coefficient", measured(summary.friction), `of ${inclined} inclined facet${inclined > 1 ? "s" : ""}`);
   tile("lateral sensitivity", measured(summary.sensitivity, "N/V"), "force per detector signal");
+  if (summary.root_by === "undecided") {
+    tile("or else, friction coefficient", measured(summary.other_root.friction), "the loops fit both");
+    tile("with a lateral sensitivity of", measured(summary.other_root.sensitivity, "N/V"), "the loops do not decide");
+  }
+  if (summary.root_by === "double root") tile("both roots", "not told apart", "near this friction W and Δ hardly depend on it");
   if (summary.crosstalk) tile("signal of the load itself", measured(summary.crosstalk, "V/N"), "of the flat facet, subtracted");
   if (summary.flat_friction !== undefined) tile("friction on the flat facet", digits(summary.flat_friction), "with that sensitivity, as a check");
 }

@@ -119,14 +119,19 @@ TEST(Wedge, ALoopWhoseLoadDriftsGivesNoFriction) {
   EXPECT_FALSE(loop.friction);
 }
 
+// As one of two roots, whose product is 1/(1 + a/cos theta): which of the two, the ratio Delta/W does not tell.
 TEST(Wedge, FrictionComesBackOutOfTheFormula) {
-  for (const double degrees : {14.0, -12.5})
-    for (const double mu : {0.02, 0.1, 0.6})
+  for (const double degrees : {14.0, -12.5, 5.0})
+    for (const double mu : {0.01, 0.02, 0.1, 0.6, 0.95, 1.3, 2.0, 3.0})
       for (const double adhesion : {0.0, 0.5}) {
         const double a = degrees * std::numbers::pi / 180;
         const double up = wedge::uphill(2, 2 * adhesion, mu, a),
                      down = wedge::downhill(2, 2 * adhesion, mu, a);
-        EXPECT_NEAR(*wedge::friction((up - down) / 2, (up + down) / 2, a, adhesion), mu, 1e-12);
+        const auto roots = wedge::friction((up - down) / 2, (up + down) / 2, a, adhesion);
+        ASSERT_TRUE(roots && roots->upper) << degrees << ' ' << mu << ' ' << adhesion;
+        const double product = 1 / (1 + adhesion / std::cos(a));
+        EXPECT_NEAR(roots->lower * *roots->upper / product, 1, 1e-12);
+        EXPECT_NEAR((mu * mu < product ? roots->lower : *roots->upper) / mu, 1, 1e-11);
       }
 }
 

@@ -7,26 +7,31 @@
 namespace pulvis {
 namespace {
 
+// Volts of one slope fit 1.3 as well as 1/1.3: the forces tell which of them it is.
 TEST(AfmWedge, FrictionAndSensitivityComeBackOutOfTheVolts) {
-  const Scene scene = afm_scene(std::string(coarse_beam) + inclined_plane(-12.5, 0.1) +
-                                    press_and_scan(12, "60 nN") + press_and_scan(12, "100 nN"),
-                                {"detector.lateral_gain=2e5 V/rad"});
-  AfmSimulation simulation(scene);
-  // Lateral force by volts, as a small lateral force tells it.
-  const Calibration c = simulation.calibrate();
-  const double sensitivity = 1 / (2e5 * std::abs(c.lateral.spot.lateral));
-  const AfmHistory history = history_of(simulation);
-  const auto loops = friction_loops(scene, history);
-  ASSERT_EQ(loops.size(), 2u);
-  for (const FrictionLoop& loop : loops) {
-    EXPECT_NEAR(loop.friction.value_or(0), 0.1, 0.001);
-    EXPECT_NEAR(std::abs(loop.sensitivity.value_or(0)) / sensitivity, 1, 0.01);
+  for (const double mu : {0.1, 0.8, 1.3}) {
+    const std::string scans = press_and_scan(mu > 0.5 ? 100 : 12, "60 nN") +
+                              press_and_scan(mu > 0.5 ? 100 : 12, "100 nN");
+    const Scene scene = afm_scene(std::string(coarse_beam) + inclined_plane(-12.5, mu) + scans,
+                                  {"detector.lateral_gain=2e5 V/rad"});
+    AfmSimulation simulation(scene);
+    // Lateral force by volts, as a small lateral force tells it.
+    const Calibration c = simulation.calibrate();
+    const double sensitivity = 1 / (2e5 * std::abs(c.lateral.spot.lateral));
+    const AfmHistory history = history_of(simulation);
+    const auto loops = friction_loops(scene, history);
+    ASSERT_EQ(loops.size(), 2u);
+    for (const FrictionLoop& loop : loops) {
+      EXPECT_NEAR(loop.friction.value_or(0) / mu, 1, 0.01);
+      EXPECT_NEAR(std::abs(loop.sensitivity.value_or(0)) / sensitivity, 1, 0.01);
+      EXPECT_EQ(loop.other_root.has_value(), mu > 0.5);  // 10 would lock the tip
+    }
+    const auto all = calibrate_wedge(scene, loops);
+    ASSERT_TRUE(all);
+    EXPECT_EQ(all->facets.front().loads, 2);
+    EXPECT_NEAR(all->friction.value / mu, 1, 0.01);
+    EXPECT_NEAR(std::abs(all->sensitivity.value) / sensitivity, 1, 0.01);
   }
-  const auto all = calibrate_wedge(scene, loops);
-  ASSERT_TRUE(all);
-  EXPECT_EQ(all->facets.front().loads, 2);
-  EXPECT_NEAR(all->friction.value, 0.1, 0.001);
-  EXPECT_NEAR(std::abs(all->sensitivity.value) / sensitivity, 1, 0.01);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scenes/lever/wedge_calibration.hpp"
+#include "scenes/wedge/wedge_calibration.hpp"
 
 namespace pulvis::wedge {
 

@@ -1,4 +1,4 @@
-#include "scenes/lever/wedge_readings.hpp"
+#include "scenes/wedge/wedge_readings.hpp"
 
 #include <fmt/format.h>
 

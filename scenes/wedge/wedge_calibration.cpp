@@ -1,4 +1,4 @@
-#include "scenes/lever/wedge_calibration.hpp"
+#include "scenes/wedge/wedge_calibration.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,9 @@
 #include <stdexcept>
 
 #include "engine/portable_math.hpp"
-#include "scenes/lever/wedge_readings.hpp"
+#include "scenes/wedge/wedge_facet.hpp"
+#include "scenes/wedge/wedge_readings.hpp"
+#include "scenes/wedge/wedge_roots.hpp"
 
 namespace pulvis::wedge {
 namespace {
@@ -18,26 +20,6 @@ namespace {
 constexpr double flat = 1e-6;  // rad: such a slope gives no information
 // Relative: an offset of the detector as large as the crosstalk is then subtracted to this accuracy.
 constexpr double same_load = 0.01;
-
-struct Pair {
-  double friction = 0, sensitivity = 0;
-};
-
-// From volts per load; `adhesion` over the load, 0 where the volts are slopes over several loads.
-std::optional<Pair> solve(double width, double offset, double adhesion, double slope) {
-  const auto mu = friction_of_ratio(offset / width, 1, adhesion, slope);
-  if (!mu) return std::nullopt;
-  const double s = portable::sin(slope), c = portable::cos(slope);
-  return Pair{*mu, *mu * (1 + adhesion * c) / (c * c - *mu * *mu * s * s) / width};
-}
-
-// The signal of a flat facet at the loads of an inclined one, to be subtracted. Its errors are common to all
-// facets: those of the flat facet's slope over the loads (or of its only load) and of its value at the mean load.
-struct Level {
-  double by_load = 0;  // V/N
-  std::array<double, 2> errors{};
-  bool errors_known = true;
-};
 
 // With several loads on the flat facet its line separates crosstalk from the offset of the detector. With one load
 // only their sum is known, and only at that load.
@@ -63,20 +45,6 @@ Level level_for(const Reading& flat_one, const Reading& inclined) {
   return {offset.value, {offset.error.value_or(0), 0}, offset.error.has_value()};
 }
 
-// What is solved for friction and sensitivity.
-struct Signals {
-  Value half_width, offset;  // V/N, the offset without the flat facet's
-  Value adhesion;            // over the load; 0 where the volts are slopes over several loads
-  double slope = 0;          // rad
-  // The half-width is a slope over several loads, but the offset that of the flat facet's only load.
-  bool is_mixed = false;
-
-  std::optional<Pair> solved(const std::array<double, 4>& x) const {
-    const double width = is_mixed ? x[0] * (1 + x[3] * portable::cos(x[2])) : x[0];
-    return solve(width, x[1], x[3], x[2]);
-  }
-};
-
 // At one load Delta holds crosstalk and offset in the same proportion on all facets.
 Signals at_level_load(const Reading& inclined, double load, const Level& level) {
   const Fit& line = inclined.offset;
@@ -92,57 +60,6 @@ Signals at_level_load(const Reading& inclined, double load, const Level& level) 
   // Its correlation with the half-width hardly matters: adhesion enters Delta with mu^2 only.
   if (signals.adhesion.error) *signals.adhesion.error /= load;
   return signals;
-}
-
-// A facet's figure, its error without those common to all facets, and those: of its level, and of how level the
-// flat facet is.
-struct Estimate {
-  Value own;
-  Eigen::Vector3d common = Eigen::Vector3d::Zero();
-  double by_offset = 0;  // derivative with respect to the offset
-  bool errors_known = true;
-};
-
-struct FacetEstimates {
-  Estimate friction, sensitivity;
-};
-
-FacetEstimates calibrate_facet(const Signals& signals, const Level& level, double slope_error) {
-  const std::array<double, 4> at{signals.half_width.value, signals.offset.value, signals.slope,
-                                 signals.adhesion.value};
-  const auto pair = signals.solved(at);
-  if (!pair)
-    throw std::runtime_error(fmt::format(
-        "on the slope of {:g} deg there is no matching friction coefficient: 2 (Delta/W)/sin 2 "
-        "theta is {:.4g}, allowed: >= 2",
-        at[2] * 180 / std::numbers::pi, 2 * at[1] / at[0] / portable::sin(2 * at[2])));
-  FacetEstimates e;
-  e.friction.own.value = pair->friction;
-  e.sensitivity.own.value = pair->sensitivity;
-  if (!signals.half_width.error || !signals.offset.error) return e;
-  const std::array<double, 4> error{*signals.half_width.error, *signals.offset.error, slope_error,
-                                    signals.adhesion.error.value_or(0)};
-  double friction2 = 0, sensitivity2 = 0;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    auto up = at, down = at;
-    const double step = 1e-6 * (i == 3 ? 1 : std::abs(at[i]));
-    up[i] += step, down[i] -= step;
-    const auto a = signals.solved(up), b = signals.solved(down);
-    if (!a || !b) return e;  // at the limit of the solvable range: error unknown
-    const double by_friction = (a->friction - b->friction) / (2 * step);
-    const double by_sensitivity = (a->sensitivity - b->sensitivity) / (2 * step);
-    friction2 += squared(by_friction * error[i]);
-    sensitivity2 += squared(by_sensitivity * error[i]);
-    if (i == 1) e.friction.by_offset = by_friction, e.sensitivity.by_offset = by_sensitivity;
-  }
-  e.friction.own.error = std::sqrt(friction2);
-  e.sensitivity.own.error = std::sqrt(sensitivity2);
-  for (Estimate* estimate : {&e.friction, &e.sensitivity}) {
-    estimate->errors_known = level.errors_known;
-    estimate->common.head<2>() =
-        estimate->by_offset * Eigen::Vector2d(level.errors[0], level.errors[1]);
-  }
-  return e;
 }
 
 Value with_common(const Estimate& e) {
@@ -207,8 +124,9 @@ Value detector_offset(const Reading& inclined, const Pair& pair) {
 
 class Evaluation {
  public:
-  Evaluation(const std::vector<Loop>& loops, const Known& known)
-      : known_(known), readings_(readings_of(loops)) {
+  // `near_double`: what cannot be told from the double root is given as such.
+  Evaluation(const std::vector<Loop>& loops, const Known& known, Root root, bool near_double)
+      : known_(known), root_(root), near_double_(near_double), readings_(readings_of(loops)) {
     const auto flat_one = std::ranges::find_if(
         readings_, [](const Reading& r) { return std::abs(r.facet.slope) < flat; });
     if (flat_one != readings_.end()) flat_ = &*flat_one;
@@ -223,6 +141,8 @@ class Evaluation {
 
   Calibration result() {
     Calibration all;
+    all.root = root_;
+    all.choice = doubles_ == friction_.size() ? Choice::meeting : Choice::only;
     all.crosstalk = crosstalk_;
     std::size_t i = 0;
     for (Reading& reading : readings_) {
@@ -249,7 +169,8 @@ class Evaluation {
  private:
   void evaluate(Reading& reading) {
     Facet& facet = reading.facet;
-    const Level level = flat_ ? level_for(*flat_, reading) : Level{};
+    Level level = flat_ ? level_for(*flat_, reading) : Level{};
+    if (flat_) level.tilt = known_.slope_error;
     const bool is_mixed = flat_ && flat_->is_single() && !reading.is_single();
     Signals signals{facet.half_width,
                     facet.offset,
@@ -258,7 +179,10 @@ class Evaluation {
                     false};
     signals.offset.value -= level.by_load;
     if (is_mixed) signals = at_level_load(reading, flat_->load, level);
-    const FacetEstimates e = calibrate_facet(signals, level, known_.slope_error);
+    const FacetCalibration calibration(signals, level, known_.slope_error);
+    const FacetEstimates e = near_double_ && calibration.is_double() ? calibration.at_double_root()
+                                                                     : calibration.at_root(root_);
+    if (e.is_double) ++doubles_;
     facet.offset.value -= level.by_load;
     if (is_mixed) {
       offsets_.push_back(detector_offset(reading, {e.friction.own.value, e.sensitivity.own.value}));
@@ -294,6 +218,9 @@ class Evaluation {
   }
 
   Known known_;
+  Root root_;
+  bool near_double_;
+  std::size_t doubles_ = 0;
   std::vector<Reading> readings_;
   const Reading* flat_ = nullptr;
   std::optional<Value> crosstalk_;
@@ -301,19 +228,63 @@ class Evaluation {
   std::vector<Value> offsets_;  // V, of the detector, where the flat facet has one load
 };
 
+// Empty where the upper root would lock the tip, or is negative.
+std::optional<Calibration> upper_of(const std::vector<Loop>& loops, const Known& known) {
+  try {
+    return Evaluation(loops, known, Root::upper, true).result();
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
-std::optional<double> friction_of_ratio(double ratio, double load, double adhesion, double slope) {
+std::optional<Roots> roots_of_ratio(double ratio, double load, double adhesion, double slope) {
+  constexpr double rounding = 1e-14;  // of b^2: loops of the double root itself
   const double s = portable::sin(slope), c = portable::cos(slope);
   const double a = load * s * c + adhesion * s, b = ratio * (load + adhesion * c);
-  const double end = load * s * c, root = b * b - 4 * a * end;
+  const double end = load * s * c;
+  double root = b * b - 4 * a * end;
+  if (std::abs(root) < rounding * b * b) root = 0;
   // mu > 0 requires both terms to have the same sign.
   if (end == 0 || !(root >= 0) || b * end <= 0) return std::nullopt;
-  return 2 * end / (b + std::copysign(std::sqrt(root), b));
+  const double sum = b + std::copysign(std::sqrt(root), b);
+  return Roots{2 * end / sum, sum / a > 0 ? std::optional(sum / (2 * a)) : std::nullopt};
+}
+
+bool locks(double friction, double slope) {
+  return friction * std::abs(portable::sin(slope)) >= portable::cos(slope);
+}
+
+double half_width(double load, double adhesion, double friction, double slope) {
+  const double s = portable::sin(slope), c = portable::cos(slope);
+  return friction * (load + adhesion * c) / (c * c - friction * friction * s * s);
+}
+
+Calibration calibrate_at(const std::vector<Loop>& loops, const Known& known, Root root) {
+  Calibration all = Evaluation(loops, known, root, false).result();
+  all.choice = Choice::given;
+  return all;
 }
 
 Calibration calibrate(const std::vector<Loop>& loops, const Known& known) {
-  return Evaluation(loops, known).result();
+  Calibration lower = Evaluation(loops, known, Root::lower, true).result();
+  std::optional<Calibration> upper = upper_of(loops, known);
+  if (lower.choice == Choice::meeting || !upper) return lower;
+  lower.other = OtherRoot{upper->friction, upper->sensitivity};
+  upper->other = OtherRoot{lower.friction, lower.sensitivity};
+  Root root = Root::lower;
+  Choice choice = Choice::undecided;
+  if (const auto agreeing = agreeing_root(loops, known, lower, *upper)) {
+    root = *agreeing;
+    choice = Choice::agreement;
+  } else if (known.expected) {
+    const bool is_above = squared(*known.expected) > lower.friction.value * upper->friction.value;
+    root = is_above ? Root::upper : Root::lower;
+    choice = Choice::expected;
+  }
+  lower.choice = upper->choice = choice;
+  return root == Root::upper ? *upper : lower;
 }
 
 }  // namespace pulvis::wedge
