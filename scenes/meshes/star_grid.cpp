@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "engine/entry.hpp"
@@ -138,7 +137,7 @@ class Search {
     const int n = static_cast<int>(boundary_.size());
     const double least = std::ranges::min(found_, {}, &Found::score).score;
     const auto rank = [n](const Found& f) {
-      return std::tuple(-f.axes, !keeps(f.split, 0, n), places_of(f.split, n));
+      return std::pair(!keeps(f.split, 0, n), places_of(f.split, n));
     };
     const Found* best = nullptr;
     for (const Found& found : found_)
@@ -150,7 +149,6 @@ class Search {
  private:
   struct Found {
     double score;
-    int axes;  // mirror lines along x or y that it keeps
     Split split;
   };
 
@@ -158,14 +156,15 @@ class Search {
     // By number of mirror lines kept (a rectangular core has two, a square one four): factor on the measure's
     // excess over that of equal squares, compared with a grid without symmetry.
     constexpr std::array<double, 5> worth{1, 0.75, 0.65, 0.65, 0.6};
+    constexpr double worth_of_an_axis = 0.95;
     std::size_t kept = 0;
-    int axes = 0;
+    double factor = 1;
     for (const MirrorLine& line : lines_) {
       if (!keeps(split, line.sum, static_cast<int>(boundary_.size()))) continue;
       ++kept;
-      if (line.along_axis) ++axes;
+      if (line.along_axis) factor *= worth_of_an_axis;
     }
-    return {excess * worth[std::min<std::size_t>(kept, 4)], axes, split};
+    return {excess * factor * worth[std::min<std::size_t>(kept, 4)], split};
   }
 
   const std::vector<Point>& boundary_;
