@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Pulvis on Debian 13 (trixie), in a folder of its own: installs Debian 13 there, builds the last commit as users do, with its
 # compiler and libraries, runs the demo, imports the Python package, runs the tests of the engine, and compares the state hashes
-# of runs in 2D, of levers and of the demo with those of docs/trust.md and of this machine's program. By hand and nightly, as root.
+# of runs in 2D, of levers and of the demo with those of docs/trust.md and of this machine's program. By hand, as root.
 #
 # usage: trixie.sh [FOLDER [MIRROR]]
 #   FOLDER   (default /var/tmp/pulvis-trixie) is kept: the next time only what has changed is installed and compiled
