@@ -75,7 +75,7 @@ TEST(SetupWarnings, ATravelBeyondFullDensityIsRefusedWithTheOneThatReachesIt) {
 TEST(SetupWarnings, AStageOfCompactionThatLoadsNothingIsTold) {
   const auto lines_in_space = [](const std::vector<std::string>& overrides) {
     const Scene scene =
-        read_scene(paths::source_dir() + "/scenes/compaction-3d/unit-cell-sc.toml", overrides);
+        read_scene(paths::source_dir() + "/scenes/compaction-3d/one-sphere.toml", overrides);
     std::string all;
     for (const std::string& line : space::setup_warnings(scene, space::place_bodies(scene)))
       all += line + "\n";

