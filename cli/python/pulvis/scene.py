@@ -43,7 +43,7 @@ class Scene:
         given.update({key.replace("__", "."): value for key, value in keys.items()})
         words = [utf8("overrides", f"{path}={toml_value(value)}") for path, value in given.items()]
         if isinstance(source, (str, os.PathLike)):
-            self._core = _core.load_scene(os.fspath(source), words)
+            self._core = _core.load_scene(utf8("scene", str(os.fspath(source))), words)
         elif not isinstance(source, dict) and not dataclasses.is_dataclass(source):
             raise TypeError(f"scene: a {type(source).__name__}, allowed: a path, a dict or a dataclass")
         else:
