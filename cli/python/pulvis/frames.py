@@ -50,7 +50,7 @@ class Frame:
         return f"<Frame {self.number}: time {self.time:.6g}, step {self.step}>"
 
     @property
-    def group(self):
+    def group(self) -> h5py.Group:
         """Its group in `run.h5`."""
         self._run._require_own_process()
         return self._group
