@@ -4,13 +4,14 @@
     random_servo_powders.py PROGRAM [--scenes N] [--seed S] [--first I] [--keep DIR]
 
 In turn dies in two dimensions, dies in three, and periodic cells. Shapes, materials, sizes, friction, damping, bonds, force,
-duration (20 to 1000 passages of a wave through the powder), rise, response and the highest speed are drawn; half of the scenes
+duration (20 to 300 passages of a wave through the powder), rise, response and the highest speed are drawn; half of the scenes
 go on with a second force. A run may
 
   hold   its force: within the tolerance over the last tenth of every stage, and never passed by more
   tell   that it passed its force: exit code 0, and "overshoot" beyond its limit in the table of quality
   stop   since the force was not held at the end of a stage: exit code 3, with a message of the servo
   limit  by another physical limit, which is named: exit code 3
+  slow   take more than ten minutes
 
 Anything else is BAD: this script computes force errors from the history of the run, not from what the program says of them.
 """
@@ -30,17 +31,18 @@ from random_scenes import MATERIALS, log_uniform, parser
 
 KINDS = ("2D", "3D", "cell")
 TOLERANCE = 0.05
+OUTCOMES = ("hold", "tell", "stop", "limit", "slow", "BAD")
 PLANES = {2: [("left", (0, 0), (1, 0)), ("right", (1, 0), (-1, 0)), ("bottom", (0, 0), (0, 1)), ("top", (0, 1), (0, -1))],
           3: [("left", (0, 0, 0), (1, 0, 0)), ("right", (1, 0, 0), (-1, 0, 0)), ("front", (0, 0, 0), (0, 1, 0)),
               ("back", (0, 1, 0), (0, -1, 0)), ("bottom", (0, 0, 0), (0, 0, 1)), ("top", (0, 0, 1), (0, 0, -1))]}
 
 
-def table(name, **values):
-    return f"[[{name}]]\n" + "".join(f"{key} = {text(value)}\n" for key, value in values.items() if value is not None)
+def table(header, /, **values):
+    return f"[[{header}]]\n" + "".join(f"{key} = {text(value)}\n" for key, value in values.items() if value is not None)
 
 
 def text(value):
-    return json.dumps(value) if isinstance(value, (str, list, bool)) else f"{value:.12g}"
+    return json.dumps(value) if isinstance(value, str | list | tuple | bool) else f"{value:.12g}"
 
 
 class Scene:
@@ -59,7 +61,7 @@ class Scene:
         self.stiffness = draw.choice([None, None, log_uniform(draw, 0.5, 10)])
         strength = self.strength or 0.003 * self.youngs
         self.pressure = strength * log_uniform(draw, 0.03, 2 if self.strength else 1)
-        self.passages = log_uniform(draw, 20, 1000)
+        self.passages = log_uniform(draw, 20, 300)
         self.rise = draw.choice([None, 0.5, 1])
         self.response = draw.choice([None, None, log_uniform(draw, 0.02, 2)])
         self.second = draw.choice([None, 0.5, 1, 1.5])
@@ -178,7 +180,8 @@ def errors(scene, folder):
 def judge(scene, code, message, folder):
     if code == 3:
         kind = "stop" if "tool_servo" in message or "mixed_control" in message else "limit"
-        return kind, message.strip().splitlines()[-1]
+        line = next(line for line in message.splitlines() if "the run failed" in line)
+        return kind, line[:200]
     if code != 0:
         return "BAD", f"exit code {code}: {message.strip()[-300:]}"
     quality = {row["name"]: row for row in json.loads((folder / "summary.json").read_text()).get("quality", [])}
@@ -196,8 +199,11 @@ def judge(scene, code, message, folder):
 def run(program, scene, place):
     file, folder = place / f"{scene.name}.toml", place / scene.name
     file.write_text(scene.text())
-    done = subprocess.run([program, "run", file, "-o", folder, "--overwrite", "--threads", "1", "--quiet"], capture_output=True,
-                          text=True, check=False)
+    try:
+        done = subprocess.run([program, "run", file, "-o", folder, "--overwrite", "--threads", "1", "--quiet"],
+                              capture_output=True, text=True, check=False, timeout=600)
+    except subprocess.TimeoutExpired:
+        return "slow", "it takes longer than ten minutes"
     return judge(scene, done.returncode, done.stderr, folder)
 
 
@@ -212,9 +218,9 @@ def main():
             outcome, reason = run(program, scene, place)
             counts[scene.kind, outcome] += 1
             print(f"{outcome:5} {number}: {scene.describe()}\n      {reason}", flush=True)
-    print(f"{'':5}" + "".join(f"{outcome:>7}" for outcome in ("hold", "tell", "stop", "limit", "BAD")))
+    print(f"{'':5}" + "".join(f"{outcome:>7}" for outcome in OUTCOMES))
     for kind in KINDS:
-        print(f"{kind:5}" + "".join(f"{counts[kind, outcome]:7}" for outcome in ("hold", "tell", "stop", "limit", "BAD")))
+        print(f"{kind:5}" + "".join(f"{counts[kind, outcome]:7}" for outcome in OUTCOMES))
     return 1 if any(counts[kind, "BAD"] for kind in KINDS) else 0
 
 
