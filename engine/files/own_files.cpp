@@ -85,17 +85,20 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, ignored));
 }
 
-// Whether a list was written by Pulvis: its first line tells. A full disk may have cut that short.
+// Whether a list was written by Pulvis: it has a line of it. A full disk may have cut its only line short.
 bool is_own_list(const fs::path& list) {
   std::uint64_t bytes = 0;
   if (!open_regular(list, bytes)) return false;
   std::ifstream stream(list);
-  std::string text;
-  std::getline(stream, text);
-  std::istringstream words(text);
-  const bool whole = !stream.eof();
-  const Line line = line_in(words);
-  return bytes == 0 || (is_state(line.state) && (words || !whole));
+  int lines = 0;
+  bool begins_like_one = false;
+  for (std::string text; std::getline(stream, text); ++lines) {
+    std::istringstream words(text);
+    const Line line = line_in(words);
+    begins_like_one = is_state(line.state);
+    if (words && begins_like_one) return true;
+  }
+  return lines == 0 || (lines == 1 && begins_like_one);
 }
 
 void require_own_list(const fs::path& list) {

@@ -351,10 +351,13 @@ TEST_F(CommandLine, RunGoneBadNamesTheCulpritAndKeepsWhatWasBefore) {
 }
 
 TEST_F(CommandLine, AQuietRunTellsWhichExpectationIsNotMet) {
+  const std::string expecting = (place / "expecting.toml").string();
+  std::ofstream(expecting) << text_of(scene("compaction/regular-25.toml"))
+                           << "[[expect]]\nseries = \"energy_balance_error\"\nbelow = 1e-300\n"
+                              "[[expect]]\nseries = \"energy_balance_error\"\nbelow = 1.0\n";
   for (const char* silent : {"--quiet", "--json"}) {
-    const Outcome end = short_run({silent, "--overwrite", "--set",
-                                   "expect=[{series=\"energy_balance_error\", below=1e-300}, "
-                                   "{series=\"energy_balance_error\", below=1.0}]"});
+    const Outcome end = pulvis(
+        with(with({"run", expecting, "-o", run.string()}, quick()), {silent, "--overwrite"}));
     EXPECT_EQ(end.code, 3) << end.err;
     EXPECT_THAT(end.err, HasSubstr("pulvis: expectation NOT met  energy_balance_error"));
     EXPECT_THAT(end.err, Not(HasSubstr("expectation met")));
