@@ -26,9 +26,9 @@ struct stage_control {
     Read<ToolForce> force;
   };
   Optional<Tools> tools;
-  struct Drives {
-    Read<ServoVelocity> velocity;
+  struct Drives {  // walls that are driven like a cell have the velocity alone
     Read<ToolServos> servos;
+    Read<ServoVelocity> velocity;
   };
   Optional<Drives> drives;
   Optional<Write<PeriodicCell>> cell;
