@@ -120,12 +120,9 @@ AfmSession::AfmSession(LoadedScene scene, int threads)
     // A second mesh in long double would take minutes.
     if (!report_.calibration->extended)
       report_.calibration->mesh_error = mesh_error(loaded_.scene, *report_.calibration, threads);
-    if (const auto& error = report_.calibration->mesh_error) {
-      const MeshVerdict verdict = judged(*error);
-      if (!verdict.warning.empty()) report_.warnings.push_back(verdict.warning);
-      end_.failure = verdict.failure;
-      if (!end_.failure.empty()) report_.calibration.reset();
-    }
+    if (const auto& error = report_.calibration->mesh_error)
+      if (const std::string warning = mesh_warning(*error); !warning.empty())
+        report_.warnings.push_back(warning);
   } catch (const RunFailure& bad) {
     end_.failure = bad.what();
   }

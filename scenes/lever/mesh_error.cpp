@@ -38,21 +38,16 @@ std::optional<MeshError> mesh_error(const Scene& scene, const Calibration& calib
                    share(calibration.longitudinal_stiffness, other.longitudinal_stiffness)};
 }
 
-MeshVerdict judged(const MeshError& error) {
+std::string mesh_warning(const MeshError& error) {
   const double most = std::max({error.normal, error.lateral, error.longitudinal});
-  if (!(most >= MeshVerdict::doubtful)) return {};
-  const std::string what = fmt::format(
-      "the mesh makes the lever too stiff by about {:.0f}% (k_n), {:.0f}% (k_l) and {:.0f}% (k_x)",
-      100 * error.normal, 100 * error.lateral, 100 * error.longitudinal);
-  if (most >= MeshVerdict::unusable)
-    return {{},
-            fmt::format(
-                "{}, allowed: < {:.0f}%; this is no stiffness of the lever: a longer or thinner "
-                "one, or smaller edges",
-                what, 100 * MeshVerdict::unusable)};
-  return {what + fmt::format(", usual: < {:.0f}%; smaller edges reduce it",
-                             100 * MeshVerdict::doubtful),
-          {}};
+  if (!(most >= doubtful_mesh)) return "";
+  return fmt::format(
+      "the mesh makes the lever too stiff by about {:.0f}% (k_n), {:.0f}% (k_l) and {:.0f}% (k_x), "
+      "usual: < {:.0f}%; {}",
+      100 * error.normal, 100 * error.lateral, 100 * error.longitudinal, 100 * doubtful_mesh,
+      most >= unusable_mesh
+          ? "this is no stiffness of the lever: a longer or thinner one, or smaller edges"
+          : "smaller edges reduce it");
 }
 
 }  // namespace pulvis

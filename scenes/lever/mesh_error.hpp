@@ -5,10 +5,10 @@
 //          2, so that the remaining error is 0.6 to 1.7 times that drop; docs/accuracy.md has converged references.
 //          A uniform mesh resolves neither the strips at the sides nor the rim of the foot, so that a coarser one is
 //          hardly stiffer: it is compared with the graded mesh instead
-// Judged    the largest of the three. From `doubtful` on it is a warning: more than careful calibrations of real levers
-//          disagree by (5 to 10%), and ten times that of any default mesh of a usual lever. From `unusable` on there is
-//          no stiffness: should the error fall no faster than the edge, it is then 100% itself, and more of the
-//          stiffness is the mesh's than the lever's.
+// Judged    the largest of the three. From `doubtful_mesh` on it is a warning: more than careful calibrations of real levers
+//          disagree by (5 to 10%), and ten times that of any default mesh of a usual lever. From `unusable_mesh` on the
+//          warning says that it is no stiffness of the lever: should the error fall no faster than the edge, it is then
+//          100% itself. The run goes on: locking elements may be what is looked at.
 #pragma once
 
 #include <optional>
@@ -22,10 +22,9 @@ namespace pulvis {
 std::optional<MeshError> mesh_error(const Scene& scene, const Calibration& calibration,
                                     int threads);
 
-struct MeshVerdict {
-  static constexpr double doubtful = 0.05, unusable = 0.6;  // -
-  std::string warning, failure;                             // one line each, or empty
-};
-MeshVerdict judged(const MeshError& error);
+inline constexpr double doubtful_mesh = 0.05, unusable_mesh = 0.6;  // -
+
+// One line; empty for a small error.
+std::string mesh_warning(const MeshError& error);
 
 }  // namespace pulvis
