@@ -112,10 +112,10 @@ std::string place_of_table(const std::string& word, const TableView& view,
                            const Language& language) {
   const std::string named = table_called(word, view, language);
   if (named.empty()) return "";
-  const bool at_top = named.find('.') == std::string::npos;
-  return fmt::format(": '{}' belongs {}, allowed there: {}{}", word,
-                     at_top ? "to the top level" : "into another table", named,
-                     at_top && named[1] != '[' ? ", or before the first [...] or [[...]]" : "");
+  if (named.find('.') != std::string::npos)
+    return fmt::format(": '{}' belongs into another table, as {}", word, named);
+  return fmt::format(": '{}' belongs to the top level, as {}{}", word, named,
+                     named[1] == '[' ? "" : " or before the first [...] or [[...]]");
 }
 
 std::string place_of_key(const std::string& word, const TableView& view, const Language& language) {

@@ -123,10 +123,9 @@ TEST(WrongDie, IsNotBlamedForMistakesElsewhere) {
               HasSubstr("partcle: unknown table, did you mean 'particle'?"));
   EXPECT_THAT(refusals("[[packing]]", "[packing]"),
               only("packing: wrong type, a table is given, allowed: [[packing]]"));
-  EXPECT_THAT(
-      refusals("[[packing]]", "[[particle.packing]]"),
-      only("particle[0].packing: unknown table: 'packing' belongs to the top level, allowed "
-           "there: [[packing]]"));
+  EXPECT_THAT(refusals("[[packing]]", "[[particle.packing]]"),
+              only("particle[0].packing: unknown table: 'packing' belongs to the top level, as "
+                   "[[packing]]"));
   EXPECT_THAT(refusals("columns", "colums"),
               HasSubstr("packing[0].colums: unknown key, did you mean 'columns'?"));
   EXPECT_THAT(refusals("diameter", "radius"), HasSubstr("particle[0].radius: "));

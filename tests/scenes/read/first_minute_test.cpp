@@ -40,10 +40,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "packing[0].seed: unknown key: 'seed' belongs to the top level, where every key is "
                 "written before the first [...] or [[...]]"},
         Mistake{"TopLevelTableBelowAHeader", "rows = 2", "rows = 2\ncontact.friction = 0.1",
-                "packing[0].contact: unknown table: 'contact' belongs to the top level, allowed "
-                "there: [contact], or before the first [...] or [[...]]"},
+                "packing[0].contact: unknown table: 'contact' belongs to the top level, as "
+                "[contact] or before the first [...] or [[...]]"},
         Mistake{"NestedHeader", "[[friction]]", "[[particle.friction]]",
-                "unknown table: 'friction' belongs to the top level, allowed there: [[friction]]"},
+                "unknown table: 'friction' belongs to the top level, as [[friction]]"},
         Mistake{"FrictionInAStage", "duration = \"1 ms\"", "duration = \"1 ms\"\nfriction = 0.2",
                 "stage[0].friction: unknown key: 'friction' belongs into [contact]"},
         Mistake{"DisplacementInAStage", "duration = \"1 ms\"",
