@@ -163,7 +163,8 @@ def errors(scene, folder):
     """Largest excess over the target, and largest error in the last tenth of a stage, relative to the target."""
     history, excess, off = history_of(folder), 0.0, 0.0
     for name, sign in scene.series():
-        force, before = sign * history[name], 0.0
+        force = sign * history[name]
+        before = force[0]  # contact curves may overlap at the start
         for number, target in enumerate(scene.targets()):
             begin = number * scene.duration()
             within = (history["time"] > begin) & (history["time"] <= begin + scene.duration() * (1 + 1e-9))
