@@ -199,6 +199,20 @@ TEST(SetupWarnings, SoftContactsAreToldWhereTheElasticResponseCounts) {
               ElementsAre(HasSubstr("keeps its state for other runs")));
 }
 
+// 12 to the power 1/(rings - 1).
+TEST(SetupWarnings, RingsThatAreGradedTooSteeplyAreTold) {
+  const auto of = [](const char* rings) {
+    const Scene scene = read_scene(
+        paths::source_dir() + "/scenes/basic/disc-platens.toml",
+        {"particle.disc.mesh.refinement=12", std::string("particle.disc.mesh.rings=") + rings});
+    return setup_warnings(scene, place_bodies(scene));
+  };
+  EXPECT_THAT(of("2"), ElementsAre(HasSubstr("each ring is 12 times as thick as the next")));
+  EXPECT_THAT(of("2"), ElementsAre(HasSubstr("rings >= 4")));
+  EXPECT_THAT(of("3"), ElementsAre(HasSubstr("3.46 times")));
+  EXPECT_THAT(of("4"), IsEmpty());
+}
+
 TEST(LeverWarnings, AreOfDimensionsThatNoLeverHas) {
   const auto of = [](std::vector<std::string> overrides) {
     return lever_warnings(afm_scene(beam_with_tip, overrides));
