@@ -30,6 +30,8 @@ void whole_or_nothing(const std::filesystem::path& folder, const std::function<v
   } catch (const ForeignFile&) {
     remove_own_below(folder, role::run);
     throw;
+  } catch (const RunFolderTaken&) {
+    throw;
   } catch (const OutputError& error) {
     remove_own_below(folder, role::run);
     throw OutputError(error.path(), error.operation(),

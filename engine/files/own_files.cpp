@@ -91,14 +91,14 @@ bool is_own_list(const fs::path& list) {
   if (!open_regular(list, bytes)) return false;
   std::ifstream stream(list);
   int lines = 0;
-  bool begins_like_one = false;
+  bool is_cut = false;
   for (std::string text; std::getline(stream, text); ++lines) {
     std::istringstream words(text);
     const Line line = line_in(words);
-    begins_like_one = is_state(line.state);
-    if (words && begins_like_one) return true;
+    if (words && is_state(line.state)) return true;
+    is_cut = is_state(line.state) && stream.eof();
   }
-  return lines == 0 || (lines == 1 && begins_like_one);
+  return lines == 0 || (lines == 1 && is_cut);
 }
 
 void require_own_list(const fs::path& list) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/portable_math.hpp"
 #include "scenes/checks/travel.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/spec/elastic_response.hpp"
@@ -117,7 +118,7 @@ std::vector<std::string> steep_ring_warnings(const Scene& scene) {
   for (const ParticleSpec& particle : scene.particles) {
     const auto* mesh = std::get_if<DiscMesh>(&particle.mesh);
     if (mesh == nullptr || mesh->rings < 2) continue;
-    const double ratio = std::pow(mesh->refinement, 1.0 / (mesh->rings - 1));
+    const double ratio = portable::pow(mesh->refinement, 1.0 / (mesh->rings - 1));
     if (ratio <= steepest) continue;
     lines.push_back(fmt::format(
         "particle '{}': with mesh.refinement = {:g} and mesh.rings = {}, each ring is {:.3g} times "
@@ -125,7 +126,8 @@ std::vector<std::string> steep_ring_warnings(const Scene& scene) {
         "{:g} "
         "times, i.e. rings >= {}",
         particle.name, mesh->refinement, mesh->rings, ratio, steepest,
-        1 + static_cast<int>(std::ceil(std::log(mesh->refinement) / std::log(steepest)))));
+        1 + static_cast<int>(
+                std::ceil(portable::log(mesh->refinement) / portable::log(steepest)))));
   }
   return lines;
 }

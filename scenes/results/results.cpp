@@ -8,6 +8,7 @@
 #include "components/bond.hpp"
 #include "components/contact.hpp"
 #include "components/space/contact.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/plane_parts.hpp"
 #include "scenes/space/results/space_parts.hpp"
@@ -93,7 +94,8 @@ double Results::load() const {
   if (world_.has_table<Tool>() && world_.column<ToolForce>().table.rows > 0)
     return largest_tool_force(world_);
   if (has("cell/stress_xx"))
-    return std::hypot(value("cell/stress_xx"), value("cell/stress_yy"), value("cell/stress_xy"));
+    return portable::hypot(portable::hypot(value("cell/stress_xx"), value("cell/stress_yy")),
+                           value("cell/stress_xy"));
   return std::sqrt(std::max(0.0, energies_.elastic + energies_.contact + energies_.bonds));
 }
 

@@ -356,8 +356,7 @@ TEST_F(CommandLine, AQuietRunTellsWhichExpectationIsNotMet) {
                            << "[[expect]]\nseries = \"energy_balance_error\"\nbelow = 1e-300\n"
                               "[[expect]]\nseries = \"energy_balance_error\"\nbelow = 1.0\n";
   for (const char* silent : {"--quiet", "--json"}) {
-    const Outcome end = pulvis(
-        with(with({"run", expecting, "-o", run.string()}, quick()), {silent, "--overwrite"}));
+    const Outcome end = pulvis(with({"run", expecting, "-o", run, silent, "--overwrite"}, quick()));
     EXPECT_EQ(end.code, 3) << end.err;
     EXPECT_THAT(end.err, HasSubstr("pulvis: expectation NOT met  energy_balance_error"));
     EXPECT_THAT(end.err, Not(HasSubstr("expectation met")));

@@ -158,7 +158,7 @@ TEST(Servo, KeepsTheLateralForceOfABiaxialTestOnABlock) {
     const double time = e.simulation.clock().time * 1e3;
     const bool first_yield = time > 0.1 && time < 0.4;
     double& worst = first_yield ? off_at_yield : off;
-    if (time > 0.06 && time < 0.8)  // then the punch comes to rest
+    if (time > 0.075 && time < 0.8)  // approached by then; at the end the punch comes to rest
       worst = std::max(worst, std::abs(e.value("tool/right/force_x") - 1000));
   });
   EXPECT_LT(off, 1.0);
