@@ -41,9 +41,8 @@ std::string with_path(const fs::path& file, int which, const fs::path& unfit) {
   });
   if (which >= number) return "";
   std::string text = scene_text(root, language);
-  const document::Entry* let =
-      document::find(root, "let");  // not part of the text of a complete scene
-  if (let == nullptr) return text;
+  const document::Entry* let = document::find(root, "let");  // not part of every complete text
+  if (let == nullptr || text.find("[let]") != std::string::npos) return text;
   text += "[let]\n";
   for (const document::Entry& variable : let->value.get<document::Table>())
     text += variable.key + " = " + document::value_text(variable.value) + "\n";
