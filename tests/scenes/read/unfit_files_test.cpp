@@ -40,11 +40,14 @@ std::string with_path(const fs::path& file, int which, const fs::path& unfit) {
     path = number++ == which ? unfit.string() + extension : (file.parent_path() / path).string();
   });
   if (which >= number) return "";
+  // Variables are not part of the text of a complete scene.
+  const document::Entry* let = document::find(root, "let");
+  const document::Table variables =
+      let == nullptr ? document::Table() : let->value.get<document::Table>();
+  std::erase_if(root, [](const document::Entry& entry) { return entry.key == "let"; });
   std::string text = scene_text(root, language);
-  const document::Entry* let = document::find(root, "let");  // not part of every complete text
-  if (let == nullptr || text.find("[let]") != std::string::npos) return text;
-  text += "[let]\n";
-  for (const document::Entry& variable : let->value.get<document::Table>())
+  if (!variables.empty()) text += "[let]\n";
+  for (const document::Entry& variable : variables)
     text += variable.key + " = " + document::value_text(variable.value) + "\n";
   return text;
 }
