@@ -73,15 +73,6 @@ double asked_for(const MixedControl& control, const Stage& stage, int part, doub
   return at_begin + share * (aim(control, stage, part) - at_begin);
 }
 
-// The stress that counts while the component is on its way, as work: N m.
-kernels::ServoAim aim_of(const MixedControl& control, const Stage& stage, int part, double volume) {
-  const double target = aim(control, stage, part) * volume;
-  const double scale =
-      std::max(largest_target(control, stage), std::abs(entry(control.servos, part).at_begin)) *
-      volume;
-  return {target, scale, std::min(stage.tolerance, kernels::reached) * scale};
-}
-
 // Rate of the component over the next step, 1/s.
 double driven_by_stress(const Stage& stage, int part, double volume,
                         const kernels::TouchSums& touching, const Clock& clock,
@@ -91,15 +82,11 @@ double driven_by_stress(const Stage& stage, int part, double volume,
   const double stress = entry(control.stress, part);
   const double missing = sides * (entry(control.asked, part) - stress) * volume;
   const double minimum = sides * kernels::min_tool_mass(touching, clock.dt, clock.safety);
-  const kernels::ServoPowder powder{stage.powder_mass, stage.wave};
-  servo.response = kernels::with_step(servo.response, stress * volume,
-                                      servo.speed * clock.dt_before, clock.dt_before, powder);
   const kernels::ServoState now = kernels::with_mass({servo.mass, servo.speed, servo.dragged},
                                                      std::max(sides * stage.mass, minimum));
   const double damping = sides * stage.damping * std::sqrt(now.mass / (sides * stage.mass));
-  const kernels::SpeedLimits limits =
-      kernels::speed_limits(servo.response, stress * volume, aim_of(control, stage, part, volume),
-                            now.mass / sides, 1e300, powder);
+  // Not limited on its way: the particles of a cell follow its motion without a momentum that could carry it on.
+  constexpr kernels::SpeedLimits limits{1e300, 1e300};
   const kernels::ServoState next =
       kernels::servo_step(now, missing, damping, limits, 0.5 * (clock.dt_before + clock.dt));
   servo.mass = next.mass;
