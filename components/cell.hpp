@@ -93,22 +93,19 @@ struct MixedControl {
     double rotation = 0;                 // rad, over the stage
     double mass = 0;                     // kg m^2, minimum for a servo
     double damping = 0;                  // N m s, of its dashpot at that mass
-    double wave = 0;         // N m s, work of a wave into a solid block, over strain rate
-    double powder_mass = 0;  // kg m^2
 
     bool holds_stress() const {
       return law[xx] != Law::strain || law[yy] != Law::strain || law[xy] != Law::strain;
     }
   };
-  struct Servo {             // of one stress-controlled component (systems/tools/servo_kernel.hpp)
-    double mass = 0;         // kg m^2
-    double speed = 0;        // 1/s
-    double dragged = 0;      // 1/s, of the mass coupled through the dashpot
-    double at_begin = 0;     // Pa, at the start of the stage
-    ServoResponse response;  // N m, -, N m
+  struct Servo {          // of one stress-controlled component (systems/tools/servo_kernel.hpp)
+    double mass = 0;      // kg m^2
+    double speed = 0;     // 1/s
+    double dragged = 0;   // 1/s, of the mass coupled through the dashpot
+    double at_begin = 0;  // Pa, at the start of the stage
     template <class Bytes>
     void state(Bytes& bytes) {
-      bytes(mass, speed, dragged, at_begin, response);
+      bytes(mass, speed, dragged, at_begin);
     }
   };
 

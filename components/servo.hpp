@@ -36,7 +36,7 @@ struct ServoForce : Component<Tool, double, 2> {
 };
 
 // How a powder has answered its servo of late: force and travel relative to themselves a lag ago, and the secant stiffness
-// between the two (systems/tools/servo_kernel.hpp). For a cell, force and travel are work and strain.
+// between the two (systems/tools/servo_kernel.hpp).
 struct ServoResponse {
   double force = 0;      // N, what it was
   double travel = 0;     // m, since then

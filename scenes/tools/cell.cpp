@@ -58,8 +58,6 @@ void tune(MixedControl::Stage& stage, double response, const Powder& powder, dou
   const double wave = powder.impedance * std::sqrt(area) * thickness;
   stage.mass = share * powder.mass * area;
   stage.damping = 0.5 * std::sqrt(kernels::dragged_mass * share) * wave * area;
-  stage.wave = wave * area;
-  stage.powder_mass = powder.mass * area;
 }
 
 MixedControl control_of(const Scene& scene, const std::vector<BodySpec>& bodies, double area) {

@@ -91,8 +91,6 @@ inline ServoState servo_step(const ServoState& s, double missing, double damping
 // R = 3 sqrt(K m). m: of the tool and all of the powder m_p, which may fly freely before it is pressed. K: the highest secant
 // of force over travel of late. A powder stiffens as it is pressed: K sqrt(F_set/F) is expected at F_set, up to Z^2/m_p of a
 // solid block, where Z is the force of a wave into it over the wave's speed. Before the powder resists, V <= 2 F_set/Z.
-// (With 1, 2 and 4 in place of the factors 2 and 3, K F_set/F and K in place of K sqrt(F_set/F), and a third of m_p, more
-// columns of 480 passed their force, or more were late: docs/stability.md.)
 
 // What the powder can do, from its materials and its size.
 struct ServoPowder {
