@@ -1,5 +1,6 @@
 #include "scenes/records/lab_compression.hpp"
 
+#include "engine/portable_math.hpp"
 #include "scenes/language/csv_table.hpp"
 #include "scenes/records/lab_simulation.hpp"
 #include "scenes/results/density_fit_errors.hpp"
@@ -41,6 +42,13 @@ std::vector<Change> changes_of(const CurveSpec& spec, const Settings& settings,
     for (double& c : change.machine.coefficients) c *= 1 + error;
     changes.push_back(change);
   }
+  for (const Compliance::Error& error : machine.errors) {
+    Change change{"empty press", spec, machine};
+    *change.machine.meeting += error.meeting;
+    for (std::size_t k = 0; k < error.coefficients.size(); ++k)
+      change.machine.coefficients[k] += error.coefficients[k];
+    changes.push_back(change);
+  }
   return changes;
 }
 
@@ -59,6 +67,15 @@ double change_of(const DensityFit& changed, const DensityFit& fit, std::size_t p
   const double value = fit.parameters[parameter].value;
   if (changed.parameters.size() != fit.parameters.size()) return std::abs(value);
   return std::abs(changed.parameters[parameter].value - value);
+}
+
+// In quadrature with what the same source has contributed so far.
+void add_contribution(Measured& to, const std::string& source, double error) {
+  const auto same = std::ranges::find(to.contributions, source, &Contribution::source);
+  if (same == to.contributions.end())
+    to.contributions.push_back({source, error});
+  else
+    same->error = portable::hypot(same->error, error);
 }
 
 std::vector<LawFit> laws_of(const FitRange& range) {
@@ -109,8 +126,8 @@ ReducedCurve reduce_curve(const PressRecord& record, const CurveSpec& spec,
     const std::vector<DensityFit> fits = fit_all(range_of(curve, spec, c));
     for (std::size_t l = 0; l < fits.size(); ++l)
       for (std::size_t i = 0; i < reduced.laws[l].parameters.size(); ++i)
-        reduced.laws[l].parameters[i].contributions.push_back(
-            {change.source, change_of(fits[l], reduced.laws[l].fit, i)});
+        add_contribution(reduced.laws[l].parameters[i], change.source,
+                         change_of(fits[l], reduced.laws[l].fit, i));
   }
   return reduced;
 }

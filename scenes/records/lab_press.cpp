@@ -47,6 +47,24 @@ void check_single(const PressRecord& record, std::size_t begin, std::size_t peak
                        fewest_loading));
 }
 
+// Coefficients of F, F^2, ... from those of (F/scale)^k.
+std::vector<double> per_force(const Eigen::VectorXd& c, double scale) {
+  std::vector<double> coefficients;
+  double unit = 1;
+  for (Eigen::Index k = 1; k < c.size(); ++k) coefficients.push_back(c[k] / (unit *= scale));
+  return coefficients;
+}
+
+// Columns: one standard uncertainty of the least-squares fit each, independent of one another.
+Eigen::MatrixXd independent_errors(const Eigen::MatrixXd& powers,
+                                   const Eigen::VectorXd& residuals) {
+  const double r = neighbour_correlation(residuals);
+  const double variance =
+      residuals.squaredNorm() / static_cast<double>(powers.rows() - powers.cols());
+  const Eigen::MatrixXd inverse = (powers.transpose() * powers).inverse();
+  return std::sqrt(variance * (1 + r) / (1 - r)) * Eigen::MatrixXd(inverse.llt().matrixL());
+}
+
 }  // namespace
 
 double DieSpec::area() const {
@@ -77,20 +95,22 @@ Compliance compliance_of(const PressRecord& empty, const CompressionSpec& spec) 
     for (Eigen::Index k = 1; k < terms; ++k)
       powers(i, k) = powers(i, k - 1) * empty.force[at] / scale;
   }
-  const Eigen::VectorXd c = least_squares(powers, u);
+  const Eigen::VectorXd c = least_squares(powers, u), residuals = u - powers * c;
   Compliance found;
   found.meeting = c[0];
-  double unit = 1;
-  for (Eigen::Index k = 1; k < terms; ++k) found.coefficients.push_back(c[k] / (unit *= scale));
+  found.coefficients = per_force(c, scale);
   found.largest_force = scale;
-  found.rms = std::sqrt((powers * c - u).squaredNorm() / static_cast<double>(n));
+  found.rms = std::sqrt(residuals.squaredNorm() / static_cast<double>(n));
   found.samples = static_cast<std::size_t>(n);
+  const Eigen::MatrixXd errors = independent_errors(powers, residuals);
+  for (Eigen::Index k = 0; k < terms; ++k)
+    found.errors.push_back({errors(0, k), per_force(errors.col(k), scale)});
   return found;
 }
 
 Compliance machine_of(const Settings& settings) {
   const CompressionSpec& spec = settings.compression;
-  if (spec.empty.empty()) return {spec.compliance, {}, 0, 0, 0};
+  if (spec.empty.empty()) return {spec.compliance, {}, 0, 0, 0, {}};
   return compliance_of(read_press(settings.file.parent_path() / spec.empty, settings), spec);
 }
 

@@ -8,6 +8,8 @@
 //          displacement u_0 at which the punches meet
 // u_0      one of three: the height at zero displacement, that of the unloaded compact at the end of the record, or that
 //          of the empty press, if both records measure displacement from the same zero
+// Errors   of u_0 and g of the empty press: covariance of the fitted polynomial, s^2 (X'X)^-1 = L L'; the columns of L are
+//          independent. Correlated neighbouring residuals count as fewer (scenes/solve/least_squares.hpp)
 // Loading  from where the force exceeds compression.contact of its maximum, up to that; unloading from there on
 #pragma once
 
@@ -25,6 +27,12 @@ struct Compliance {                  // g(F) = c[0] F + c[1] F^2 + ...
   double largest_force = 0;          // N, of the record; 0: coefficients given, no limit
   double rms = 0;                    // m, residual of the record about the polynomial
   std::size_t samples = 0;
+  // Of a record: changes of u_0 and c by one standard uncertainty, in directions in which the errors are independent.
+  struct Error {
+    double meeting = 0;                // m
+    std::vector<double> coefficients;  // as above
+  };
+  std::vector<Error> errors = {};
 
   double at(double force) const;
 };

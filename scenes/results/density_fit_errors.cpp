@@ -1,7 +1,6 @@
 #include "scenes/results/density_fit_errors.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -55,13 +54,6 @@ Eigen::MatrixXd derivatives(const Law& law, const Parameters& at, const FitRange
           (2 * step);
   }
   return j;
-}
-
-double neighbour_correlation(const Eigen::VectorXd& e) {
-  const Eigen::Index n = e.size();
-  const double squares = e.squaredNorm();
-  if (!(squares > 0)) return 0;
-  return std::clamp(e.head(n - 1).dot(e.tail(n - 1)) / squares, 0.0, 0.99);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "scenes/solve/least_squares.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <unsupported/Eigen/NumericalDiff>
 
@@ -29,6 +30,13 @@ Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::Ve
 }
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
   return a.completeOrthogonalDecomposition().pseudoInverse();
+}
+
+double neighbour_correlation(const Eigen::VectorXd& residuals) {
+  const Eigen::Index n = residuals.size();
+  const double squares = residuals.squaredNorm();
+  if (!(squares > 0)) return 0;
+  return std::clamp(residuals.head(n - 1).dot(residuals.tail(n - 1)) / squares, 0.0, 0.99);
 }
 
 void levenberg_marquardt(const Residuals& residuals, Eigen::Index count, const SearchLimits& limits,

@@ -15,6 +15,10 @@ Eigen::Index rank_of(const Eigen::MatrixXd& a);
 Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
+// Correlation of neighbouring residuals, between 0 and 0.99. n residuals with the correlation r count as n (1 - r)/(1 + r)
+// independent ones.
+double neighbour_correlation(const Eigen::VectorXd& residuals);
+
 // Writes as many residuals as the vector has.
 using Residuals = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& residuals)>;
 
