@@ -35,16 +35,19 @@ struct ServoForce : Component<Tool, double, 2> {
       "the tool bore when its stage began"};
 };
 
-// How a powder has answered its servo of late: force and travel relative to themselves a lag ago, and the secant stiffness
-// between the two (systems/tools/servo_kernel.hpp).
+// How a powder has answered its servo of late: force and travel relative to themselves a lag ago, and the slope of the one
+// over the other by least squares (systems/tools/servo_kernel.hpp).
 struct ServoResponse {
-  double force = 0;      // N, what it was
-  double travel = 0;     // m, since then
-  double stiffness = 0;  // N/m, highest secant of late
+  double force = 0;    // N, what it was
+  double travel = 0;   // m, since then
+  double product = 0;  // N m, mean of rise in force times travel
+  double square = 0;   // m^2, mean of travel squared
+
+  double stiffness() const { return product > 0 ? product / square : 0; }  // N/m
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(force, travel, stiffness);
+    bytes(force, travel, product, square);
   }
 };
 

@@ -87,10 +87,11 @@ inline ServoState servo_step(const ServoState& s, double missing, double damping
 
 // ---- the approach to its force ----------------------------------------------------------------------------
 // A powder keeps what it was pressed by: the force may not pass F_set on its way up. On a spring K and a mass m, a
-// tool of the speed V = (F_set - F)/R reaches F_set without passing it if R >= 2 sqrt(K m) (critical damping); here
-// R = 3 sqrt(K m). m: of the tool and all of the powder m_p, which may fly freely before it is pressed. K: the highest secant
-// of force over travel of late. A powder stiffens as it is pressed: K sqrt(F_set/F) is expected at F_set, up to Z^2/m_p of a
-// solid block, where Z is the force of a wave into it over the wave's speed. Before the powder resists, V <= 2 F_set/Z.
+// tool of the speed V = (F_set - F)/R reaches F_set without passing it if R >= 2 sqrt(K m), its critical damping; here
+// R = 2 sqrt(K m). m: of the tool and all of the powder m_p, which may fly freely before it is pressed. K: the slope of
+// force over travel of late, by least squares, so that waves and contacts that come and go do not count as stiffness. A powder
+// stiffens as it is pressed: K sqrt(F_set/F) is expected at F_set, up to Z^2/m_p of a solid block, where Z is the force of a
+// wave into it over the wave's speed. Before the powder resists, V <= 2 F_set/Z.
 
 // What the powder can do, from its materials and its size.
 struct ServoPowder {
@@ -109,11 +110,9 @@ inline ServoResponse with_step(const ServoResponse& r, double force, double move
   const double share = std::min(1.0, dt * powder.wave / (passages * powder.mass));
   const double lagging = r.force + share * (force - r.force);
   const double travel = (1 - share) * (r.travel + moved);
-  const double rise = force - lagging;
-  const bool resists = rise != 0 && rise * travel >= 0;
-  const double secant =
-      resists ? std::min(powder.stiffest(), std::abs(rise) / std::abs(travel)) : 0;
-  return {lagging, travel, std::max(secant, (1 - share) * r.stiffness)};
+  const auto mean = [&](double before, double now) { return before + share * (now - before); };
+  return {lagging, travel, mean(r.product, (force - lagging) * travel),
+          mean(r.square, travel * travel)};
 }
 
 // Where a servo is to arrive, N.
@@ -128,8 +127,8 @@ inline double approach_speed(const ServoResponse& r, double left, const ServoAim
                              double tool_mass, const ServoPowder& powder) {
   const double target = std::abs(aim.target), force = std::max(target - left, aim.near);
   const double ahead =
-      std::min(powder.stiffest(), r.stiffness * std::sqrt(std::max(1.0, target / force)));
-  const double resistance = 3 * std::sqrt(ahead * (powder.mass + tool_mass));
+      std::min(powder.stiffest(), r.stiffness() * std::sqrt(std::max(1.0, target / force)));
+  const double resistance = 2 * std::sqrt(ahead * (powder.mass + tool_mass));
   const double unresisted = 2 * aim.scale / powder.wave;
   return resistance > 0 ? std::min(unresisted, left / resistance) : unresisted;
 }

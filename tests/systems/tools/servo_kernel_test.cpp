@@ -263,15 +263,15 @@ TEST(Servo, ApproachesFasterTheSofterThePowder) {
   const ServoPowder powder{1, 10};
   const ServoAim push{100, 100, 5}, pull{-100, 100, 5};
   const auto forward = [&](double stiffness, double force) {
-    return speed_limits({0, 0, stiffness}, force, push, 0.1, 1e300, powder).forward;
+    return speed_limits({0, 0, stiffness, 1}, force, push, 0.1, 1e300, powder).forward;
   };
   EXPECT_DOUBLE_EQ(forward(0, 0), 2 * 100 / 10.0);
   EXPECT_GT(forward(1, 50), forward(4, 50));
   EXPECT_DOUBLE_EQ(forward(1, 50), 2 * forward(4, 50));
-  EXPECT_DOUBLE_EQ(forward(1e9, 50), 50 / (3 * std::sqrt(powder.stiffest() * 1.1)));
+  EXPECT_DOUBLE_EQ(forward(1e9, 50), 50 / (2 * std::sqrt(powder.stiffest() * 1.1)));
   EXPECT_EQ(forward(1e9, 96), 1e300);
-  EXPECT_EQ(speed_limits({0, 0, 1}, 50, push, 0.1, 1e300, powder).backward, 1e300);
-  EXPECT_DOUBLE_EQ(speed_limits({0, 0, 1}, -50, pull, 0.1, 1e300, powder).backward, forward(1, 50));
+  EXPECT_EQ(speed_limits({0, 0, 1, 1}, 50, push, 0.1, 1e300, powder).backward, 1e300);
+  EXPECT_DOUBLE_EQ(speed_limits({0, 0, 1, 1}, -50, pull, 0.1, 1e300, powder).backward, forward(1, 50));
 }
 
 // ---- its parts ------------------------------------------------------------------------------------------
