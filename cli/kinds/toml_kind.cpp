@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/campaigns/fit/declare_fit.hpp"
+#include "cli/campaigns/probe/declare_probe.hpp"
+#include "cli/campaigns/study/declare_study.hpp"
+#include "cli/laboratory/lab_settings.hpp"
 #include "engine/printable.hpp"
-#include "scenes/fit/declare_fit.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/problem.hpp"
-#include "scenes/probe/declare_probe.hpp"
 #include "scenes/read.hpp"
-#include "scenes/records/lab_settings.hpp"
-#include "scenes/study/declare_study.hpp"
 
 namespace pulvis {
 namespace {

@@ -4,7 +4,7 @@
 // with holds between them. It counts once the tip is released. Pull-off is
 // the largest tensile force; its work is the area below zero force of F against the scanner's travel. It therefore
 // includes the energy stored in the lever, (pull-off)^2/(2 k_n) for a stiff contact, and equals that of a measured
-// curve (scenes/volts/force_curve.hpp). The work of adhesion follows from the pull-off by the contact law:
+// curve (cli/laboratory/volts/force_curve.hpp). The work of adhesion follows from the pull-off by the contact law:
 // Both include the subdivisions of an increment, which locate the release to 0.05% of the pull-off force.
 //   DMT  F = 2 pi w R,  sharp tips by their rounding        JKR  F = 3/2 pi w R
 #pragma once

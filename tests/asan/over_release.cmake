@@ -8,10 +8,12 @@ add_borrowed_tests(memory asan systems ${PULVIS_PROGRAMS_OF}/tests/test_systems
                    --gtest_filter=BroadPhase.*:Contact.*:SpaceFriction.*:SpaceDamping*)
 
 include(${CMAKE_SOURCE_DIR}/scenes/readers.cmake)
+list(APPEND readers ${record_readers})
 list(TRANSFORM readers PREPEND "${CMAKE_SOURCE_DIR}/")
 # These objects precede the archive, which then provides only the rest.
 add_executable(replay_over_release fuzz/replay.cpp fuzz/targets.cpp ${readers})
-target_link_libraries(replay_over_release PRIVATE ${PULVIS_PROGRAMS_OF}/scenes/libpulvis_scenes.a pulvis_core
+target_link_libraries(replay_over_release PRIVATE ${PULVIS_PROGRAMS_OF}/cli/libpulvis_cli.a
+                      ${PULVIS_PROGRAMS_OF}/scenes/libpulvis_scenes.a pulvis_core
                       PkgConfig::tomlplusplus fcl nlohmann_json::nlohmann_json pugixml::pugixml ${UDUNITS2} ${RE2})
 precompile(replay_over_release)
 add_test(NAME memory.readers COMMAND replay_over_release ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus)

@@ -70,33 +70,30 @@ ROOMS = {
         "space/results": "space/tools space/meshes results/parts tools spec language",
         "space": "space/keys space/meshes space/packing space/results space/tools checks keys packing results tools ranks spec language",
         "": "checks ranks space space/keys space/packing grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
-        "volts": "solve wedge lever keys outlines spec language",
-        "records": "solve wedge lever volts keys results spec language /",
-        "study": "checks let results tools keys space/keys spec language /",
-        "probe": "records solve keys spec language /",
-        "fit": "records solve keys lever outlines packing spec language /",
     },
     "cli": {
         "report": "",
         "slurm": "/",
-        "study": "report slurm /",
-        "probe": "report study /",
-        "volts": "report /",
-        "lab": "report volts /",
-        "fit": "lab report study /",
-        "kinds": "",
+        "laboratory/volts": "/",
+        "laboratory": "laboratory/volts /",
+        "laboratory/output": "laboratory laboratory/volts report /",
+        "campaigns/study/analysis": "",
+        "campaigns/study": "campaigns/study/analysis report slurm /",
+        "campaigns/probe": "campaigns/study laboratory report /",
+        "campaigns/fit": "campaigns/study laboratory/output laboratory report /",
+        "kinds": "campaigns/study campaigns/probe campaigns/fit laboratory",
         "python_scripts": "report /",
         "preview": "python_scripts /",
         "ranks": "/",
         "mpi": "ranks /",
         "session": "ranks report /",
         "python/module": "session report /",
-        "": "python_scripts report volts",
+        "": "python_scripts report laboratory/output",
     },
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
 # Sources of one kind that a header of another name declares.
-PARTS = ("engine/files/hdf5_change", "engine/files/hdf5_checksum", "scenes/keys/declare_", "scenes/space/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_",
+PARTS = ("engine/files/hdf5_change", "engine/files/hdf5_checksum", "scenes/keys/declare_", "scenes/space/keys/declare_", "cli/laboratory/declare_", "scenes/meshes/mesh_",
          "cli/python/module/bind_")
 MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "cli/lab/lab_output.hpp"
-#include "scenes/fit/plate_comparison.hpp"
+#include "cli/campaigns/fit/plate_comparison.hpp"
+#include "cli/laboratory/output/lab_output.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/program.hpp"
 #include "tests/helpers/wrong.hpp"

@@ -11,6 +11,11 @@
 #include <memory>
 #include <string>
 
+#include "cli/campaigns/study/study_read.hpp"
+#include "cli/laboratory/lab_record.hpp"
+#include "cli/laboratory/lab_settings.hpp"
+#include "cli/laboratory/volts/volts_records.hpp"
+#include "cli/laboratory/wedge_records.hpp"
 #include "components/bond.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
@@ -25,12 +30,7 @@
 #include "scenes/packing/packing_file.hpp"
 #include "scenes/packing/size_law.hpp"
 #include "scenes/read.hpp"
-#include "scenes/records/lab_record.hpp"
-#include "scenes/records/lab_settings.hpp"
-#include "scenes/records/wedge_records.hpp"
-#include "scenes/study/study_read.hpp"
 #include "scenes/tools/profile_file.hpp"
-#include "scenes/volts/volts_records.hpp"
 
 namespace pulvis::fuzz {
 namespace {

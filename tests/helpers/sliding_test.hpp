@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "scenes/records/lab_friction.hpp"
-#include "scenes/records/lab_reduction.hpp"
+#include "cli/laboratory/lab_friction.hpp"
+#include "cli/laboratory/lab_reduction.hpp"
 
 namespace pulvis::lab {
 

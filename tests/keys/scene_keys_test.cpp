@@ -8,7 +8,9 @@
 #include <set>
 #include <sstream>
 
-#include "cli/study/saved_settings.hpp"
+#include "cli/campaigns/study/declare_study.hpp"
+#include "cli/campaigns/study/saved_settings.hpp"
+#include "cli/campaigns/study/study_read.hpp"
 #include "engine/files/checkpoint.hpp"
 #include "engine/files/own_files.hpp"
 #include "plan_checks.hpp"
@@ -24,8 +26,6 @@
 #include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/afm_scene.hpp"
-#include "scenes/study/declare_study.hpp"
-#include "scenes/study/study_read.hpp"
 #include "tests/helpers/left.hpp"
 #include "tests/helpers/paths.hpp"
 

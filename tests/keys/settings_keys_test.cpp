@@ -1,11 +1,11 @@
 // Every key of the settings of `reduce`: what it keeps of them does the same again.
-#include "cli/lab/compression_output.hpp"
-#include "cli/lab/die_output.hpp"
-#include "cli/volts/volts_files.hpp"
-#include "cli/wedge_files.hpp"
+#include "cli/laboratory/lab_reduction.hpp"
+#include "cli/laboratory/lab_settings.hpp"
+#include "cli/laboratory/output/compression_output.hpp"
+#include "cli/laboratory/output/die_output.hpp"
+#include "cli/laboratory/output/volts_files.hpp"
+#include "cli/laboratory/output/wedge_files.hpp"
 #include "plan_checks.hpp"
-#include "scenes/records/lab_reduction.hpp"
-#include "scenes/records/lab_settings.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/program.hpp"
 

@@ -1,9 +1,9 @@
 // Every key of the study language is read and checked as a study's.
 #include <unistd.h>
 
+#include "cli/campaigns/study/declare_study.hpp"
+#include "cli/campaigns/study/study_read.hpp"
 #include "plan_checks.hpp"
-#include "scenes/study/declare_study.hpp"
-#include "scenes/study/study_read.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/program.hpp"
 

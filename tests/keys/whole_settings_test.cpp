@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "cli/study/saved_settings.hpp"
+#include "cli/campaigns/fit/declare_fit.hpp"
+#include "cli/campaigns/probe/declare_probe.hpp"
+#include "cli/campaigns/study/declare_study.hpp"
+#include "cli/campaigns/study/saved_settings.hpp"
 #include "engine/files/own_files.hpp"
-#include "scenes/fit/declare_fit.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/document.hpp"
 #include "scenes/language/named_files.hpp"
-#include "scenes/probe/declare_probe.hpp"
-#include "scenes/study/declare_study.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/program.hpp"
 

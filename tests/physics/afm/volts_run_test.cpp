@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/laboratory/lab_settings.hpp"
+#include "cli/laboratory/volts/volts_reduction.hpp"
 #include "scenes/lever/afm_loop.hpp"
-#include "scenes/records/lab_settings.hpp"
-#include "scenes/volts/volts_reduction.hpp"
 #include "tests/helpers/afm_run.hpp"
 
 namespace pulvis {

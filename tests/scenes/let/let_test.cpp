@@ -6,8 +6,8 @@
 #include <ctime>
 #include <fstream>
 
-#include "scenes/study/study_power.hpp"
-#include "scenes/study/study_read.hpp"
+#include "cli/campaigns/study/analysis/study_power.hpp"
+#include "cli/campaigns/study/study_read.hpp"
 #include "tests/helpers/program.hpp"
 #include "tests/helpers/right_scene.hpp"
 
