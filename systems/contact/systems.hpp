@@ -139,13 +139,13 @@ struct contact_force {
   Optional<Pairs> pairs;
   Optional<TouchingRows<ToolContact>> tools;
   Write<CurveForce> curve_force;
-  Write<ContactForce> node_force;
+  Write<ContactForce<TwoD>> node_force;
   void operator()(Chunk chunk) const;
 };
 
 struct contact_curve {
   Read<Bodies> bodies;
-  Motion motion;
+  Motion<TwoD> motion;
   Write<CurvePosition> position;
   Optional<Write<CurveVelocity>> velocity;
   Write<MaximumSpeed> speed;
@@ -260,7 +260,7 @@ struct lost_bodies {
 struct outline_health {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Optional<Read<ContactRules>> rules;
   Optional<Read<Hollows>> hollows;
   void operator()() const;

@@ -16,7 +16,7 @@ kernels::TouchSums touching_of(Row<At> row, const TouchingRows<At>& rows,
   using Law = ContactLaw<At>;
   kernels::TouchSums sums;
   const double kappa = law(row, Law::stiffness);
-  const double g_s = kernels::stiffening_depth / law(row, Law::inv_length);
+  const double g_s = kernels::stiffening_depth / law(row, Law::inv_size);
   for (int g = 0; g < edge_points; ++g) {
     const double weight = law(row, Law::weight + g);
     const double x = rows.force(row, 2 * g), y = rows.force(row, 2 * g + 1);

@@ -134,8 +134,8 @@ struct apply_constraints {
     Read<ConstraintOrigin> origin;
   } constraints;
   Read<Density> density;
-  Motion motion;
-  NodalForces<Write> forces;
+  Motion<TwoD> motion;
+  NodalForces<Write, TwoD> forces;
   Write<ConstraintReaction> reaction;
   void operator()(Chunk chunk) const;
 };

@@ -97,7 +97,7 @@ Packet power(const Shape& shape, const Forces& force, const Velocities& v) {
 template <class F>
 [[gnu::flatten]] void damping_force<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   // The first force acts for half a step (systems/space/body/integrate.cpp).
   const double start = clock->step == 1 ? 0.5 : 1.0;
   for (int part = 0; part < parts_of_a_lane; ++part) {

@@ -37,7 +37,7 @@ Lane volumetric_energies(Lane bulk, Lane theta) {
 }  // namespace
 
 void kinetic_energy::operator()(Chunk chunk) const {
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   const auto f = forces.internal.chunk(chunk);
   const auto v = velocity.chunk(chunk);
   const Lane rho = density.chunk(chunk)(Row<Particle>());
@@ -59,7 +59,7 @@ void kinetic_energy::operator()(Chunk chunk) const {
 template <class F>
 [[gnu::flatten]] void elastic_energy<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   const auto nodes = position.chunk(chunk);
   const Lane shear = elastic.shear.chunk(chunk)(particle), k = elastic.bulk.chunk(chunk)(particle);
   Lane total{};
@@ -87,7 +87,7 @@ template struct elastic_energy<EightPoint>;
 template <class F>
 void plastic_work<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   const auto strain = eps.chunk(chunk);
   Lane total{};
   const auto add = [&](const auto& law) {
@@ -99,7 +99,7 @@ void plastic_work<F>::operator()(Chunk chunk) const {
   const Lane yield = min(flow.yield_stress.chunk(chunk)(particle), 1e300);
   const pulvis::kernels::LinearHardening<Lane> linear{yield, flow.hardening.chunk(chunk)(particle)};
   if (flow.laws)
-    with_hardening((*flow.laws)->of_chunk(*meshes.bodies, chunk), linear, add);
+    with_hardening((*flow.laws)->of_chunk(*bodies.bodies, chunk), linear, add);
   else
     add(linear);
   total += beyond.chunk(chunk)(particle);
@@ -112,7 +112,7 @@ template struct plastic_work<EightPoint>;
 
 [[gnu::flatten]] void hourglass_energy::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   const auto nodes = position.chunk(chunk);
   const Lane mu = elastic.shear.chunk(chunk)(particle);
   const auto moduli = kernels::hourglass_moduli(mu, elastic.bulk.chunk(chunk)(particle));

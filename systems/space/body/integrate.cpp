@@ -11,7 +11,7 @@
 namespace pulvis::space {
 
 [[gnu::flatten]] void integrate::operator()(Chunk chunk) const {
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   const auto f = forces.internal.chunk(chunk);
   const auto v = velocity.chunk(chunk);
   const auto x = position.chunk(chunk);

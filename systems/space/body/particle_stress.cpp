@@ -69,7 +69,7 @@ void add_element(const Shape& shape, int i, const Nodes& x, const Deviators& s, 
 template <class F>
 void particle_stress<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   Sums sums;
   for (int i = 0; i < shape.elements(); ++i)
     add_element<F>(shape, i, position.chunk(chunk), element.deviator.chunk(chunk),

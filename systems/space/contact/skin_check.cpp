@@ -122,7 +122,7 @@ void skin_check::operator()() const {
     const Remaining remaining{*bodies.bodies, *index, motion};
     tell_border(border, *bodies.bodies);
     tbb::parallel_for(std::size_t{0}, present.size(), [&](std::size_t i) {
-      const std::ptrdiff_t first = bodies.surface(present[i]);
+      const std::ptrdiff_t first = bodies.outline_begin(present[i]);
       entry(motion, present[i]) =
           motion_of(before.values().data() + first, position.values().data() + first,
                     bodies.shape_of(present[i]).surface_points());
@@ -142,7 +142,7 @@ void skin_check::operator()() const {
   index->look_at = clock->travel + index->skin;
   index->bins += 1;
   for (const int slot : bodies.bodies->own_slots) {
-    const auto first = static_cast<std::size_t>(bodies.surface(slot));
+    const auto first = static_cast<std::size_t>(bodies.outline_begin(slot));
     const auto count = 3 * static_cast<std::size_t>(bodies.shape_of(slot).surface_points());
     std::ranges::copy(position.values().subspan(first, count),
                       before.values().begin() + static_cast<std::ptrdiff_t>(first));

@@ -16,7 +16,7 @@ struct ToolTriangles {
 };
 
 struct tool_contact {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<Clock> clock;
   ContactFaces faces;
   struct Columns {
@@ -25,8 +25,8 @@ struct tool_contact {
     Write<ContactTouches<FaceToolContact>> touches;
     Write<Activation<FaceToolContact>> activation;
     Read<ContactLaw<FaceToolContact>> law;
-    Write<PointForce> force;
-    Optional<Write<ElasticSlip>> slip;                     // only with friction
+    Write<PointForce<FaceToolContact>> force;
+    Optional<Write<ElasticSlip<FaceToolContact>>> slip;    // only with friction
     Optional<Write<SlipWeakening<FaceToolContact>>> lost;  // of friction that is not just Coulomb's
   };
   Columns columns;
@@ -48,7 +48,7 @@ struct tool_contact {
 };
 
 struct initial_tool_bonds {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<SurfacePosition> position;
   ToolSurfaces tools;
   Optional<ToolTriangles> triangles;
@@ -61,7 +61,7 @@ struct initial_tool_bonds {
 
 struct tool_reaction {
   Read<Clock> clock;
-  TouchingRows contacts;
+  TouchingRows<FaceToolContact> contacts;
   Read<ToolVelocity> velocity;
   Write<ToolForce> tool_force;
   Write<Totals> totals;
@@ -71,8 +71,8 @@ struct tool_reaction {
 
 struct tool_servo {
   Servos servos;
-  ShapedBodies bodies;
-  TouchingRows rows;
+  ShapedBodies<ThreeD> bodies;
+  TouchingRows<FaceToolContact> rows;
   Read<ContactLaw<FaceToolContact>> law;
   Link link;
   void operator()() const;

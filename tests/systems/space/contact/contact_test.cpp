@@ -133,7 +133,7 @@ TEST(SpaceContact, SameBitsForAnyNumberOfThreads) {
       w.update();
       w.update(false);
     });
-    const auto& column = w.world.column<ContactForce>();
+    const auto& column = w.world.column<ContactForce<ThreeD>>();
     forces.emplace_back(reinterpret_cast<const double*>(column.data()),
                         reinterpret_cast<const double*>(column.data() + column.bytes()));
     forces.back().push_back(w.energy());

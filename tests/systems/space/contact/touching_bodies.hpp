@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "components/body.hpp"
-#include "components/space/body.hpp"
 #include "components/space/contact.hpp"
 #include "engine/system.hpp"
 #include "scenes/space/contact_columns.hpp"
@@ -56,8 +55,8 @@ class TouchingBodies {
     return world.resource<Shapes>().list[particle];
   }
   int surface_nodes(int body) const { return shape(body).surface_nodes; }
-  double& node(int body, int number, int k) { return at<Position>(body, number, k); }
-  double& velocity(int body, int number, int k) { return at<Velocity>(body, number, k); }
+  double& node(int body, int number, int k) { return at<Position<ThreeD>>(body, number, k); }
+  double& velocity(int body, int number, int k) { return at<Velocity<ThreeD>>(body, number, k); }
   Vec3 position_of(int body, int number) {
     return {node(body, number, 0), node(body, number, 1), node(body, number, 2)};
   }
@@ -65,7 +64,7 @@ class TouchingBodies {
     return {velocity(body, number, 0), velocity(body, number, 1), velocity(body, number, 2)};
   }
   Vec3 force_on(int body, int number) {
-    const auto row = lane_row<ContactForce>(body, number);
+    const auto row = lane_row<ContactForce<ThreeD>>(body, number);
     return {row[0][lane(body)], row[1][lane(body)], row[2][lane(body)]};
   }
   Vec3 force_on(int body) {
@@ -196,8 +195,8 @@ class TouchingBodies {
     all.hold_all();
     const std::size_t lanes = all.slots.size();
     world.add_table<Node>(nodes);
-    world.add<Position>();
-    world.add<Velocity>();
+    world.add<Position<ThreeD>>();
+    world.add<Velocity<ThreeD>>();
     world.add_table<Particle>(std::vector<std::int32_t>(lanes / lane_count, 1));
     world.add<BulkModulus>();
     world.add<Density>();
