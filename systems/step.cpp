@@ -88,7 +88,7 @@ StepList step_list_of(World& w) {
   force.add<receive_contacts>           ("receive_contacts",  ranks && pairs);
   force.add<contact_totals>             ("contact_totals",    touching);
   force.add<bond_totals>                ("bond_totals",       bonds);
-  force.add<contact_health>             ("contact_health",    touching);
+  force.add<contact_health<TwoD>>       ("contact_health",    touching);
   force.add<ridge_health>               ("ridge_health",      w.has<SurfaceRange>());
   force.add<contact_force>              ("contact_force",     touching);
   force.add<cell_load>                  ("cell_load",         cell);
@@ -101,10 +101,10 @@ StepList step_list_of(World& w) {
   force.add<stable_time_step<F::points>>("stable_time_step");
   force.add<highest_mode<F::points>>    ("highest_mode",      w.has<HighestMode>());
   force.add<apply_constraints>          ("apply_constraints", constraints);
-  force.add<tool_reaction>              ("tool_reaction",     tools || constraints);
+  force.add<tool_reaction<TwoD>>        ("tool_reaction",     tools || constraints);
   force.add<wall_control>               ("wall_control",      w.has<DrivenWalls>());
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
-  force.add<tool_servo>                 ("tool_servo",        w.has<ToolServos>());
+  force.add<tool_servo<TwoD>>           ("tool_servo",        w.has<ToolServos>());
 
   move.add<cell_kick>                   ("cell_kick",         cell);
   move.add<integrate>                   ("integrate");

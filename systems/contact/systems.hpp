@@ -1,11 +1,12 @@
 // Contact systems. What a system reads and writes is declared here and nowhere else; systems/step.cpp sets the order
-// of the systems, and each is described at the top of its own file.
+// of the systems, and each is described at the top of its own file. D: the dimension (components/dimension.hpp).
 #pragma once
 
 #include "components/bond.hpp"
 #include "components/bundles.hpp"
 #include "components/cell.hpp"
 #include "components/hollow.hpp"
+#include "components/shaped_bodies.hpp"
 #include "engine/look_ahead.hpp"
 #include "systems/ranks/reduce.hpp"
 
@@ -233,15 +234,16 @@ struct bond_totals {
 template <class At>
 struct RowsInSum {
   Read<ContactPair<At>> pair;
-  Read<ContactSums<At>> sums;
+  Read<ContactSums<typename At::Kind>> sums;
 };
 
+template <class D>
 struct contact_health {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   Read<ContactRules> rules;
-  Optional<RowsInSum<Contact>> pairs;
-  Optional<RowsInSum<ToolContact>> tools;
+  Optional<RowsInSum<typename D::Contact>> pairs;
+  Optional<RowsInSum<typename D::ToolContact>> tools;
   Optional<Read<ToolProgram>> program;
   Write<Totals> totals;
   Link link;

@@ -72,15 +72,15 @@ Steps steps_with(World& w) {
   force.add<receive_loads>       ("receive_loads",     ranks);
   force.add<contact_totals>      ("contact_totals",    touches.any());
   force.add<bond_totals>         ("bond_totals",       w.has<BondTotals>());
-  force.add<contact_health>      ("contact_health",    touches.any());
+  force.add<contact_health<ThreeD>>("contact_health",    touches.any());
   force.add<contact_force>       ("contact_force",     touches.any());
   force.add<elastic_force<F>>    ("elastic_force",     !plastic);
   force.add<plastic_force<F>>    ("plastic_force",     plastic);
   force.add<damping_force<F>>    ("damping_force",     w.has<DampingForce<ThreeD>>());
   force.add<stable_time_step<F>> ("stable_time_step");
-  force.add<tool_reaction>       ("tool_reaction",     touches.tools);
+  force.add<tool_reaction<ThreeD>>("tool_reaction",     touches.tools);
   force.add<stage_control>       ("stage_control",     w.has<StageEnds>());
-  force.add<tool_servo>          ("tool_servo",        w.has<ToolServos>());
+  force.add<tool_servo<ThreeD>>  ("tool_servo",        w.has<ToolServos>());
 
   move.add<integrate>            ("integrate");
   move.add<contact_surface>      ("contact_surface",   touches.any());

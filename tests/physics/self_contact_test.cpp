@@ -164,7 +164,7 @@ TEST(SelfContact, StopsWhereNoClosestPointMayBeMissed) {
   Experiment e = pressed({.particle = notched(120), .friction = 0.3, .unconverged = 0});
   EXPECT_THAT(run(e),
               ContainsRegex("^edge_contact: particle 0, edge [0-9]+ against particle 0: the "
-                            "closest point was not found in 41 steps .* as for 1 of [0-9]+ "
+                            "closest point was not found by .* as for 1 of [0-9]+ "
                             "points so far.*allowed 0 .limits.unconverged_projections"));
 }
 

@@ -4,7 +4,6 @@
 
 #include "components/observed.hpp"
 #include "components/space/contact.hpp"
-#include "components/space/observed.hpp"
 #include "scenes/results/parts/network_results.hpp"
 #include "systems/space/observe/network_kernel.hpp"
 

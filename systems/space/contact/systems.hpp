@@ -201,25 +201,4 @@ struct contact_force {
   void operator()(Chunk chunk) const;
 };
 
-// ---- health of the run ------------------------------------------------------------------------------
-struct contact_health {
-  ShapedBodies<ThreeD> bodies;
-  Read<Clock> clock;
-  Read<ContactRules> rules;
-  struct Pairs {
-    Read<ContactPair<FaceContact>> pair;
-    Read<ContactSums<Contact>> sums;
-  };
-  Optional<Pairs> pairs;
-  struct Tools {
-    Read<ContactPair<FaceToolContact>> pair;
-    Read<ContactSums<ToolContact>> sums;
-    Read<ToolProgram> program;
-  };
-  Optional<Tools> tools;
-  Write<Totals> totals;
-  Link link;
-  void operator()() const;
-};
-
 }  // namespace pulvis::space

@@ -1,11 +1,9 @@
-// Systems of the tools in three dimensions. Tool motion and the clock are shared with two dimensions
+// Contact with tools in three dimensions. Their motion, reaction and servos are shared with two dimensions
 // (systems/tools/systems.hpp).
 #pragma once
 
-#include "components/servo.hpp"
 #include "components/space/tools.hpp"
 #include "systems/space/contact/systems.hpp"
-#include "systems/tools/systems.hpp"
 
 namespace pulvis::space {
 
@@ -56,25 +54,6 @@ struct initial_tool_bonds {
   Write<ToolAnchor> anchor;
   Write<Activation<FaceToolContact>> activation;
   Write<BondTotals> totals;
-  void operator()() const;
-};
-
-struct tool_reaction {
-  Read<Clock> clock;
-  TouchingRows<FaceToolContact> contacts;
-  Read<ToolVelocity> velocity;
-  Write<ToolForce> tool_force;
-  Write<Totals> totals;
-  Link link;
-  void operator()() const;
-};
-
-struct tool_servo {
-  Servos servos;
-  ShapedBodies<ThreeD> bodies;
-  TouchingRows<FaceToolContact> rows;
-  Read<ContactLaw<FaceToolContact>> law;
-  Link link;
   void operator()() const;
 };
 

@@ -6,7 +6,6 @@
 
 #include "components/body.hpp"
 #include "components/observed.hpp"
-#include "components/space/observed.hpp"
 #include "components/space/shape.hpp"
 #include "scenes/results/state_hash.hpp"
 #include "scenes/spec/space_scene.hpp"
