@@ -26,6 +26,7 @@ template <class D>
 struct ShapedBodies;
 template <>
 struct ShapedBodies<TwoD> {
+  using Dimension = TwoD;
   Read<Bodies> bodies;
 
   const Shape& shape_of(int slot) const { return bodies->shape_of_slot(slot); }
@@ -40,6 +41,7 @@ struct ShapedBodies<TwoD> {
 
 template <>
 struct ShapedBodies<ThreeD> {
+  using Dimension = ThreeD;
   Read<Bodies> bodies;
   Read<space::Shapes> shapes;
 

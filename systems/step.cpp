@@ -30,7 +30,7 @@ void observe_particles(World& w, SystemList& observe) {
   // clang-format off
   observe.add<lost_bodies>              ("lost_bodies",       tools);
   observe.add<outline_health>           ("outline_health",    touching || constraints);
-  observe.add<kinetic_energy>           ("kinetic_energy");
+  observe.add<kinetic_energy<TwoD>>     ("kinetic_energy");
   observe.add<elastic_energy<F>>        ("elastic_energy");
   observe.add<plastic_work<F>>          ("plastic_work",      plastic);
   observe.add<hourglass_energy>         ("hourglass_energy",  F::stabilised);
@@ -107,7 +107,7 @@ StepList step_list_of(World& w) {
   force.add<tool_servo<TwoD>>           ("tool_servo",        w.has<ToolServos>());
 
   move.add<cell_kick>                   ("cell_kick",         cell);
-  move.add<integrate>                   ("integrate");
+  move.add<integrate<TwoD>>             ("integrate");
   move.add<contact_curve>               ("contact_curve",     touching);
   move.add<send_outlines<TwoD>>        ("send_outlines",     ranks && pairs);
   move.add<cell_motion>                 ("cell_motion",       cell);

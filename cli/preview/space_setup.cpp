@@ -40,7 +40,7 @@ json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 json particle_surface(const World& world, std::size_t first, int lane, const space::Shape& shape) {
   json nodes = json::array(), faces = json::array();
   const Lane* x = world.column<Position<ThreeD>>().lanes() + 3 * first;
-  for (int n = 0; n < shape.surface_nodes; ++n)
+  for (int n = 0; n < shape.boundary_nodes; ++n)
     for (int k = 0; k < 3; ++k) nodes.push_back(x[3 * n + k][lane]);
   for (const auto& face : shape.faces) {
     json corners = json::array();

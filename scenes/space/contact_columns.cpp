@@ -154,7 +154,7 @@ void number_surfaces(World& world) {
 }
 
 void add_surfaces(World& world, const Touching& touching) {
-  world.add_table<BoundaryNode>(of_chunks(world, [](const Shape& s) { return s.surface_nodes; }));
+  world.add_table<BoundaryNode>(of_chunks(world, [](const Shape& s) { return s.boundary_nodes; }));
   world.add_table<SurfacePoint>(
       of_chunks(world, [](const Shape& s) { return s.surface_points(); }));
   world.add_table<ParticleSurface>(

@@ -1,11 +1,13 @@
 // Systems of the bodies. What a system reads and writes is declared here and nowhere else; systems/step.cpp sets the
 // order of the systems, and each is described at the top of its own file.
-// F: the formulation of the elements (components/formulation.hpp).
+// D: the dimension (components/dimension.hpp). F: the formulation of the elements (components/formulation.hpp; for systems
+// that both dimensions have also components/space/formulation.hpp).
 #pragma once
 
 #include "components/bundles.hpp"
 #include "components/highest_mode.hpp"
 #include "components/observed.hpp"
+#include "components/shaped_bodies.hpp"
 #include "engine/look_ahead.hpp"
 #include "systems/laws/flow_law.hpp"
 
@@ -85,7 +87,7 @@ struct internal_force {
 
 template <class F>
 struct damping_force {
-  Read<Bodies> bodies;
+  ShapedBodies<TwoD> bodies;
   Read<Clock> clock;
   Motion<TwoD> motion;
   Material material;
@@ -97,13 +99,14 @@ struct damping_force {
 };
 
 // ---- motion and stable time steps --------------------------------------------------------------
+template <class D>
 struct integrate {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   Read<Density> density;
-  NodalForces<Read, TwoD> forces;
-  Write<Velocity<TwoD>> velocity;
-  Write<Position<TwoD>> position;
+  NodalForces<Read, D> forces;
+  Write<Velocity<D>> velocity;
+  Write<Position<D>> position;
   void operator()(Chunk chunk) const;
 };
 
@@ -157,12 +160,13 @@ struct element_health {
 };
 
 // ---- sampled steps only ---------------------------------------------------------------------------
+template <class D>
 struct kinetic_energy {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   Read<Density> density;
-  NodalForces<Read, TwoD> forces;
-  Read<Velocity<TwoD>> velocity;
+  NodalForces<Read, D> forces;
+  Read<Velocity<D>> velocity;
   Write<KineticEnergy> energy;
   void operator()(Chunk chunk) const;
 };
@@ -179,7 +183,7 @@ struct elastic_energy {
 
 template <class F>
 struct plastic_work {
-  Read<Bodies> bodies;
+  ShapedBodies<typename F::Dimension> bodies;
   Flow flow;
   Read<PlasticStrain<F::points>> eps;
   Optional<Read<HourglassWork>> hourglass;
@@ -204,7 +208,7 @@ struct particle_stress {
   Read<Position<TwoD>> position;
   ElementStress<Read, F> element;
   Write<ParticleStress<TwoD>> stress;
-  Write<DeformedSize<TwoD>> area;
+  Write<DeformedSize<TwoD>> size;
   Write<ParticleCentre<TwoD>> centre;
   void operator()(Chunk chunk) const;
 };

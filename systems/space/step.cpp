@@ -36,7 +36,7 @@ std::vector<System> observed_in_space(World& w) {
   SystemList observe(w, When::on_sample);
 
   // clang-format off
-  observe.add<kinetic_energy>     ("kinetic_energy");
+  observe.add<kinetic_energy<ThreeD>>("kinetic_energy");
   observe.add<elastic_energy<F>>  ("elastic_energy");
   observe.add<node_spring_energy> ("node_spring_energy", w.has<Roughness>());
   observe.add<node_distance>      ("node_distance",     w.has<NodeDistance>());
@@ -82,7 +82,7 @@ Steps steps_with(World& w) {
   force.add<stage_control>       ("stage_control",     w.has<StageEnds>());
   force.add<tool_servo<ThreeD>>  ("tool_servo",        w.has<ToolServos>());
 
-  move.add<integrate>            ("integrate");
+  move.add<integrate<ThreeD>>    ("integrate");
   move.add<contact_surface>      ("contact_surface",   touches.any());
   move.add<send_outlines<ThreeD>> ("send_outlines",     ranks);
   move.add<element_health>       ("element_health");

@@ -1,5 +1,5 @@
-// Systems of the bodies in three dimensions. Each declares here what it reads and writes; the descriptions
-// are at the top of the individual files.
+// Systems of the hexahedra. Each declares here what it reads and writes; the descriptions are at the top of the individual
+// files. What both dimensions have is in systems/body/systems.hpp.
 // F: the formulation of the elements (components/space/formulation.hpp).
 #pragma once
 
@@ -65,17 +65,7 @@ struct damping_force {
   void operator()(Chunk chunk) const;
 };
 
-// ---- motion, and the stable time step -----------------------------------------------------------
-struct integrate {
-  ShapedBodies<ThreeD> bodies;
-  Read<Clock> clock;
-  Read<Density> density;
-  NodalForces<Read, ThreeD> forces;
-  Write<Velocity<ThreeD>> velocity;
-  Write<Position<ThreeD>> position;
-  void operator()(Chunk chunk) const;
-};
-
+// ---- the stable time step -----------------------------------------------------------------------
 template <class F>
 struct stable_time_step {
   ShapedBodies<ThreeD> bodies;
@@ -90,16 +80,6 @@ struct stable_time_step {
 };
 
 // ---- in sampled steps -----------------------------------------------------------------------------
-struct kinetic_energy {
-  ShapedBodies<ThreeD> bodies;
-  Read<Clock> clock;
-  Read<Density> density;
-  NodalForces<Read, ThreeD> forces;
-  Read<Velocity<ThreeD>> velocity;
-  Write<KineticEnergy> energy;
-  void operator()(Chunk chunk) const;
-};
-
 template <class F>
 struct elastic_energy {
   ShapedBodies<ThreeD> bodies;
@@ -107,17 +87,6 @@ struct elastic_energy {
   Elasticity elastic;
   Optional<Read<PlasticMetric<ThreeD, F::points>>> metric;
   Write<ElasticEnergy> energy;
-  void operator()(Chunk chunk) const;
-};
-
-template <class F>
-struct plastic_work {
-  ShapedBodies<ThreeD> bodies;
-  Flow flow;
-  Read<PlasticStrain<F::points>> eps;
-  Optional<Read<HourglassWork>> hourglass;
-  Read<WorkBeyondHardening> beyond;
-  Write<PlasticWork> work;
   void operator()(Chunk chunk) const;
 };
 
@@ -137,7 +106,7 @@ struct particle_stress {
   Read<Position<ThreeD>> position;
   ElementStress<Read, F> element;
   Write<ParticleStress<ThreeD>> stress;
-  Write<DeformedSize<ThreeD>> volume;
+  Write<DeformedSize<ThreeD>> size;
   Write<ParticleCentre<ThreeD>> centre;
   void operator()(Chunk chunk) const;
 };

@@ -54,7 +54,7 @@ Vec3 contact_force_on(Experiment& e, int slot) {
   const auto first = static_cast<std::size_t>(
       column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
   const auto nodes = static_cast<std::size_t>(
-      world.resource<Shapes>().list[static_cast<std::size_t>(shape)].surface_nodes);
+      world.resource<Shapes>().list[static_cast<std::size_t>(shape)].boundary_nodes);
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = first; n < first + nodes; ++n)
     for (std::size_t k = 0; k < 3; ++k)

@@ -54,7 +54,7 @@ class TouchingBodies {
     const auto particle = static_cast<std::size_t>(bodies[static_cast<std::size_t>(body)].particle);
     return world.resource<Shapes>().list[particle];
   }
-  int surface_nodes(int body) const { return shape(body).surface_nodes; }
+  int surface_nodes(int body) const { return shape(body).boundary_nodes; }
   double& node(int body, int number, int k) { return at<Position<ThreeD>>(body, number, k); }
   double& velocity(int body, int number, int k) { return at<Velocity<ThreeD>>(body, number, k); }
   Vec3 position_of(int body, int number) {
