@@ -73,7 +73,7 @@ StepList step_list_of(World& w) {
   // clang-format off
   force.add<tool_motion>                ("tool_motion",       tools || constraints);
   force.add<receive_outlines<TwoD>>    ("receive_outlines",  ranks && pairs);
-  force.add<skin_check>                 ("skin_check",        touching);
+  force.add<skin_check<TwoD>>           ("skin_check",        touching);
   force.add<find_border<TwoD>>         ("find_border",       ranks && pairs);
   force.add<bin_edges>                  ("bin_edges",         pairs);
   force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
@@ -123,7 +123,7 @@ void add_first_contacts(World& w, SystemList& start) {
   const bool pairs = w.has<ContactPair<Contact>>(), tools = w.has<ContactPair<ToolContact>>();
   const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
   const bool ranks = w.has<RankLink>();
-  start.add<skin_check>("skin_check", pairs || tools);
+  start.add<skin_check<TwoD>>("skin_check", pairs || tools);
   start.add<find_border<TwoD>>("find_border", pairs && ranks);
   start.add<bin_edges>("bin_edges", pairs);
   start.add<bin_tool_edges>("bin_tool_edges", tools);

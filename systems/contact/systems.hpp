@@ -2,26 +2,33 @@
 // of the systems, and each is described at the top of its own file. D: the dimension (components/dimension.hpp).
 #pragma once
 
+#include <type_traits>
+
 #include "components/bond.hpp"
 #include "components/bundles.hpp"
 #include "components/cell.hpp"
 #include "components/hollow.hpp"
 #include "components/shaped_bodies.hpp"
+#include "components/space/tools.hpp"
 #include "engine/look_ahead.hpp"
 #include "systems/ranks/reduce.hpp"
 
 namespace pulvis {
 
+template <class D>
+using ToolSurfacesIn = std::conditional_t<D::axes == 2, ToolSurfaces, space::ToolSurfaces>;
+
 // ---- contact rows -------------------------------------------------------------------------------
+template <class D>
 struct skin_check {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
-  Read<CurvePosition> control;
-  Optional<ToolSurfaces> tools;
+  Read<typename D::OutlinePosition> position;
+  Optional<ToolSurfacesIn<D>> tools;
   Optional<Read<PeriodicCell>> cell;
-  Write<CurveBefore> before;
+  Write<typename D::OutlineBefore> before;
   Write<ContactIndex> index;
-  Optional<BorderOutlines<CurvePosition>> border;
+  Optional<BorderOutlines<typename D::OutlinePosition>> border;
   void operator()() const;
 };
 

@@ -61,7 +61,7 @@ Steps steps_with(World& w) {
   // clang-format off
   force.add<tool_motion>         ("tool_motion",       touches.tools);
   force.add<receive_outlines<ThreeD>>("receive_outlines", ranks);
-  force.add<skin_check>          ("skin_check",        touches.any());
+  force.add<skin_check<ThreeD>>  ("skin_check",        touches.any());
   force.add<find_border<ThreeD>>  ("find_border",       ranks);
   force.add<bin_faces>           ("bin_faces",         touches.pairs);
   force.add<bin_tool_faces>      ("bin_tool_faces",    touches.tools);
@@ -98,7 +98,7 @@ std::vector<System> start_with(World& w) {
   const bool ranks = w.has<RankLink>() && touches.pairs;
   SystemList start(w);
   start.add<contact_surface>("contact_surface", touches.any());
-  start.add<skin_check>("skin_check", touches.any());
+  start.add<skin_check<ThreeD>>("skin_check", touches.any());
   start.add<find_border<ThreeD>>("find_border", ranks);
   start.add<bin_faces>("bin_faces", touches.pairs);
   start.add<bin_tool_faces>("bin_tool_faces", touches.tools);

@@ -53,17 +53,6 @@ struct node_distance {
 };
 
 // ---- contact rows -------------------------------------------------------------------------------
-struct skin_check {
-  ShapedBodies<ThreeD> bodies;
-  Read<Clock> clock;
-  Read<SurfacePosition> position;
-  Optional<ToolSurfaces> tools;
-  Write<SurfaceBefore> before;
-  Write<ContactIndex> index;
-  Optional<BorderOutlines<SurfacePosition>> border;
-  void operator()() const;
-};
-
 // Input of the contact laws of a row.
 struct ContactStiffness {
   Read<ContactRules> rules;

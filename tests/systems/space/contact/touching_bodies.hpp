@@ -107,7 +107,7 @@ class TouchingBodies {
     const bool pairs = world.has<ContactPair<FaceContact>>();
     const bool tools = world.has<ContactPair<FaceToolContact>>();
     run<contact_surface>("contact_surface");
-    run<skin_check>("skin_check");
+    run<skin_check<ThreeD>>("skin_check");
     if (pairs) run<bin_faces>("bin_faces");
     if (tools) run<bin_tool_faces>("bin_tool_faces");
     if (pairs) run<face_contact>("face_contact");
@@ -115,7 +115,7 @@ class TouchingBodies {
     run<pulvis::contact_totals>("contact_totals");
     if (world.has<BondTotals>()) run<pulvis::bond_totals>("bond_totals");
     run<contact_force>("contact_force");
-    if (tools) run<tool_reaction>("tool_reaction");
+    if (tools) run<tool_reaction<ThreeD>>("tool_reaction");
   }
   // As at the start of a run, after an update.
   void bond() {
