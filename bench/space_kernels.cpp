@@ -4,8 +4,8 @@
 //   ./build/release/bench/space_kernels
 #include <benchmark/benchmark.h>
 
+#include "components/body.hpp"
 #include "components/run_state.hpp"
-#include "components/space/body.hpp"
 #include "components/space/formulation.hpp"
 #include "scenes/space/body_columns.hpp"
 #include "scenes/space/meshes/element_constants.hpp"
@@ -66,7 +66,7 @@ std::unique_ptr<World> cubes(const Scene& scene, Formulation formulation, int n,
 
 // Every node moves differently in x, y and z: strains of rate / (1/n) in every element, bent and twisted.
 void set_off(World& world, double speed) {
-  auto& v = world.column<Velocity>();
+  auto& v = world.column<Velocity<ThreeD>>();
   std::uint32_t random = 1;
   for (std::size_t i = 0; i < v.bytes() / sizeof(double); ++i) {
     random = random * 1664525 + 1013904223;

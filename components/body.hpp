@@ -1,34 +1,41 @@
-// Columns of the deformable bodies: nodes, elements and particles. The formulation of an element sets
-// its points (components/formulation.hpp): four at (xi, eta) = (-,-) (+,-) (+,+) (-,+) / sqrt 3,
-// or one at its centre.
+// Columns of the deformable bodies: nodes, elements and particles. The formulation of an element sets its points
+// (components/formulation.hpp, components/space/formulation.hpp): of a quad, four at (xi, eta) = (-,-) (+,-) (+,+) (-,+) /
+// sqrt 3, or one at its centre; of a hexahedron, eight at (+-1, +-1, +-1) / sqrt 3, xi first, or one.
 #pragma once
 
+#include "components/dimension.hpp"
 #include "components/entities.hpp"
 #include "components/formulation.hpp"
 
 namespace pulvis {
 
 // ---- nodes ----------------------------------------------------------------------------------
-struct Position : Component<Node, double, 2> {
+template <class D>
+struct Position : Component<Node, double, D::axes> {
   static constexpr ComponentInfo info{"position", "m", "where the node is at time t_n"};
 };
-struct Velocity : Component<Node, double, 2> {
+template <class D>
+struct Velocity : Component<Node, double, D::axes> {
   static constexpr ComponentInfo info{"velocity", "m/s", "of the node at t_(n+1/2) (leapfrog)"};
 };
-struct InternalForce : Component<Node, double, 2> {
+template <class D>
+struct InternalForce : Component<Node, double, D::axes> {
   static constexpr ComponentInfo info{"internal_force", "N", "of the stresses, on the node"};
   static constexpr bool transient = true;
 };
-struct ContactForce : Component<BoundaryNode, double, 2> {
+template <class D>
+struct ContactForce : Component<BoundaryNode, double, D::axes> {
   static constexpr ComponentInfo info{"contact_force", "N",
                                       "of other particles and tools, on the node"};
 };
 
 // ---- elements -------------------------------------------------------------------------------
-template <int Points>
-struct DeviatoricStress : Component<Element, double, 3 * Points> {
+template <class D, int Points>
+struct DeviatoricStress : Component<Element, double, (D::axes == 2 ? 3 : 5) * Points> {
   static constexpr ComponentInfo info{"deviatoric_stress", "Pa",
-                                      "Cauchy, xx yy xy at each point; zz = -xx-yy"};
+                                      D::axes == 2
+                                          ? "Cauchy, xx yy xy at each point; zz = -xx-yy"
+                                          : "Cauchy, xx yy xy yz zx at each point; zz = -xx-yy"};
   static constexpr bool transient = true;
 };
 template <int Volumes>
@@ -43,10 +50,12 @@ struct IsochoricScale : Component<Element, double, Points> {
                                       "(det F)^(-1/3), kept for the return map"};
   static constexpr bool transient = true;
 };
-template <int Points>
-struct PlasticMetric : Component<Element, double, 4 * Points> {
+template <class D, int Points>
+struct PlasticMetric : Component<Element, double, (D::axes == 2 ? 4 : 6) * Points> {
   static constexpr ComponentInfo info{
-      "plastic_metric", "-", "inverse plastic right Cauchy-Green tensor less one, xx yy zz xy"};
+      "plastic_metric", "-",
+      D::axes == 2 ? "inverse plastic right Cauchy-Green tensor less one, xx yy zz xy"
+                   : "inverse plastic right Cauchy-Green tensor less one, xx yy zz xy yz zx"};
 };
 template <int Points>
 struct PlasticStrain : Component<Element, double, Points> {
@@ -54,18 +63,22 @@ struct PlasticStrain : Component<Element, double, Points> {
 };
 
 // ---- only for one-point elements -----------------------------------------------------------------
-struct HourglassStress : Component<Element, double, 2> {
+struct HourglassStress : Component<Element, double, 2> {  // of quads
   static constexpr ComponentInfo info{"hourglass_stress", "Pa",
                                       "of bending: at the edge of the fibres along xi, along eta"};
   static constexpr bool transient = true;
 };
-struct PlasticHourglass : Component<Element, double, 2> {
-  static constexpr ComponentInfo info{"plastic_hourglass", "-",
-                                      "plastic bending strain of the fibres along xi, along eta"};
+template <class D>
+struct PlasticHourglass : Component<Element, double, D::axes == 2 ? 2 : 12> {
+  static constexpr ComponentInfo info{
+      "plastic_hourglass", "-",
+      D::axes == 2 ? "plastic bending strain of the fibres along xi, along eta"
+                   : "plastic part of the strains of bending, twisting and of xi eta zeta"};
 };
 
 // ---- only if a material has bulk damping ---------------------------------------------------------
-struct DampingForce : Component<Node, double, 2> {
+template <class D>
+struct DampingForce : Component<Node, double, D::axes> {
   static constexpr ComponentInfo info{"damping_force", "N",
                                       "of bulk damping, on the node; part of the internal force"};
 };

@@ -33,11 +33,11 @@ struct BondOffset : Component<At, double, 2 * edge_points> {
       "opening when the bond was made: of every point along the normal, then along the surface"};
 };
 template <class At>
-struct BondDamage : Component<At, double, edge_points> {
+struct BondDamage : Component<At, double, At::points> {
   static constexpr ComponentInfo info{"bond_damage", "-", "d, 0 ... 1: history"};
 };
 template <class At>
-struct BondStrength : Component<At, double, edge_points> {
+struct BondStrength : Component<At, double, At::points> {
   static constexpr ComponentInfo info{"bond_strength", "-", "share of the law's strengths"};
 };
 // Only if bonds form under pressure.

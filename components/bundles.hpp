@@ -5,6 +5,7 @@
 #include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
+#include "components/shaped_bodies.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 
@@ -23,20 +24,21 @@ struct BulkDamping {
   Read<MassDamping> mass;
   Read<StiffnessDamping> stiffness;
 };
+template <class D>
 struct Motion {  // of the nodes
-  Read<Position> position;
-  Read<Velocity> velocity;
+  Read<Position<D>> position;
+  Read<Velocity<D>> velocity;
 };
 // Nodal forces. Contact forces are kept separately, and exist only if the scene has contact.
-template <template <class> class Mode>
+template <template <class> class Mode, class D>
 struct NodalForces {
-  Mode<InternalForce> internal;
-  Optional<Read<ContactForce>> contact;
+  Mode<InternalForce<D>> internal;
+  Optional<Read<ContactForce<D>>> contact;
 };
-// F: the formulation of the elements (components/formulation.hpp).
+// F: the formulation of the elements (components/formulation.hpp, components/space/formulation.hpp).
 template <template <class> class Mode, class F>
 struct ElementStress {
-  Mode<DeviatoricStress<F::points>> deviator;
+  Mode<DeviatoricStress<typename F::Dimension, F::points>> deviator;
   Mode<MeanStress<F::volumes>> mean;
 };
 // Only for one-point elements: the stress of the hourglass modes.

@@ -12,8 +12,8 @@
 
 namespace pulvis {
 
-inline constexpr int edge_points =
-    4;  // Gauss points per boundary edge: one SIMD lane each, two edges side by side
+// Gauss points per boundary edge: one SIMD lane each, two edges side by side.
+inline constexpr int edge_points = Contact::points;
 
 // ---- contact curves ---------------------------------------------------------------------------
 struct CurvePosition : Component<ControlPoint, double, 2> {
@@ -66,23 +66,32 @@ struct ActivationTravel : Component<At, double, 1> {
   static constexpr ComponentInfo info{
       "activation", "m", "travel of the surfaces from which on the candidate is active again"};
 };
-// Set by the broad phase and read by the narrow phase, all together: one cache line per candidate.
+// Set by the broad phase and read by the narrow phase, all together: one cache line per candidate, which has room for the
+// areas of four points. (Those of sixteen are read from the shape.)
 template <class At>
-struct ContactLaw : Component<At, double, 4 + edge_points> {
+struct ContactLaw : Component<At, double, At::points == edge_points ? 4 + edge_points : 4> {
   static constexpr ComponentInfo info{
-      "law", "SI", "kappa, Coulomb's mu, damping, 1/edge length; area of every point"};
+      "law", "SI",
+      At::points == edge_points ? "kappa, Coulomb's mu, damping, 1/edge length; area of every point"
+                                : "kappa, Coulomb's mu, damping, 1/face size"};
   enum Number {
-    stiffness,   // Pa/m, kappa of the pair
-    friction,    // -, Coulomb coefficient of the pair; 0 if the scene has none
-    damping,     // Pa s/m, of the contact (T 5.1); 0 if the scene has none
-    inv_length,  // 1/m, 1/undeformed length of the sampled edge
-    weight       // m^2, undeformed area of a Gauss point: of the first of them
+    stiffness,  // Pa/m, kappa of the pair
+    friction,   // -, Coulomb coefficient of the pair; 0 if the scene has none
+    damping,    // Pa s/m, of the contact (T 5.1); 0 if the scene has none
+    inv_size,   // 1/m, 1/undeformed size of the sampled edge (its length) or face
+    weight      // m^2, undeformed area of a Gauss point: of the first of them
   };
 };
+// Points of an edge are summed one by one, those of a face eight at a time, a lane each: hence the two orders.
 template <class At>
-struct PointForce : Component<At, double, 2 * edge_points> {
+struct PointForce : Component<At, double, At::axes * At::points> {
   static constexpr ComponentInfo info{"point_force", "N",
-                                      "on the sampled edge: x y of every point"};
+                                      At::axes == 2
+                                          ? "on the sampled edge: x y of every point"
+                                          : "on the sampled face: x of every point, y, z"};
+  static constexpr int number(int point, int axis) {
+    return At::axes == 2 ? 2 * point + axis : At::points * axis + point;
+  }
 };
 
 // Where the curves of a row start in the list of control points: saves looking up the shapes of its particles.
@@ -116,10 +125,13 @@ struct ClosestPoint : Component<Contact, PackedCurvePoint, edge_points> {
 };
 
 // ---- only if the scene has friction --------------------------------------------------------------
+// (Against other particles in three dimensions it is part of space::ContactPoint.)
 template <class At>
-struct ElasticSlip : Component<At, double, edge_points> {
-  static constexpr ComponentInfo info{"elastic_slip", "m",
-                                      "stretch of the tangential springs: history"};
+struct ElasticSlip : Component<At, double, (At::axes == 2 ? 1 : 3) * At::points> {
+  static constexpr ComponentInfo info{
+      "elastic_slip", "m",
+      At::axes == 2 ? "stretch of the tangential springs: history"
+                    : "stretch of the tangential springs, x of all, y, z: history"};
 };
 // ---- only if the friction of a pair is more than a Coulomb coefficient ----------------------------
 template <class At>
@@ -137,7 +149,7 @@ struct FrictionMore : Component<At, double, 6> {
   };
 };
 template <class At>
-struct SlipWeakening : Component<At, double, edge_points> {
+struct SlipWeakening : Component<At, double, At::points> {
   static constexpr ComponentInfo info{"slip_weakening", "-",
                                       "share of the static friction lost in sliding: history"};
 };

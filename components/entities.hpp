@@ -26,12 +26,17 @@ struct ControlPoint {  // of the contact curves, stored by particle
   static constexpr const char* name = "curve";
   static constexpr bool laned = false, by_chunk = true;
 };
-struct Contact {  // (edge of one particle, other particle), four Gauss points per row
+// Candidates are of two kinds, between particles and with tools, whose sums are kept apart alike in both dimensions.
+struct Contact {  // (edge of one particle, other particle)
+  using Kind = Contact;
+  static constexpr int axes = 2, points = 4;  // Gauss points per row
   static constexpr const char *name = "contact", *blocks_name = "contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
   static constexpr int rows_of_a_block = 128;
 };
-struct ToolContact {  // (edge of a particle, tool), four Gauss points per row
+struct ToolContact {  // (edge of a particle, tool)
+  using Kind = ToolContact;
+  static constexpr int axes = 2, points = 4;
   static constexpr const char *name = "tool_contact", *blocks_name = "tool_contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
   static constexpr int rows_of_a_block = 128;
@@ -48,11 +53,15 @@ struct SurfaceFace {  // four-sided patches of these surfaces, stored by particl
   static constexpr const char* name = "surface_face";
   static constexpr bool laned = false, by_chunk = true;
 };
-struct FaceContact {  // (face of one particle, other particle), sixteen Gauss points per row
+struct FaceContact {  // (face of one particle, other particle)
+  using Kind = Contact;
+  static constexpr int axes = 3, points = 16;
   static constexpr const char* name = "face_contact";
   static constexpr bool laned = false, by_chunk = false;
 };
-struct FaceToolContact {  // (face of a particle, tool), sixteen Gauss points per row
+struct FaceToolContact {  // (face of a particle, tool)
+  using Kind = ToolContact;
+  static constexpr int axes = 3, points = 16;
   static constexpr const char *name = "face_tool_contact",
                               *blocks_name = "face_tool_contact_blocks";
   static constexpr bool laned = false, by_chunk = false;

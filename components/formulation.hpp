@@ -4,10 +4,13 @@
 
 #include <stdexcept>
 
+#include "components/dimension.hpp"
+
 namespace pulvis {
 
 // 2x2 Gauss points with one dilatation for the whole element (mean dilatation).
 struct FourPoint {
+  using Dimension = TwoD;
   static constexpr int points = 4;   // each with its own deviator and plastic state
   static constexpr int volumes = 1;  // each with its own mean stress
   static constexpr bool stabilised = false;
@@ -15,6 +18,7 @@ struct FourPoint {
 
 // 2x2 Gauss points, each with its own dilatation. Volumetric locking: the negative control.
 struct Standard {
+  using Dimension = TwoD;
   static constexpr int points = 4;
   static constexpr int volumes = 4;
   static constexpr bool stabilised = false;
@@ -22,6 +26,7 @@ struct Standard {
 
 // One point at the centre, with stabilised hourglass modes (systems/body/hourglass_kernel.hpp).
 struct OnePoint {
+  using Dimension = TwoD;
   static constexpr int points = 1;
   static constexpr int volumes = 1;
   static constexpr bool stabilised = true;

@@ -1,53 +1,80 @@
-// What a scene can output beyond forces and energies ([output]): stresses of the particles,
-// their contact network, local densities. Written in sampled steps only; nothing in a step reads it.
+// What a scene can output beyond forces and energies ([output]): stresses of the particles, their contact network, local
+// densities (in three dimensions: components/space/observed.hpp). Written in sampled steps only; nothing in a step reads it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "components/dimension.hpp"
 #include "components/shape.hpp"
 
 namespace pulvis {
 
 // ---- output.particle_stress -----------------------------------------------------------------------
-struct ParticleStress : Component<Particle, double, 4> {
-  static constexpr ComponentInfo info{"stress", "Pa",
-                                      "Cauchy, mean over the particle: xx yy zz xy; tension > 0"};
+template <class D>
+struct ParticleStress : Component<Particle, double, D::axes == 2 ? 4 : 6> {
+  static constexpr ComponentInfo info{
+      "stress", "Pa",
+      D::axes == 2 ? "Cauchy, mean over the particle: xx yy zz xy; tension > 0"
+                   : "Cauchy, mean over the particle: xx yy zz xy yz zx; tension > 0"};
 };
-struct DeformedArea : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"deformed_area", "m^2", "of its elements now"};
+template <class D>
+struct DeformedSize : Component<Particle, double, 1> {  // area or volume
+  static constexpr ComponentInfo info{D::axes == 2 ? "deformed_area" : "deformed_volume",
+                                      D::axes == 2 ? "m^2" : "m^3", "of its elements now"};
 };
-struct ParticleCentre : Component<Particle, double, 2> {
+template <class D>
+struct ParticleCentre : Component<Particle, double, D::axes> {
   static constexpr ComponentInfo info{"centre", "m",
-                                      "middles of its elements, weighted with their areas"};
+                                      D::axes == 2
+                                          ? "middles of its elements, weighted with their areas"
+                                          : "middles of its elements, weighted with their volumes"};
 };
 
 // ---- output.contacts --------------------------------------------------------------------------------
 // Resultant of one particle on another, or of a tool on a particle: the sum over their contact points.
+template <class D>
 struct ContactLink {
+  using Point = typename D::Point;
   std::int32_t first = 0;   // number of the particle that `force` acts on
   std::int32_t second = 0;  // number of the other particle, > first; or the tool
   Point point{};            // m, mean of the contact points, weighted by force
   Point normal{};           // unit vector into the first particle, weighted by normal force
   Point force{};            // N
-  double length = 0;        // m, length of the contact
+  double size = 0;          // m, length of the contact; in three dimensions m^2, its area
   Point period{};           // m, from the other particle to its image that the first touches
+
   // N, > 0 in compression.
-  double normal_force() const { return force[0] * normal[0] + force[1] * normal[1]; }
-  // Component along (-n_y, n_x).
-  double tangential_force() const { return force[1] * normal[0] - force[0] * normal[1]; }
+  double normal_force() const {
+    const double in_plane = force[0] * normal[0] + force[1] * normal[1];
+    if constexpr (D::axes == 2)
+      return in_plane;
+    else
+      return in_plane + force[2] * normal[2];
+  }
+  // N, in the plane the component along (-n_y, n_x); in three dimensions its size.
+  double tangential_force() const {
+    if constexpr (D::axes == 2) return force[1] * normal[0] - force[0] * normal[1];
+    double square = 0;
+    for (const double along : force) square += along * along;
+    const double push = normal_force();
+    return std::sqrt(std::max(0.0, square - push * push));
+  }
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(first, second, point, normal, force, length, period);
+    bytes(first, second, point, normal, force, size, period);
   }
 };
 
+template <class D>
 struct ContactNetwork {
   static constexpr const char* resource_name = "contact_network";
-  std::vector<ContactLink> pairs;  // each pair once, sorted by numbers; no self-contact
-  std::vector<ContactLink> tools;
+  std::vector<ContactLink<D>> pairs;  // each pair once, sorted by numbers; no self-contact
+  std::vector<ContactLink<D>> tools;
 
   template <class Bytes>
   void state(Bytes& bytes) {

@@ -73,6 +73,15 @@ struct Shape {
   double mean_edge_stiffness = 0;  // 1/m: of its edges, weighted by length
   double area = 0;                 // m^2, of the exact outline
 
+  // Area of a node, and of an integration point. (In three dimensions: volume)
+  double size_of_node(int node) const { return entry(nodal_area, node); }
+  template <int Points>
+  double size_of_point(int element, int point) const {
+    if constexpr (Points == 1)
+      return entry(centre, element)[0].determinant;
+    else
+      return entry(entry(gauss, element), point).determinant;
+  }
   int control_points() const { return static_cast<int>(curve_begin.size()) - 1; }
   int elements() const { return static_cast<int>(quads.size()); }
   // The terms of control point c.

@@ -51,7 +51,7 @@ std::vector<std::int32_t> rows_by_chunk(const Bodies& bodies, const Count& count
 
 template <class F>
 void add_element_columns(World& world, const Needs& needs) {
-  world.add<DeviatoricStress<F::points>>();
+  world.add<DeviatoricStress<TwoD, F::points>>();
   world.add<MeanStress<F::volumes>>();
   if (F::stabilised) {
     world.add<HourglassStress>();
@@ -60,10 +60,10 @@ void add_element_columns(World& world, const Needs& needs) {
   }
   if (!needs.plastic) return;
   world.add<IsochoricScale<F::points>>();
-  world.add<PlasticMetric<F::points>>();
+  world.add<PlasticMetric<TwoD, F::points>>();
   world.add<PlasticStrain<F::points>>();
   if (F::stabilised) {
-    world.add<PlasticHourglass>();
+    world.add<PlasticHourglass<TwoD>>();
     world.add<HourglassWork>();
   }
 }
@@ -72,9 +72,9 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add_table<Node>(rows_by_chunk(bodies, [](const Shape& s) { return s.nodes.size(); }));
   world.add_table<Element>(rows_by_chunk(bodies, [](const Shape& s) { return s.quads.size(); }));
   world.add_table<Particle>(rows_by_chunk(bodies, [](const Shape&) { return 1; }));
-  world.add<Position>();
-  world.add<Velocity>();
-  world.add<InternalForce>();
+  world.add<Position<TwoD>>();
+  world.add<Velocity<TwoD>>();
+  world.add<InternalForce<TwoD>>();
   with_formulation(bodies.formulation, [&]<class F>(F) { add_element_columns<F>(world, needs); });
   world.add<ShearModulus>();
   world.add<BulkModulus>();
@@ -85,7 +85,7 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add<KineticEnergy>();
   world.add<ElasticEnergy>();
   if (needs.bulk_damping) {
-    world.add<DampingForce>();
+    world.add<DampingForce<TwoD>>();
     world.add<MassDamping>();
     world.add<StiffnessDamping>();
     world.add<DampingWork>();
@@ -151,7 +151,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
       rows_by_chunk(bodies, [](const Shape& s) { return s.boundary_nodes; }));
   world.add_table<ControlPoint>(
       rows_by_chunk(bodies, [](const Shape& s) { return lane_count * s.control_points(); }));
-  world.add<ContactForce>();
+  world.add<ContactForce<TwoD>>();
   world.add<CurvePosition>();
   world.add<CurveBefore>();
   world.add<CurveForce>();
@@ -168,8 +168,8 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
 }
 
 void fill_bodies(World& world, const Layout& layout) {
-  auto& x = world.column<Position>();
-  auto& v = world.column<Velocity>();
+  auto& x = world.column<Position<TwoD>>();
+  auto& v = world.column<Velocity<TwoD>>();
   layout.bodies.for_own_lanes([&](int own) {
     const auto slot = static_cast<std::size_t>(own);
     const Chunk chunk{static_cast<std::int32_t>(slot / lane_count)};

@@ -36,12 +36,12 @@ constexpr std::uint64_t bytes_of() {
 
 template <class F>
 std::uint64_t element_bytes(const Needs& needs) {
-  std::uint64_t bytes = bytes_of<DeviatoricStress<F::points>, MeanStress<F::volumes>>();
+  std::uint64_t bytes = bytes_of<DeviatoricStress<TwoD, F::points>, MeanStress<F::volumes>>();
   if (F::stabilised) bytes += bytes_of<HourglassStress>();
   if (needs.plastic)
-    bytes +=
-        bytes_of<IsochoricScale<F::points>, PlasticMetric<F::points>, PlasticStrain<F::points>>();
-  if (needs.plastic && F::stabilised) bytes += bytes_of<PlasticHourglass>();
+    bytes += bytes_of<IsochoricScale<F::points>, PlasticMetric<TwoD, F::points>,
+                      PlasticStrain<F::points>>();
+  if (needs.plastic && F::stabilised) bytes += bytes_of<PlasticHourglass<TwoD>>();
   return bytes;
 }
 
@@ -93,12 +93,13 @@ MemoryNeed memory_need(const Scene& scene) {
   for (const std::uint64_t count : particles) all += count;
   const Needs needs = needs_of(scene, all);
   const bool mode = scene.time.estimate == TimeSpec::Estimate::highest_mode;
-  std::uint64_t node = bytes_of<Position, Velocity, InternalForce>();
+  std::uint64_t node = bytes_of<Position<TwoD>, Velocity<TwoD>, InternalForce<TwoD>>();
   if (mode) node += bytes_of<HighestMode>();
-  if (needs.bulk_damping) node += bytes_of<DampingForce>();
+  if (needs.bulk_damping) node += bytes_of<DampingForce<TwoD>>();
   const std::uint64_t control = bytes_of<CurvePosition, CurveBefore, CurveForce>() +
                                 (needs.friction || needs.damping ? bytes_of<CurveVelocity>() : 0);
-  const std::uint64_t outline = bytes_of<ContactForce>() + (mode ? bytes_of<ContactSupport>() : 0);
+  const std::uint64_t outline =
+      bytes_of<ContactForce<TwoD>>() + (mode ? bytes_of<ContactSupport>() : 0);
 
   MemoryNeed need;
   need.program = program_bytes;

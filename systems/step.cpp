@@ -30,18 +30,18 @@ void observe_particles(World& w, SystemList& observe) {
   // clang-format off
   observe.add<lost_bodies>              ("lost_bodies",       tools);
   observe.add<outline_health>           ("outline_health",    touching || constraints);
-  observe.add<kinetic_energy>           ("kinetic_energy");
+  observe.add<kinetic_energy<TwoD>>     ("kinetic_energy");
   observe.add<elastic_energy<F>>        ("elastic_energy");
   observe.add<plastic_work<F>>          ("plastic_work",      plastic);
   observe.add<hourglass_energy>         ("hourglass_energy",  F::stabilised);
-  observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress>());
+  observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress<TwoD>>());
   observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
   // clang-format on
 }
 // ...and for the powder as a whole.
 void observe_whole(World& w, SystemList& observe) {
   // clang-format off
-  observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork>());
+  observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork<TwoD>>());
   observe.add<force_chains>             ("force_chains",      w.has<ForceChains>());
   observe.add<fragments>                ("fragments",         w.has<Fragments>());
   observe.add<local_density>            ("local_density",     w.has<DensityGrid>());
@@ -72,9 +72,9 @@ StepList step_list_of(World& w) {
 
   // clang-format off
   force.add<tool_motion>                ("tool_motion",       tools || constraints);
-  force.add<receive_outlines<Plane>>    ("receive_outlines",  ranks && pairs);
-  force.add<skin_check>                 ("skin_check",        touching);
-  force.add<find_border<Plane>>         ("find_border",       ranks && pairs);
+  force.add<receive_outlines<TwoD>>    ("receive_outlines",  ranks && pairs);
+  force.add<skin_check<TwoD>>           ("skin_check",        touching);
+  force.add<find_border<TwoD>>         ("find_border",       ranks && pairs);
   force.add<bin_edges>                  ("bin_edges",         pairs);
   force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
   force.add<list_border_rows>           ("list_border_rows",  ranks && pairs);
@@ -88,7 +88,7 @@ StepList step_list_of(World& w) {
   force.add<receive_contacts>           ("receive_contacts",  ranks && pairs);
   force.add<contact_totals>             ("contact_totals",    touching);
   force.add<bond_totals>                ("bond_totals",       bonds);
-  force.add<contact_health>             ("contact_health",    touching);
+  force.add<contact_health<TwoD>>       ("contact_health",    touching);
   force.add<ridge_health>               ("ridge_health",      w.has<SurfaceRange>());
   force.add<contact_force>              ("contact_force",     touching);
   force.add<cell_load>                  ("cell_load",         cell);
@@ -97,19 +97,19 @@ StepList step_list_of(World& w) {
   force.add<trial_stress<F>>            ("trial_stress",      plastic);
   force.add<j2_return_map<F>>           ("j2_return_map",     plastic);
   force.add<internal_force<F>>          ("internal_force");
-  force.add<damping_force<F>>           ("damping_force",     w.has<DampingForce>());
+  force.add<damping_force<F>>           ("damping_force",     w.has<DampingForce<TwoD>>());
   force.add<stable_time_step<F::points>>("stable_time_step");
   force.add<highest_mode<F::points>>    ("highest_mode",      w.has<HighestMode>());
   force.add<apply_constraints>          ("apply_constraints", constraints);
-  force.add<tool_reaction>              ("tool_reaction",     tools || constraints);
+  force.add<tool_reaction<TwoD>>        ("tool_reaction",     tools || constraints);
   force.add<wall_control>               ("wall_control",      w.has<DrivenWalls>());
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
-  force.add<tool_servo>                 ("tool_servo",        w.has<ToolServos>());
+  force.add<tool_servo<TwoD>>           ("tool_servo",        w.has<ToolServos>());
 
   move.add<cell_kick>                   ("cell_kick",         cell);
-  move.add<integrate>                   ("integrate");
+  move.add<integrate<TwoD>>             ("integrate");
   move.add<contact_curve>               ("contact_curve",     touching);
-  move.add<send_outlines<Plane>>        ("send_outlines",     ranks && pairs);
+  move.add<send_outlines<TwoD>>        ("send_outlines",     ranks && pairs);
   move.add<cell_motion>                 ("cell_motion",       cell);
   move.add<element_health>              ("element_health");
   move.add<return_health>               ("return_health",     w.has<ReturnResidual>());
@@ -123,8 +123,8 @@ void add_first_contacts(World& w, SystemList& start) {
   const bool pairs = w.has<ContactPair<Contact>>(), tools = w.has<ContactPair<ToolContact>>();
   const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
   const bool ranks = w.has<RankLink>();
-  start.add<skin_check>("skin_check", pairs || tools);
-  start.add<find_border<Plane>>("find_border", pairs && ranks);
+  start.add<skin_check<TwoD>>("skin_check", pairs || tools);
+  start.add<find_border<TwoD>>("find_border", pairs && ranks);
   start.add<bin_edges>("bin_edges", pairs);
   start.add<bin_tool_edges>("bin_tool_edges", tools);
   start.add<list_border_rows>("list_border_rows", pairs && ranks);

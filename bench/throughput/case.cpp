@@ -57,8 +57,8 @@ class NodesOf {
 
 void let_fall(World& world, double rate) {
   for (const int slot : world.resource<Bodies>().slot_of_number) {
-    const NodesOf<Position> x(world, slot);
-    const NodesOf<Velocity> v(world, slot);
+    const NodesOf<Position<TwoD>> x(world, slot);
+    const NodesOf<Velocity<TwoD>> v(world, slot);
     double height = 0;
     for (int n = 0; n < x.rows(); ++n) height += x(n, 1) / x.rows();
     for (int n = 0; n < v.rows(); ++n) v(n, 1) = -rate * height;
@@ -67,7 +67,7 @@ void let_fall(World& world, double rate) {
 
 void slow_down(World& world, double factor) {
   for (const int slot : world.resource<Bodies>().slot_of_number) {
-    const NodesOf<Velocity> v(world, slot);
+    const NodesOf<Velocity<TwoD>> v(world, slot);
     for (int n = 0; n < v.rows(); ++n)
       for (int k = 0; k < 2; ++k) v(n, k) *= factor;
   }

@@ -143,7 +143,7 @@ json contact_outline(const World& world, int slot) {
 
 // The outline first, then the boundaries of holes.
 json particle_setup(const World& world, int slot, const std::vector<Loop>& loops) {
-  const auto& x = world.column<Position>();
+  const auto& x = world.column<Position<TwoD>>();
   const ChunkLane place(slot);
   const auto first =
       static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(place.chunk.index)]);

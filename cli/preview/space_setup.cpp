@@ -9,8 +9,8 @@
 
 #include "cli/preview/powder_setup.hpp"
 #include "cli/preview/stage_setup.hpp"
+#include "components/body.hpp"
 #include "components/contact.hpp"
-#include "components/space/body.hpp"
 #include "components/space/bond.hpp"
 #include "engine/access.hpp"
 #include "scenes/space/results/tool_sheets.hpp"
@@ -39,8 +39,8 @@ json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 // x, y, z, x, ... of the surface nodes; four per face, counter-clockwise from outside.
 json particle_surface(const World& world, std::size_t first, int lane, const space::Shape& shape) {
   json nodes = json::array(), faces = json::array();
-  const Lane* x = world.column<space::Position>().lanes() + 3 * first;
-  for (int n = 0; n < shape.surface_nodes; ++n)
+  const Lane* x = world.column<Position<ThreeD>>().lanes() + 3 * first;
+  for (int n = 0; n < shape.boundary_nodes; ++n)
     for (int k = 0; k < 3; ++k) nodes.push_back(x[3 * n + k][lane]);
   for (const auto& face : shape.faces) {
     json corners = json::array();

@@ -33,7 +33,7 @@ json friction_setup(const Scene& scene, const ToolSpec& tool) {
 json held_nodes(const World& world, int tool) {
   const auto& target = world.column<ConstraintTarget>();
   const auto& begin = world.resource<ConstraintIndex>().begin;
-  const auto& x = world.column<Position>();
+  const auto& x = world.column<Position<TwoD>>();
   std::set<std::array<double, 2>> places;
   for (std::size_t chunk = 0; chunk + 1 < begin.size(); ++chunk)
     for (auto row = begin[chunk]; row < begin[chunk + 1]; ++row) {

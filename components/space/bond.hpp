@@ -17,14 +17,6 @@ struct BondedPoints : Component<At, std::int32_t, 2> {
       "bonded", "-", "bit g: Gauss point g is bonded; then: by pressure, not from the start"};
   enum Number { all, welds };
 };
-template <class At>
-struct BondDamage : Component<At, double, face_points> {
-  static constexpr ComponentInfo info{"bond_damage", "-", "d, 0 ... 1: history"};
-};
-template <class At>
-struct BondStrength : Component<At, double, face_points> {
-  static constexpr ComponentInfo info{"bond_strength", "-", "share of the law's strengths"};
-};
 // Only if bonds exist from the start. Welds are made where the surfaces touch. An initial overlap, < 0, stays when the bond
 // breaks, until the surfaces have parted: contact counts from it, since it would otherwise push them apart.
 template <class At>

@@ -2,8 +2,8 @@
 // face of a particle (the sampled side, 4 x 4 Gauss points) paired with one other particle or tool. Both particles of a pair
 // sample each other: the contact is unbiased.
 //
-// Pairs, touches and block sums are shared with two dimensions (components/contact.hpp), as are the settings
-// and the index of rows (components/run_state.hpp). Bodies::Slot::first_control is a particle's first Bezier point.
+// Pairs, laws, friction history and block sums are shared with two dimensions (components/contact.hpp), as are the
+// settings and the index of rows (components/run_state.hpp). Bodies::Slot::first_control is a particle's first Bezier point.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,13 @@
 
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
+#include "components/shaped_bodies.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
 
 namespace pulvis::space {
 
-inline constexpr int face_points = Shape::gauss_points;  // two lanes
+inline constexpr int face_points = FaceContact::points;  // two lanes
 inline constexpr int patch_points = 16;
 inline constexpr int face_numbers = 3 * patch_points;  // x of a face's Bezier points, then y, z
 
@@ -51,12 +52,6 @@ struct FaceForce : Component<SurfaceFace, double, face_numbers> {
                                       "of all contacts, on a face's Bezier points: all x, y, z"};
   static constexpr bool scratch = true;
 };
-// The values at a face's sixteen Bezier points in one of these columns.
-struct PatchNumbers {
-  const double* first;         // of the particle's first point
-  const std::int32_t* number;  // Shape::Face::number
-  double operator()(int k, int p) const { return first[number[p] + k]; }
-};
 // Between the nodes and these points, in both directions, eight particles at a time: the net (a point per node), and the points.
 struct NetPosition : Component<BoundaryNode, double, 3> {
   static constexpr ComponentInfo info{"net_position", "m", "of a point of the control net"};
@@ -78,16 +73,6 @@ struct PointLoad : Component<SurfacePoint, double, 3> {
 
 // ---- candidates -----------------------------------------------------------------------------------
 // At: FaceContact or FaceToolContact.
-template <class At>
-struct ContactLaw : Component<At, double, 4> {
-  static constexpr ComponentInfo info{"law", "SI", "kappa, Coulomb's mu, damping, 1/face size"};
-  enum Number {
-    stiffness,  // Pa/m, kappa of the pair
-    friction,   // -, Coulomb coefficient of the pair; 0 if the scene has none
-    damping,    // Pa s/m; 0 if the scene has none
-    inv_size    // 1/m, 1/size of the sampled face
-  };
-};
 // Points become inactive one by one against another particle, where usually few touch; half a row at a time against a
 // tool. Point values are floats, rounded down: those of a row fit in one cache line.
 template <class At, bool Points = std::is_same_v<At, FaceContact>>
@@ -96,10 +81,6 @@ struct Activation
   static constexpr ComponentInfo info{
       "activation", "m",
       "travel of the surfaces from which on what rests is active again; 0 of a point that touches"};
-};
-struct PointForce : Component<FaceToolContact, double, 3 * face_points> {
-  static constexpr ComponentInfo info{"point_force", "N",
-                                      "on the sampled face: x of every point, y, z"};
 };
 // Data per point of a row against another particle, contiguous: a touching point takes one or two cache lines.
 struct ContactPoint : Component<FaceContact, double, 5 * face_points> {
@@ -117,18 +98,6 @@ struct ContactPoint : Component<FaceContact, double, 5 * face_points> {
 struct ContactPointForce : Component<FaceContact, double, 3 * face_points> {
   static constexpr ComponentInfo info{"contact_point_force", "N",
                                       "on the sampled face: x y z of each point"};
-};
-
-// ---- only if the scene has friction --------------------------------------------------------------
-struct ElasticSlip : Component<FaceToolContact, double, 3 * face_points> {
-  static constexpr ComponentInfo info{"elastic_slip", "m",
-                                      "stretch of the tangential springs, x of all, y, z: history"};
-};
-// ---- only if the friction of a pair is more than a Coulomb coefficient ----------------------------
-template <class At>
-struct SlipWeakening : Component<At, double, face_points> {
-  static constexpr ComponentInfo info{"slip_weakening", "-",
-                                      "share of the static friction lost in sliding: history"};
 };
 
 // ---- pairs of particles ------------------------------------------------------------------------------
@@ -197,26 +166,6 @@ struct PairLoads {
 // Tool triangles that a face can touch: a range in TriangleLists.
 struct TriangleRange : Component<FaceToolContact, std::int32_t, 2> {
   static constexpr ComponentInfo info{"triangles", "-", "first in the list, and the end"};
-};
-
-// ---- bodies with their shapes -------------------------------------------------------------------------
-struct ShapedBodies {
-  Read<Bodies> bodies;
-  Read<Shapes> shapes;
-
-  int slots() const { return static_cast<int>(bodies->slots.size()); }
-  bool is_absent(int slot) const { return !bodies->is_present(slot); }
-  const Shape& shape_of(int slot) const {
-    return entry(shapes->list, entry(bodies->slots, slot).shape);
-  }
-  const Shape& shape_of(Chunk chunk) const { return shape_of(ChunkLane(chunk, 0).slot()); }
-  // Index of the first number of the particle's first point in the columns of ParticleSurface.
-  std::ptrdiff_t surface(int slot) const {
-    return 3 * std::ptrdiff_t{entry(bodies->slots, slot).first_control};
-  }
-  PatchNumbers patch(std::span<const double> column, int slot, int face) const {
-    return {column.data() + surface(slot), entry(shape_of(slot).faces, face).number.data()};
-  }
 };
 
 }  // namespace pulvis::space

@@ -11,13 +11,17 @@ namespace pulvis::space {
 // One point with the mean gradient of the element, and stabilisation of the twelve hourglass modes
 // (systems/space/body/hourglass_kernel.hpp).
 struct OnePoint {
-  static constexpr int points = 1;  // each with its own deviator and plastic state
+  using Dimension = ThreeD;
+  static constexpr int points = 1;   // each with its own deviator and plastic state
+  static constexpr int volumes = 1;  // each with its own mean stress
   static constexpr bool stabilised = true;
 };
 
 // 2 x 2 x 2 Gauss points with one dilatation for the whole element (mean dilatation): the reference.
 struct EightPoint {
+  using Dimension = ThreeD;
   static constexpr int points = 8;
+  static constexpr int volumes = 1;
   static constexpr bool stabilised = false;
 };
 

@@ -106,7 +106,7 @@ struct Shape {
 
   std::string name;
   std::vector<Point> nodes;  // m; surface nodes first
-  int surface_nodes = 0;
+  int boundary_nodes = 0;    // on the surface
   std::vector<std::array<Row<Node>, 8>> hexahedra;
   std::vector<Element> element;                  // [elements]
   std::vector<std::array<GaussPoint, 8>> gauss;  // [elements]
@@ -131,6 +131,15 @@ struct Shape {
     for (int k = 0; k < 3; ++k)
       if (factors[mode] >> k & 1) sign *= plus[k] ? 1 : -1;
     return sign;
+  }
+  // Volume of a node, and of an integration point. (In two dimensions: area)
+  double size_of_node(int node) const { return entry(nodal_volume, node); }
+  template <int Points>
+  double size_of_point(int of_element, int point) const {
+    if constexpr (Points == 1)
+      return entry(element, of_element).volume;
+    else
+      return entry(entry(gauss, of_element), point).volume;
   }
   int elements() const { return static_cast<int>(hexahedra.size()); }
   int surface_points() const { return points.points(); }

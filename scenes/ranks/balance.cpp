@@ -10,7 +10,6 @@
 #include "components/contact.hpp"
 #include "components/ranks.hpp"
 #include "components/run_state.hpp"
-#include "components/space/body.hpp"
 #include "components/space/contact.hpp"
 #include "scenes/ranks/columns.hpp"
 #include "scenes/ranks/divide.hpp"
@@ -113,8 +112,9 @@ bool Balance::divide() {
   const Bodies& bodies = share_.resource<Bodies>();
   std::vector<ChunkCost> own;
   for (const int chunk : bodies.own_chunks)
-    own.push_back({share_.has<Position>() ? centre_of<Position>(share_, bodies, chunk)
-                                          : centre_of<space::Position>(share_, bodies, chunk),
+    own.push_back({share_.has<Position<TwoD>>()
+                       ? centre_of<Position<TwoD>>(share_, bodies, chunk)
+                       : centre_of<Position<ThreeD>>(share_, bodies, chunk),
                    weight_of(share_, chunk)});
   const std::vector<Ranks::Bytes> told = ranks_.gather(bytes_of(own));
   std::vector<int> owner;

@@ -156,8 +156,9 @@ Order Crew::fetch_sample(const std::vector<std::string>& looks) const {
   if (needs_motion_) names.insert(names.end(), {"node/position", "node/velocity"});
   if (needs_tool_rows_) names.push_back(name_of<ContactTouches<ToolContact>>());
   if (needs_die_wall_)
-    names.insert(names.end(), {name_of<space::SurfacePosition>(), name_of<space::PointForce>(),
-                               name_of<ContactTouches<FaceToolContact>>()});
+    names.insert(names.end(),
+                 {name_of<space::SurfacePosition>(), name_of<PointForce<FaceToolContact>>(),
+                  name_of<ContactTouches<FaceToolContact>>()});
   if (whole_->has<BondTotals>())
     names.insert(names.end(), {name_of<CurvePosition>(), name_of<space::SurfacePosition>(), "law",
                                "bond_law", "bonded", "bond_damage"});

@@ -2,7 +2,6 @@
 
 #include "components/body.hpp"
 #include "components/shape.hpp"
-#include "components/space/body.hpp"
 #include "scenes/results/plane_values.hpp"
 #include "scenes/space/results/space_values.hpp"
 
@@ -25,14 +24,14 @@ void append_all(const World& world, int slot, std::vector<double>& out) {
 }  // namespace
 
 std::vector<ParticleValues> mesh_values(const World& world) {
-  return world.has<space::Position>() ? space::mesh_values(world) : plane_mesh_values(world);
+  return world.has<Position<ThreeD>>() ? space::mesh_values(world) : plane_mesh_values(world);
 }
 
 ParticleValues state_values() {
-  return append_all<Position, Velocity, PlasticMetric<1>, PlasticMetric<4>, PlasticStrain<1>,
-                    PlasticStrain<4>, PlasticHourglass, space::Position, space::Velocity,
-                    space::PlasticMetric<1>, space::PlasticMetric<8>, space::PlasticStrain<1>,
-                    space::PlasticStrain<8>, space::PlasticHourglass>;
+  return append_all<Position<TwoD>, Position<ThreeD>, Velocity<TwoD>, Velocity<ThreeD>,
+                    PlasticMetric<TwoD, 1>, PlasticMetric<TwoD, 4>, PlasticMetric<ThreeD, 1>,
+                    PlasticMetric<ThreeD, 8>, PlasticStrain<1>, PlasticStrain<4>, PlasticStrain<8>,
+                    PlasticHourglass<TwoD>, PlasticHourglass<ThreeD>>;
 }
 
 void visit_all(const World& world, const ParticleValues& values, const ValueSink& take) {

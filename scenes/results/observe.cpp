@@ -67,12 +67,12 @@ void check_output(const Scene& scene, const schema::Origins& origins, Problems& 
 void add_observed(World& world, const Scene& scene) {
   if (world.has<BondTotals>()) world.emplace<Fragments>();
   if (scene.observes_stress()) {
-    world.add<ParticleStress>();
-    world.add<DeformedArea>();
-    world.add<ParticleCentre>();
+    world.add<ParticleStress<TwoD>>();
+    world.add<DeformedSize<TwoD>>();
+    world.add<ParticleCentre<TwoD>>();
   }
   if (scene.output.contacts) {
-    world.emplace<ContactNetwork>();
+    world.emplace<ContactNetwork<TwoD>>();
     world.emplace<ForceChains>();
   }
   if (scene.output.density())

@@ -37,8 +37,8 @@ void append_compact_stress(const World& world, double area, std::vector<double>&
   std::array<double, 4> s{};
   for (const int slot : world.resource<Bodies>().slot_of_number)
     for (std::size_t k = 0; k < 4; ++k)
-      s[k] += in_slot<DeformedArea>(world, slot)[0] / area *
-              in_slot<ParticleStress>(world, slot)[k * lane_count];
+      s[k] += in_slot<DeformedSize<TwoD>>(world, slot)[0] / area *
+              in_slot<ParticleStress<TwoD>>(world, slot)[k * lane_count];
   const double mean = (s[0] + s[1] + s[2]) / 3;
   const double xx = s[0] - mean, yy = s[1] - mean, zz = s[2] - mean;
   const double deviatoric = std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * s[3] * s[3]));
@@ -50,11 +50,11 @@ constexpr LinkWords link_words{2, "along the normal rotated by 90 degrees", "len
                                "of the surface in contact; times thickness: area"};
 
 ContactCounts contact_counts(const World& world) {
-  return {world.resource<ContactNetwork>(), world.resource<Bodies>().particles()};
+  return {world.resource<ContactNetwork<TwoD>>(), world.resource<Bodies>().particles()};
 }
 
 void append_network(const World& world, std::vector<double>& row) {
-  const auto& network = world.resource<ContactNetwork>();
+  const auto& network = world.resource<ContactNetwork<TwoD>>();
   const auto particles = static_cast<double>(world.resource<Bodies>().particles());
   const kernels::Fabric fabric = kernels::fabric(network.pairs);
   const kernels::ForceSizes sizes = kernels::force_sizes(network.pairs);
@@ -66,9 +66,9 @@ void append_network(const World& world, std::vector<double>& row) {
 }
 
 void append_network_frame(const World& world, Fields& fields) {
-  const auto& network = world.resource<ContactNetwork>();
-  append_links(network.pairs, &ContactLink::length, fields);
-  append_links(network.tools, &ContactLink::length, fields);
+  const auto& network = world.resource<ContactNetwork<TwoD>>();
+  append_links(network.pairs, fields);
+  append_links(network.tools, fields);
   const kernels::Rose rose = kernels::rose(network.pairs);
   fields.emplace_back(rose.number.begin(), rose.number.end());
   fields.emplace_back(rose.force.begin(), rose.force.end());
@@ -183,8 +183,8 @@ std::vector<FieldInfo> observed_fields(const Scene& scene) {
     all.insert(all.end(), more.begin(), more.end());
   };
   if (scene.observes_stress())
-    append({{"particle_stress", "Pa", ParticleStress::info.meaning, FieldPlace::particle, 4},
-            {"particle_centre", "m", ParticleCentre::info.meaning, FieldPlace::particle, 2}});
+    append({{"particle_stress", "Pa", ParticleStress<TwoD>::info.meaning, FieldPlace::particle, 4},
+            {"particle_centre", "m", ParticleCentre<TwoD>::info.meaning, FieldPlace::particle, 2}});
   if (scene.output.contacts) {
     append(link_fields("contacts", true, link_words));
     append(link_fields("tool_contacts", false, link_words));
@@ -208,17 +208,18 @@ std::vector<FieldInfo> observed_fields(const Scene& scene) {
 }
 
 void append_observed_sample(const World& world, double die_area, std::vector<double>& row) {
-  if (world.has<ParticleStress>() && die_area > 0) append_compact_stress(world, die_area, row);
-  if (world.has<ContactNetwork>()) append_network(world, row);
+  if (world.has<ParticleStress<TwoD>>() && die_area > 0)
+    append_compact_stress(world, die_area, row);
+  if (world.has<ContactNetwork<TwoD>>()) append_network(world, row);
   if (world.has<DensityGrid>()) append_density(world, row);
 }
 
 void append_observed_frame(const World& world, Fields& fields) {
-  if (world.has<ParticleStress>()) {
-    fields.push_back(by_number<ParticleStress>(world));
-    fields.push_back(by_number<ParticleCentre>(world));
+  if (world.has<ParticleStress<TwoD>>()) {
+    fields.push_back(by_number<ParticleStress<TwoD>>(world));
+    fields.push_back(by_number<ParticleCentre<TwoD>>(world));
   }
-  if (world.has<ContactNetwork>()) append_network_frame(world, fields);
+  if (world.has<ContactNetwork<TwoD>>()) append_network_frame(world, fields);
   if (world.has<DensityGrid>()) append_density_frame(world, fields);
 }
 

@@ -65,7 +65,7 @@ PlaneParts::PlaneParts(const Scene& scene, const World& world)
       cell_(die_cell(scene)),
       yield_stress_(common_yield_stress(scene)),
       tags_(particle_tags(scene, world)),
-      outlines_(scene, world, node_values<Position>(world)),
+      outlines_(scene, world, node_values<Position<TwoD>>(world)),
       fields_(fields_of(scene, world)) {
   for_each_particle<Node>(world, [&](std::size_t, int, const Shape& shape) {
     particle_area_ += shape.area;
@@ -98,7 +98,7 @@ RunMesh PlaneParts::mesh() const {
     first_node += static_cast<std::int32_t>(shape.nodes.size());
     particle += 1;
   });
-  mesh.reference = node_values<Position>(world_);
+  mesh.reference = node_values<Position<TwoD>>(world_);
   mesh.tags = tags_;
   mesh.tools = outlines_.lines();
   return mesh;
@@ -225,8 +225,8 @@ std::vector<double> PlaneParts::momentum() const {
   for_each_particle<Node>(world_, [&](std::size_t first, int lane, const Shape& shape) {
     const int slot = world_.resource<Bodies>().slot_of_number[i++];
     const double density = world_.column<Density>().values()[static_cast<std::size_t>(slot)];
-    const Lane* x = world_.column<Position>().lanes() + 2 * first;
-    const Lane* v = world_.column<Velocity>().lanes() + 2 * first;
+    const Lane* x = world_.column<Position<TwoD>>().lanes() + 2 * first;
+    const Lane* v = world_.column<Velocity<TwoD>>().lanes() + 2 * first;
     for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
       const double mass = density * thickness * shape.nodal_area[n];
       const double vx = v[2 * n][lane], vy = v[2 * n + 1][lane];

@@ -19,7 +19,7 @@ template <class F>
 class Elements {
  public:
   Elements(const World& world, int slot)
-      : deviator_(first_value<DeviatoricStress<F::points>>(world, slot)),
+      : deviator_(first_value<DeviatoricStress<TwoD, F::points>>(world, slot)),
         mean_stress_(first_value<MeanStress<F::volumes>>(world, slot)) {}
 
   // Mean over the points of an element; the effective stress is the mean of the pointwise values.
@@ -81,7 +81,7 @@ template <class F>
 std::vector<ParticleValues> values_of(const World& world) {
   using Out = std::vector<double>;
   std::vector<ParticleValues> all{
-      of_nodes<Position>, of_nodes<Velocity>,
+      of_nodes<Position<TwoD>>, of_nodes<Velocity<TwoD>>,
       of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.effective); }),
       of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.pressure); }),
       of_stress<F>([](const CellStress& c, Out& out) {

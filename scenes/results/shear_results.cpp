@@ -41,7 +41,7 @@ int plane_facing(const Scene& scene, const Vec2& direction) {
 // Mean velocity of a particle's outline.
 Vec2 velocity_of(const World& world, int slot) {
   const Bodies& bodies = world.resource<Bodies>();
-  const Column<Velocity>& column = world.column<Velocity>();
+  const Column<Velocity<TwoD>>& column = world.column<Velocity<TwoD>>();
   const auto first = static_cast<std::size_t>(
       column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
   const int nodes = bodies.shape_of_slot(slot).boundary_nodes;

@@ -43,18 +43,13 @@ class History {
     for (const auto& [edge, other, row] : touching) {
       add(std::array{number_in(slot), edge, other});
       if constexpr (std::is_same_v<At, FaceContact>) add_springs(row);
-      if constexpr (std::is_same_v<At, FaceToolContact>) add_points<space::ElasticSlip>(row);
-      if constexpr (in_space)
-        add_history<space::SlipWeakening<At>, space::BondedPoints<At>, space::BondDamage<At>>(row);
-      else
-        add_history<ElasticSlip<At>, SlipWeakening<At>, BondedPoints<At>, BondDamage<At>>(row);
+      using Bonded = std::conditional_t<At::axes == 3, space::BondedPoints<At>, BondedPoints<At>>;
+      add_history<ElasticSlip<At>, SlipWeakening<At>, Bonded, BondDamage<At>>(row);
     }
     return std::move(bytes_);
   }
 
  private:
-  static constexpr bool in_space =
-      std::is_same_v<At, FaceContact> || std::is_same_v<At, FaceToolContact>;
   static constexpr bool with_tools =
       std::is_same_v<At, ToolContact> || std::is_same_v<At, FaceToolContact>;
 

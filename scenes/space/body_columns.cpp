@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "components/space/body.hpp"
+#include "components/body.hpp"
 #include "components/space/formulation.hpp"
 #include "engine/entry.hpp"
 #include "engine/portable_math.hpp"
@@ -42,14 +42,14 @@ std::vector<std::int32_t> rows_by_chunk(const Bodies& bodies, const Shapes& shap
 
 template <class F>
 void add_element_columns(World& world, const MaterialNeeds& needs) {
-  world.add<DeviatoricStress<F::points>>();
-  world.add<MeanStress>();
+  world.add<DeviatoricStress<ThreeD, F::points>>();
+  world.add<MeanStress<1>>();
   if (F::stabilised) world.add<HourglassEnergy>();
   if (!needs.plastic) return;
-  world.add<PlasticMetric<F::points>>();
+  world.add<PlasticMetric<ThreeD, F::points>>();
   world.add<PlasticStrain<F::points>>();
   if (F::stabilised) {
-    world.add<PlasticHourglass>();
+    world.add<PlasticHourglass<ThreeD>>();
     world.add<HourglassWork>();
   }
 }
@@ -64,7 +64,7 @@ void add_particle_columns(World& world, const MaterialNeeds& needs) {
   world.add<KineticEnergy>();
   world.add<ElasticEnergy>();
   if (needs.damped) {
-    world.add<DampingForce>();
+    world.add<DampingForce<ThreeD>>();
     world.add<MassDamping>();
     world.add<StiffnessDamping>();
     world.add<DampingWork>();
@@ -97,17 +97,17 @@ void add_body_columns(World& world, const Scene& scene, const Bodies& bodies,
   world.add_table<Element>(
       rows_by_chunk(bodies, shapes, [](const Shape& s) { return s.elements(); }));
   world.add_table<Particle>(rows_by_chunk(bodies, shapes, [](const Shape&) { return 1; }));
-  world.add<Position>();
-  world.add<Velocity>();
-  world.add<InternalForce>();
+  world.add<Position<ThreeD>>();
+  world.add<Velocity<ThreeD>>();
+  world.add<InternalForce<ThreeD>>();
   with_hexahedra(bodies.formulation, [&]<class F>(F) { add_element_columns<F>(world, needs); });
   add_particle_columns(world, needs);
 }
 
 void fill_bodies(World& world, const std::vector<std::optional<Placed>>& placed,
                  const Bodies& bodies, const Shapes& shapes) {
-  auto& x = world.column<Position>();
-  auto& v = world.column<Velocity>();
+  auto& x = world.column<Position<ThreeD>>();
+  auto& v = world.column<Velocity<ThreeD>>();
   bodies.for_own_lanes([&](int slot) {
     const auto& at = entry(placed, slot);
     const ChunkLane where(slot);

@@ -7,7 +7,6 @@
 #include "components/body.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
-#include "components/space/body.hpp"
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
@@ -155,7 +154,7 @@ void number_surfaces(World& world) {
 }
 
 void add_surfaces(World& world, const Touching& touching) {
-  world.add_table<BoundaryNode>(of_chunks(world, [](const Shape& s) { return s.surface_nodes; }));
+  world.add_table<BoundaryNode>(of_chunks(world, [](const Shape& s) { return s.boundary_nodes; }));
   world.add_table<SurfacePoint>(
       of_chunks(world, [](const Shape& s) { return s.surface_points(); }));
   world.add_table<ParticleSurface>(
@@ -163,7 +162,7 @@ void add_surfaces(World& world, const Touching& touching) {
   world.add_table<SurfaceFace>(of_chunks(
       world, [](const Shape& s) { return lane_count * static_cast<int>(s.faces.size()); }));
   number_surfaces(world);
-  world.add<ContactForce>();
+  world.add<ContactForce<ThreeD>>();
   world.add<NetPosition>();
   world.add<NetLoad>();
   world.add<PointPosition>();
@@ -197,8 +196,8 @@ void add_pairs(World& world, const Touching& touching) {
 
 void add_tools(World& world, const SpaceScene& scene, const Touching& touching) {
   add_rows<FaceToolContact>(world);
-  world.add<PointForce>();
-  if (touching.friction) world.add<ElasticSlip>();
+  world.add<PointForce<FaceToolContact>>();
+  if (touching.friction) world.add<ElasticSlip<FaceToolContact>>();
   if (touching.weakening) world.add<SlipWeakening<FaceToolContact>>();
   world.emplace<RowBlocks<FaceToolContact>>();
   world.emplace<ContactSums<ToolContact>>();

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "components/body.hpp"
-#include "components/space/body.hpp"
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/formulation.hpp"
@@ -32,9 +31,10 @@ constexpr std::uint64_t size_of_columns() {
 
 template <class F>
 std::uint64_t bytes_of_element(bool plastic) {
-  std::uint64_t bytes = size_of_columns<DeviatoricStress<F::points>, MeanStress>();
-  if (plastic) bytes += size_of_columns<PlasticMetric<F::points>, PlasticStrain<F::points>>();
-  if (plastic && F::stabilised) bytes += size_of_columns<PlasticHourglass>();
+  std::uint64_t bytes = size_of_columns<DeviatoricStress<ThreeD, F::points>, MeanStress<1>>();
+  if (plastic)
+    bytes += size_of_columns<PlasticMetric<ThreeD, F::points>, PlasticStrain<F::points>>();
+  if (plastic && F::stabilised) bytes += size_of_columns<PlasticHourglass<ThreeD>>();
   return bytes;
 }
 
@@ -77,8 +77,9 @@ SpaceMemory memory_of(const Scene& scene) {
   const std::uint64_t element = scene.space->full_integration
                                     ? bytes_of_element<EightPoint>(plastic)
                                     : bytes_of_element<OnePoint>(plastic);
-  const std::uint64_t node = size_of_columns<Position, Velocity, InternalForce>() +
-                             (damped ? size_of_columns<DampingForce>() : 0);
+  const std::uint64_t node =
+      size_of_columns<Position<ThreeD>, Velocity<ThreeD>, InternalForce<ThreeD>>() +
+      (damped ? size_of_columns<DampingForce<ThreeD>>() : 0);
   const std::uint64_t point = size_of_columns<SurfacePosition, SurfaceBefore>() +
                               (friction ? size_of_columns<SurfaceVelocity>() : 0);
   const std::uint64_t row =
@@ -97,7 +98,7 @@ SpaceMemory memory_of(const Scene& scene) {
                surface = static_cast<std::uint64_t>(mesh.surface_nodes());
     need.columns += lanes * (nodes * node + elements * element +
                              static_cast<std::uint64_t>(mesh.surface_points()) * point +
-                             surface * size_of_columns<ContactForce>());
+                             surface * size_of_columns<ContactForce<ThreeD>>());
     need.results += particles[c] * copies_in_flight * sizeof(double) * (6 * nodes + 9 * elements);
     need.contacts += static_cast<std::uint64_t>(rows_of_a_face *
                                                 static_cast<double>(particles[c] * faces * row));

@@ -7,6 +7,7 @@
 //          both of its ends: what the leapfrog removes from its kinetic energy (systems/body/energies.cpp)
 // Runs     after internal_force, before apply_constraints and integrate
 // Active   when a material of the scene has [material.damping]
+#include "systems/body/damping_force.hpp"
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
@@ -110,47 +111,21 @@ void add_viscous_forces(const Shape& shape, const Nodes& x, const Velocities& v,
   }
 }
 
-// Power of a force on nodes with velocity v.
-template <class Forces, class Velocities>
-Lane power(const Shape& shape, const Forces& force, const Velocities& v) {
-  Lane sum{};
-  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
-    for (int k = 0; k < 2; ++k) sum += force(Row<Node>(i), k) * v(Row<Node>(i), k);
-  return sum;
-}
-
 }  // namespace
 
 template <class F>
 [[gnu::flatten]] void damping_force<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto x = motion.position.chunk(chunk);
-  const auto v = motion.velocity.chunk(chunk);
-  const auto force = damping.chunk(chunk);
-  // The first force acts for half a step (systems/body/integrate.cpp).
-  const double start = clock->step == 1 ? 0.5 : 1.0;
-  const Lane before = start * power(shape, force, v);
-
-  const Lane drag = constants.mass.chunk(chunk)(particle) *
-                    material.density.chunk(chunk)(particle) * bodies->thickness;
-  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
-    for (int k = 0; k < 2; ++k)
-      force(Row<Node>(i), k) = -(entry(shape.nodal_area, i) * drag) * v(Row<Node>(i), k);
-
-  const Lane viscous = constants.stiffness.chunk(chunk)(particle);
-  if (any(viscous > 0.0)) {
-    const Lane shear = material.elastic.shear.chunk(chunk)(particle),
-               k = material.elastic.bulk.chunk(chunk)(particle);
-    const Viscosity viscosity{2.0 * viscous * shear, viscous * k,
-                              viscous * kernels::plane_strain_modulus(shear, k)};
-    add_viscous_forces<F>(shape, x, v, viscosity, 0.5 * clock->dt_before, bodies->thickness, force);
-  }
-
-  work.chunk(chunk)(particle) -= 0.5 * clock->dt_before * (before + power(shape, force, v));
-  const auto f = internal.chunk(chunk);
-  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
-    for (int k = 0; k < 2; ++k) f(Row<Node>(i), k) += force(Row<Node>(i), k);
+  const auto of_chunk = [&](const auto& column) { return column.chunk(chunk); };
+  damp(*this, chunk, of_chunk,
+       [&](const auto& force, const auto& x, const auto& v, const Lane& beta) {
+         const Lane shear = of_chunk(material.elastic.shear)(particle),
+                    k = of_chunk(material.elastic.bulk)(particle);
+         const Viscosity viscosity{2.0 * beta * shear, beta * k,
+                                   beta * kernels::plane_strain_modulus(shear, k)};
+         add_viscous_forces<F>(bodies.shape_of(chunk), x, v, viscosity, 0.5 * clock->dt_before,
+                               bodies.depth(), force);
+       });
 }
 template struct damping_force<FourPoint>;
 template struct damping_force<Standard>;

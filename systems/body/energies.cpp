@@ -1,10 +1,11 @@
-// kinetic_energy, elastic_energy, plastic_work, hourglass_energy: per particle, on sampled steps.
+// kinetic_energy, plastic_work; elastic_energy, hourglass_energy of quads: per particle, on sampled steps.
 //
 // Kinetic energy is 1/2 m v_(n-1/2) . v_(n+1/2): together with the stored energy at t_n it is what the
 // leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors, not phase shifts.
 #include <cmath>
 
 #include "components/run_state.hpp"
+#include "components/space/formulation.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
 #include "systems/body/element_access.hpp"
@@ -13,17 +14,18 @@
 
 namespace pulvis {
 
-void kinetic_energy::operator()(Chunk chunk) const {
-  const Shape& shape = bodies->shape_of_chunk(chunk);
+template <class D>
+void kinetic_energy<D>::operator()(Chunk chunk) const {
+  const auto& shape = bodies.shape_of(chunk);
   const auto f = forces.internal.chunk(chunk);
   const auto v = velocity.chunk(chunk);
-  const Lane mass_per_area = density.chunk(chunk)(Row<Particle>()) * bodies->thickness;
+  const Lane mass_per_size = density.chunk(chunk)(Row<Particle>()) * bodies.depth();
   const double half = 0.5 * (clock->dt_before + clock->dt);
   Lane total{};
   for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
     const Row<Node> n(i);
-    const Lane mass = mass_per_area * entry(shape.nodal_area, i);
-    for (int k = 0; k < 2; ++k) {
+    const Lane mass = mass_per_size * shape.size_of_node(i);
+    for (int k = 0; k < D::axes; ++k) {
       Lane force = f(n, k);
       if (forces.contact && i < shape.boundary_nodes)
         force += forces.contact->chunk(chunk)(Row<BoundaryNode>(i), k);
@@ -32,6 +34,8 @@ void kinetic_energy::operator()(Chunk chunk) const {
   }
   energy.chunk(chunk)(Row<Particle>()) = total;
 }
+template struct kinetic_energy<TwoD>;
+template struct kinetic_energy<ThreeD>;
 
 template <class F>
 [[gnu::flatten]] void elastic_energy<F>::operator()(Chunk chunk) const {
@@ -70,23 +74,23 @@ template struct elastic_energy<OnePoint>;
 template <class F>
 void plastic_work<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto& shape = bodies.shape_of(chunk);
   const auto strain = eps.chunk(chunk);
   Lane total{};
   const auto add = [&](const auto& law) {
     for (int i = 0; i < shape.elements(); ++i)
       for (int g = 0; g < F::points; ++g)
-        total += entry(points_of<F::points>(shape, i), g).determinant *
+        total += shape.template size_of_point<F::points>(i, g) *
                  law.plastic_work(strain(Row<Element>(i), g));
   };
   // Elastic particles in a chunk with plastic ones have an infinite yield stress and no strain: 0, not NaN.
   const Lane yield = min(flow.yield_stress.chunk(chunk)(particle), 1e300);
   const kernels::LinearHardening<Lane> linear{yield, flow.hardening.chunk(chunk)(particle)};
   if (flow.laws)
-    with_hardening((*flow.laws)->of_chunk(*bodies, chunk), linear, add);
+    with_hardening((*flow.laws)->of_chunk(*bodies.bodies, chunk), linear, add);
   else
     add(linear);
-  total *= bodies->thickness;
+  total *= bodies.depth();
   total += beyond.chunk(chunk)(particle);
   // Joint plastic flow dissipates both; the hourglass part is reported separately.
   if (hourglass) total -= hourglass->chunk(chunk)(particle);
@@ -95,6 +99,8 @@ void plastic_work<F>::operator()(Chunk chunk) const {
 template struct plastic_work<FourPoint>;
 template struct plastic_work<Standard>;
 template struct plastic_work<OnePoint>;
+template struct plastic_work<space::OnePoint>;
+template struct plastic_work<space::EightPoint>;
 
 void hourglass_energy::operator()(Chunk chunk) const {
   const Row<Particle> particle;

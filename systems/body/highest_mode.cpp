@@ -26,8 +26,8 @@ constexpr double longest_gain = 1.3;  // over the element bound; undeformed disc
 template <int Points>
 struct Body {
   const Shape& shape;
-  ChunkView<Position, const Lane*> x;
-  ChunkView<DeviatoricStress<Points>, const Lane*> stress;
+  ChunkView<Position<TwoD>, const Lane*> x;
+  ChunkView<DeviatoricStress<TwoD, Points>, const Lane*> stress;
   const ChunkView<ContactSupport, const Lane*>* support;  // null: no contact possible
   Lane bulk, shear, contact;                              // Pa
 };

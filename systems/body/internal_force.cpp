@@ -24,7 +24,7 @@ struct Bending {
 
 template <class F>
 struct Views {
-  ReadPart<DeviatoricStress<F::points>> s;
+  ReadPart<DeviatoricStress<TwoD, F::points>> s;
   ReadPart<MeanStress<F::volumes>> p;
   const Bending* bending;  // null: not stabilised
 };
@@ -85,8 +85,8 @@ Flux stress_flux(const Views<OnePoint>& v, const kernels::FourfoldMap<Packet>& m
 }
 
 template <class F>
-void part_force(BusyChunk chunk, const Views<F>& views, const ReadPart<Position>& x,
-                const WritePart<InternalForce>& f, const Shape& shape, double thickness) {
+void part_force(BusyChunk chunk, const Views<F>& views, const ReadPart<Position<TwoD>>& x,
+                const WritePart<InternalForce<TwoD>>& f, const Shape& shape, double thickness) {
   for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n)
     f(Row<Node>(n), 0) = f(Row<Node>(n), 1) = Packet{};
 

@@ -22,10 +22,10 @@ struct PacketSums {
 
 template <class F, class Law>
 struct Views {
-  ReadPart<Position> x;
+  ReadPart<Position<TwoD>> x;
   ReadPart<IsochoricScale<F::points>> scale;
-  WritePart<DeviatoricStress<F::points>> stress;
-  WritePart<PlasticMetric<F::points>> metric;
+  WritePart<DeviatoricStress<TwoD, F::points>> stress;
+  WritePart<PlasticMetric<TwoD, F::points>> metric;
   WritePart<PlasticStrain<F::points>> strain;
   Packet mu, inv_mu;
   Law law;
@@ -96,7 +96,7 @@ void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, 
 // ---- one point: the hourglass stress is returned with the deviator ---------------------------------
 struct Bending {
   WritePart<HourglassStress> stress;
-  WritePart<PlasticHourglass> plastic;
+  WritePart<PlasticHourglass<TwoD>> plastic;
   Packet softness, stiffness, inv_modulus;
 };
 

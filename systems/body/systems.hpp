@@ -1,11 +1,13 @@
 // Systems of the bodies. What a system reads and writes is declared here and nowhere else; systems/step.cpp sets the
 // order of the systems, and each is described at the top of its own file.
-// F: the formulation of the elements (components/formulation.hpp).
+// D: the dimension (components/dimension.hpp). F: the formulation of the elements (components/formulation.hpp; for systems
+// that both dimensions have also components/space/formulation.hpp).
 #pragma once
 
 #include "components/bundles.hpp"
 #include "components/highest_mode.hpp"
 #include "components/observed.hpp"
+#include "components/shaped_bodies.hpp"
 #include "engine/look_ahead.hpp"
 #include "systems/laws/flow_law.hpp"
 
@@ -15,7 +17,7 @@ namespace pulvis {
 template <class F>
 struct elastic_stress {
   Read<Bodies> bodies;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Elasticity elastic;
   ElementStress<Write, F> stress;
   Optional<BendingModes<Write>> bending;
@@ -26,11 +28,11 @@ struct elastic_stress {
 template <class F>
 struct trial_stress {
   Read<Bodies> bodies;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Elasticity elastic;
   struct Plastic {
-    Read<PlasticMetric<F::points>> metric;
-    Optional<Read<PlasticHourglass>> hourglass;
+    Read<PlasticMetric<TwoD, F::points>> metric;
+    Optional<Read<PlasticHourglass<TwoD>>> hourglass;
     Write<IsochoricScale<F::points>> isochoric;
   } plastic;
   ElementStress<Write, F> stress;
@@ -50,18 +52,18 @@ template <class F>
 struct j2_return_map {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Elasticity elastic;
   Flow flow;
   struct Points {
     Read<IsochoricScale<F::points>> isochoric;
-    Write<DeviatoricStress<F::points>> deviator;
-    Write<PlasticMetric<F::points>> metric;
+    Write<DeviatoricStress<TwoD, F::points>> deviator;
+    Write<PlasticMetric<TwoD, F::points>> metric;
     Write<PlasticStrain<F::points>> strain;
   } points;
   struct Hourglass {  // one-point elements only
     Write<HourglassStress> stress;
-    Write<PlasticHourglass> plastic;
+    Write<PlasticHourglass<TwoD>> plastic;
     Write<HourglassWork> work;
   };
   Optional<Hourglass> hourglass;
@@ -75,35 +77,36 @@ struct j2_return_map {
 template <class F>
 struct internal_force {
   Read<Bodies> bodies;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   ElementStress<Read, F> stress;
   Read<ShearModulus> shear;
   Optional<BendingModes<Read>> bending;
-  Write<InternalForce> force;
+  Write<InternalForce<TwoD>> force;
   void operator()(BusyChunk chunk) const;
 };
 
 template <class F>
 struct damping_force {
-  Read<Bodies> bodies;
+  ShapedBodies<TwoD> bodies;
   Read<Clock> clock;
-  Motion motion;
+  Motion<TwoD> motion;
   Material material;
   BulkDamping constants;
-  Write<DampingForce> damping;
+  Write<DampingForce<TwoD>> damping;
   Write<DampingWork> work;
-  Write<InternalForce> internal;
+  Write<InternalForce<TwoD>> internal;
   void operator()(Chunk chunk) const;
 };
 
 // ---- motion and stable time steps --------------------------------------------------------------
+template <class D>
 struct integrate {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   Read<Density> density;
-  NodalForces<Read> forces;
-  Write<Velocity> velocity;
-  Write<Position> position;
+  NodalForces<Read, D> forces;
+  Write<Velocity<D>> velocity;
+  Write<Position<D>> position;
   void operator()(Chunk chunk) const;
 };
 
@@ -111,9 +114,9 @@ template <int Points>
 struct stable_time_step {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Material material;
-  Read<DeviatoricStress<Points>> deviator;
+  Read<DeviatoricStress<TwoD, Points>> deviator;
   Optional<Read<ContactRules>> rules;
   Optional<BulkDamping> damping;
   Write<StableTimeStep> stable;
@@ -124,9 +127,9 @@ template <int Points>
 struct highest_mode {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Material material;
-  Read<DeviatoricStress<Points>> deviator;
+  Read<DeviatoricStress<TwoD, Points>> deviator;
   struct Springs {
     Read<ContactSupport> support;
     Read<ContactRules> rules;
@@ -157,12 +160,13 @@ struct element_health {
 };
 
 // ---- sampled steps only ---------------------------------------------------------------------------
+template <class D>
 struct kinetic_energy {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   Read<Density> density;
-  NodalForces<Read> forces;
-  Read<Velocity> velocity;
+  NodalForces<Read, D> forces;
+  Read<Velocity<D>> velocity;
   Write<KineticEnergy> energy;
   void operator()(Chunk chunk) const;
 };
@@ -170,16 +174,16 @@ struct kinetic_energy {
 template <class F>
 struct elastic_energy {
   Read<Bodies> bodies;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Elasticity elastic;
-  Optional<Read<PlasticMetric<F::points>>> metric;
+  Optional<Read<PlasticMetric<TwoD, F::points>>> metric;
   Write<ElasticEnergy> energy;
   void operator()(Chunk chunk) const;
 };
 
 template <class F>
 struct plastic_work {
-  Read<Bodies> bodies;
+  ShapedBodies<typename F::Dimension> bodies;
   Flow flow;
   Read<PlasticStrain<F::points>> eps;
   Optional<Read<HourglassWork>> hourglass;
@@ -190,7 +194,7 @@ struct plastic_work {
 
 struct hourglass_energy {
   Read<Bodies> bodies;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Elasticity elastic;
   Read<HourglassStress> stress;
   Optional<Read<HourglassWork>> spent;
@@ -201,11 +205,11 @@ struct hourglass_energy {
 template <class F>
 struct particle_stress {
   Read<Bodies> bodies;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   ElementStress<Read, F> element;
-  Write<ParticleStress> stress;
-  Write<DeformedArea> area;
-  Write<ParticleCentre> centre;
+  Write<ParticleStress<TwoD>> stress;
+  Write<DeformedSize<TwoD>> size;
+  Write<ParticleCentre<TwoD>> centre;
   void operator()(Chunk chunk) const;
 };
 

@@ -17,14 +17,14 @@ namespace {
 
 template <class F>
 struct Views {
-  ReadPart<Position> x;
-  WritePart<DeviatoricStress<F::points>> s;
+  ReadPart<Position<TwoD>> x;
+  WritePart<DeviatoricStress<TwoD, F::points>> s;
   WritePart<MeanStress<F::volumes>> p;
   Packet mu, bulk;
 };
 
 template <class F>
-Views<F> views_of(const Read<Position>& position, const ElementStress<Write, F>& stress,
+Views<F> views_of(const Read<Position<TwoD>>& position, const ElementStress<Write, F>& stress,
                   const Elasticity& elastic, Chunk chunk, int part) {
   const Row<Particle> particle;
   return {part_of(position.chunk(chunk), part), part_of(stress.deviator.chunk(chunk), part),
@@ -36,7 +36,7 @@ Views<F> views_of(const Read<Position>& position, const ElementStress<Write, F>&
 // One-point elements: the trial stress of their hourglass modes, with the plastic part `plastic_bending`.
 struct HourglassViews {
   WritePart<HourglassStress> stress;
-  const ReadPart<PlasticHourglass>* plastic_bending;  // null: elastic
+  const ReadPart<PlasticHourglass<TwoD>>* plastic_bending;  // null: elastic
   Packet modulus;
   Packet min_corner;  // over the elements so far
 };
@@ -101,9 +101,9 @@ void keep_worst(Packet minimum, Row<Element> e, Packet& worst, Packet& worst_ele
 template <class F, class LeftCauchyGreen>
 void part_stress(Chunk chunk, int part, const Bodies& bodies, const Views<F>& v,
                  const Optional<BendingModes<Write>>& bending,
-                 const Optional<Read<PlasticHourglass>>* plastic_bending,
+                 const Optional<Read<PlasticHourglass<TwoD>>>* plastic_bending,
                  const WorstJacobian<Write>& worst_jacobian, const LeftCauchyGreen& left) {
-  std::optional<ReadPart<PlasticHourglass>> plastic;
+  std::optional<ReadPart<PlasticHourglass<TwoD>>> plastic;
   std::optional<HourglassViews> hourglass;
   if constexpr (F::stabilised) {
     if (plastic_bending != nullptr) plastic = part_of((*plastic_bending)->chunk(chunk), part);

@@ -17,8 +17,8 @@ struct cell_load {
     TouchingRows<Contact> rows;
     Read<ContactLaw<Contact>> law;
   } contacts;
-  Read<Position> position;
-  Read<ContactForce> force;
+  Read<Position<TwoD>> position;
+  Read<ContactForce<TwoD>> force;
   struct Load {
     Write<MassCentre> centre;
     Write<NetForce> force;
@@ -53,13 +53,13 @@ struct cell_kick {
   Read<Bodies> bodies;
   Read<Clock> clock;
   Read<PeriodicCell> cell;
-  NodalForces<Read> forces;
+  NodalForces<Read, TwoD> forces;
   Read<Density> density;
   struct Place {
-    Read<Position> position;
+    Read<Position<TwoD>> position;
     Read<MassCentre> centre;
   } place;
-  Write<Velocity> velocity;
+  Write<Velocity<TwoD>> velocity;
   Write<KickWork> work;
   void operator()(Chunk chunk) const;
 };

@@ -98,7 +98,7 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
   }
   if (rows.bond_law) (*rows.bond_law)(row, BondLawNumber<At>::weld) = law.weld;
   rows.law(row, Law::damping) = law.damping;
-  rows.law(row, Law::inv_length) = 1 / edge.length;
+  rows.law(row, Law::inv_size) = 1 / edge.length;
   for (std::size_t g = 0; g < edge_points; ++g)
     rows.law(row, Law::weight + static_cast<int>(g)) = edge.weight[g] * bodies.thickness;
 }

@@ -2,7 +2,6 @@
 #include "engine/entry.hpp"
 #include "engine/portable_math.hpp"
 #include "systems/contact/contact_kernel.hpp"
-#include "systems/contact/skin_kernel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,25 +13,7 @@
 
 namespace pulvis {
 
-Box box_of(const double* points, int count) {
-  Box box{{points[0], points[1]}, {points[0], points[1]}};
-  for (int i = 1; i < count; ++i)
-    for (int k = 0; k < 2; ++k) {
-      box.low[k] = std::min(box.low[k], points[2 * i + k]);
-      box.high[k] = std::max(box.high[k], points[2 * i + k]);
-    }
-  return box;
-}
-
-bool near(const Box& a, const Box& b, double skin) {
-  for (int k = 0; k < 2; ++k)
-    if (a.low[k] > b.high[k] + skin || b.low[k] > a.high[k] + skin) return false;
-  return true;
-}
-
 namespace {
-
-using kernels::moved;
 
 // Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours
 // are in the surrounding cells.

@@ -9,13 +9,10 @@
 
 #include "components/cell.hpp"
 #include "components/shape.hpp"
+#include "systems/contact/box.hpp"
 #include "systems/contact/by_slot.hpp"
 
 namespace pulvis {
-
-struct Box {
-  double low[2], high[2];
-};
 
 // Edges of one outline closer than this along it can touch only if the outline turns by two thirds of a half
 // turn between them, at the root of a notch: the product of their normals is then below that.
@@ -48,9 +45,6 @@ struct Neighbour {
 inline Point shift_of(const PeriodicCell* cell, const Image& image) {
   return cell == nullptr ? Point{} : cell->vectors * image;
 }
-
-Box box_of(const double* points, int count);
-bool near(const Box& a, const Box& b, double skin);
 
 // For every slot, the particles within `distance` (of boxes), itself included, ascending by slot and image.
 // `control`: x y of every control point; `cell`: null if nothing is periodic.

@@ -164,7 +164,7 @@ template <class At>
                                         share * c.law(two[1], Law::stiffness)};
   const PointLaw law{at_points(c.law, two, Law::weight), halves(stiffness[0], stiffness[1]),
                      share * at_candidates(c.law, two, Law::damping),
-                     at_candidates(c.law, two, Law::inv_length)};
+                     at_candidates(c.law, two, Law::inv_size)};
   PointForces f =
       c.sliding ? forces_of(law, m, dt,
                             [&](const Lane& slip, const Lane& pressure) {
@@ -196,7 +196,7 @@ template <class At>
                           const PointMotion& m, double share, double dt, LaneSums& sums) {
   const PointForces f = forces_of(c, two, touching, m, share, dt);
   sums.add(f, touching);
-  sums.add_depth(two, touching, m.gap * at_candidates(c.law, two, ContactLaw<At>::inv_length));
+  sums.add_depth(two, touching, m.gap * at_candidates(c.law, two, ContactLaw<At>::inv_size));
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0) keep(c, entry(two, half), half, f, share);
   return f.along;

@@ -46,7 +46,7 @@ double distance(const Point& p, const Chord& c) {
 // The boundary of the particle in a slot, the outline first.
 class Boundary {
  public:
-  Boundary(const Bodies& bodies, int slot, const Read<Position>& x, const Hollows* hollows)
+  Boundary(const Bodies& bodies, int slot, const Read<Position<TwoD>>& x, const Hollows* hollows)
       : shape_(bodies.shape_of_slot(slot)),
         nodes_(x.chunk(ChunkLane(slot).chunk)),
         lane_(ChunkLane(slot).lane) {
@@ -84,7 +84,7 @@ class Boundary {
   }
 
  private:
-  using Nodes = decltype(std::declval<const Read<Position>&>().chunk(Chunk{}));
+  using Nodes = decltype(std::declval<const Read<Position<TwoD>>&>().chunk(Chunk{}));
 
   Point at(std::int32_t node) const {
     return {nodes_(Row<Node>(node), 0)[lane_], nodes_(Row<Node>(node), 1)[lane_]};

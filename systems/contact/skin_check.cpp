@@ -17,6 +17,8 @@
 #include <limits>
 
 #include "components/contact.hpp"
+#include "components/space/contact.hpp"
+#include "components/space/tools.hpp"
 #include "components/surface.hpp"
 #include "engine/entry.hpp"
 #include "systems/contact/skin_kernel.hpp"
@@ -37,16 +39,18 @@ double look_ahead(const ContactIndex& index, double travel) {
   return step > min_left * index.skin ? step : 0;
 }
 
+template <class D>
 struct OutlineMotion {  // of the outline in a slot since the rows were built
-  Box before, displacement;
+  BoxOf<D> before, displacement;
 };
 
-OutlineMotion motion_of(const double* before, const double* now, int points) {
-  OutlineMotion m{box_of(before, points), {}};
-  for (int k = 0; k < 2; ++k) {
+template <class D>
+OutlineMotion<D> motion_of(const double* before, const double* now, int points) {
+  OutlineMotion<D> m{box_of_points<D>(before, points), {}};
+  for (int k = 0; k < D::axes; ++k) {
     m.displacement.low[k] = m.displacement.high[k] = now[k] - before[k];
     for (int i = 1; i < points; ++i) {
-      const double u = now[2 * i + k] - before[2 * i + k];
+      const double u = now[D::axes * i + k] - before[D::axes * i + k];
       m.displacement.low[k] = std::min(m.displacement.low[k], u);
       m.displacement.high[k] = std::max(m.displacement.high[k], u);
     }
@@ -68,6 +72,7 @@ double min_of_slots(const std::vector<int>& slots, const Left& left) {
       [](double a, double b) { return std::min(a, b); });
 }
 
+// ---- periodic images, in two dimensions ---------------------------------------------------------
 // How far the nearest images have moved relative to their particles.
 double displacement_of_images(const ContactIndex& index, const PeriodicCell* cell) {
   double sum = 0;
@@ -77,104 +82,159 @@ double displacement_of_images(const ContactIndex& index, const PeriodicCell* cel
 }
 
 // Motion of the neighbour's image, from its position at that time.
-OutlineMotion of_image(const OutlineMotion& m, const ContactIndex& index, const PeriodicCell& cell,
-                       int k) {
+OutlineMotion<TwoD> of_image(const OutlineMotion<TwoD>& m, const ContactIndex& index,
+                             const PeriodicCell* cell, int k) {
+  if (cell == nullptr) return m;
   const Tensor2 before{index.cell_before};
   const Image& n = entry(index.images, k);
-  const Point was = before * n, is = cell.vectors * n;
-  return {kernels::moved(m.before, was),
-          kernels::moved(m.displacement, {is[0] - was[0], is[1] - was[1]})};
+  const Point was = before * n, is = cell->vectors * n;
+  return {moved(m.before, was), moved(m.displacement, {is[0] - was[0], is[1] - was[1]})};
+}
+const OutlineMotion<ThreeD>& of_image(const OutlineMotion<ThreeD>& m, const ContactIndex&,
+                                      const PeriodicCell*, int) {
+  return m;
 }
 
-// Particles that were not neighbours: the largest relative motion of any two.
-double remaining_of_non_neighbours(const ContactIndex& index, const PeriodicCell* cell,
-                                   const std::vector<int>& slots,
-                                   const std::vector<OutlineMotion>& motion, const Optional<BorderOutlines<CurvePosition>>& border) {
-  constexpr double none = -std::numeric_limits<double>::infinity();
-  std::array<double, 4> farthest{none, none, none, none};  // down, left, up, right
-  for (const int slot : slots)
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Box& u = entry(motion, slot).displacement;
-      farthest[k] = std::max(farthest[k], -u.low[k]);
-      farthest[2 + k] = std::max(farthest[2 + k], u.high[k]);
-    }
-  maximum_of_ranks(border, farthest);
-  const Box all{{-farthest[0], -farthest[1]}, {farthest[2], farthest[3]}};
-  return index.neighbourhood - index.reach - kernels::closing(all, all) -
-         displacement_of_images(index, cell);
-}
-
-double left_of_neighbours(const Bodies& bodies, const ContactIndex& index,
-                          const PeriodicCell* cell, const std::vector<OutlineMotion>& motion,
-                          int slot) {
-  if (index.neighbour_begin.empty()) return 1e300;
-  const OutlineMotion& own = entry(motion, slot);
-  double minimum = 1e300;
-  for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
-       ++k) {
-    const int other = entry(index.neighbours, k);
-    if (other < slot && bodies.owns(other)) continue;  // handled from the other slot
-    const OutlineMotion& stored = entry(motion, other);
-    const OutlineMotion its = cell == nullptr ? stored : of_image(stored, index, *cell, k);
-    const double allowed = std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
-    minimum = std::min(minimum, allowed - kernels::closing(own.displacement, its.displacement));
+// ---- tools ----------------------------------------------------------------------------------------
+// `m`: relative to the tool. To a plane only motion against its normal counts, so that a compact may slide along it.
+double left_of_tool(const ContactIndex& index, const ToolSurfaces& tools, int t,
+                    const OutlineMotion<TwoD>& m) {
+  if (tools.is(t, ToolShapes::Kind::constraint)) return 1e300;
+  if (tools.is(t, ToolShapes::Kind::polyline)) {
+    const bool far =
+        pieces_near((*tools.shapes)->surface_of(t), m.before, index.neighbourhood).empty();
+    const double allowed = far ? index.neighbourhood - index.reach : index.skin;
+    return allowed - kernels::closing(m.displacement, Box{{0, 0}, {0, 0}});
   }
-  return minimum;
+  const Point normal{tools.normal(Row<Tool>(t), 0), tools.normal(Row<Tool>(t), 1)};
+  return std::max(index.skin, kernels::min_along(m.before, normal) - index.reach) +
+         kernels::min_along(m.displacement, normal);
+}
+// Motion away from a plane is not counted: if it were, rows would be rebuilt at other times, and bits change.
+double left_of_tool(const ContactIndex& index, const space::ToolSurfaces& tools, int t,
+                    const OutlineMotion<ThreeD>& m) {
+  if (tools.shape(t).kind != space::ToolShapes::Kind::plane)
+    return index.skin - kernels::closing(m.displacement, BoxOf<ThreeD>{});
+  const space::Point normal = tools.normal_of(t);
+  return std::max(index.skin, kernels::min_along(m.before, normal) - index.reach) +
+         std::min(kernels::min_along(m.displacement, normal), 0.0);
 }
 
-// Relative to a plane only motion against its normal counts, so that a compact may slide along it.
-double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const OutlineMotion& m) {
-  double minimum = 1e300;
-  for (int t = 0; t < tools.position.rows(); ++t) {
-    const Row<Tool> tool(t);
-    const Point3& before = entry(index.tools_before, t);
-    const Point back{-before[0], -before[1]};
-    const Point moved{before[0] - tools.position(tool, 0), before[1] - tools.position(tool, 1)};
-    const Box own = kernels::moved(m.before, back), u = kernels::moved(m.displacement, moved);
-    if (tools.shapes && !(*tools.shapes)->is(t, ToolShapes::Kind::plane)) {
-      if (!(*tools.shapes)->is(t, ToolShapes::Kind::polyline)) continue;
-      const bool far =
-          pieces_near((*tools.shapes)->surface_of(t), own, index.neighbourhood).empty();
-      const double allowed = far ? index.neighbourhood - index.reach : index.skin;
-      minimum = std::min(minimum, allowed - kernels::closing(u, Box{{0, 0}, {0, 0}}));
-      continue;
+template <class D>
+typename D::Point difference(const Point3& a, const Point3& b) {
+  typename D::Point by;
+  for (std::size_t k = 0; k < D::axes; ++k) by[k] = a[k] - b[k];
+  return by;
+}
+
+template <class Tools>
+Point3 tool_position(const Tools& tools, int t) {
+  const Row<Tool> tool(t);
+  return {tools.position(tool, 0), tools.position(tool, 1), tools.position(tool, 2)};
+}
+
+// ---- what is left of the skin -------------------------------------------------------------------
+template <class D>
+struct Remaining {
+  const skin_check<D>& s;
+  const PeriodicCell* cell;
+  const std::vector<OutlineMotion<D>>& motion;  // [slots]
+
+  // Particles that were not neighbours: the largest relative motion of any two.
+  double of_non_neighbours() const {
+    std::array<double, std::size_t{2} * D::axes> farthest;  // against the axes, along them
+    farthest.fill(-std::numeric_limits<double>::infinity());
+    for (const int slot : s.bodies.bodies->own_slots)
+      for (std::size_t k = 0; k < D::axes; ++k) {
+        const BoxOf<D>& u = entry(motion, slot).displacement;
+        farthest[k] = std::max(farthest[k], -u.low[k]);
+        farthest[D::axes + k] = std::max(farthest[D::axes + k], u.high[k]);
+      }
+    maximum_of_ranks(s.border, farthest);
+    BoxOf<D> all;
+    for (std::size_t k = 0; k < D::axes; ++k) {
+      all.low[k] = -farthest[k];
+      all.high[k] = farthest[D::axes + k];
     }
-    const Point normal{tools.normal(tool, 0), tools.normal(tool, 1)};
-    minimum =
-        std::min(minimum, std::max(index.skin, kernels::min_along(own, normal) - index.reach) +
-                              kernels::min_along(u, normal));
+    return s.index->neighbourhood - s.index->reach - kernels::closing(all, all) -
+           displacement_of_images(*s.index, cell);
   }
-  return minimum;
+
+  double of_neighbours(int slot) const {
+    const ContactIndex& index = *s.index;
+    double minimum = 1e300;
+    if (index.neighbour_begin.empty()) return minimum;
+    const OutlineMotion<D>& own = entry(motion, slot);
+    for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
+         ++k) {
+      const int other = entry(index.neighbours, k);
+      if (other < slot && s.bodies.bodies->owns(other)) continue;  // handled from the other slot
+      const OutlineMotion<D>& its = of_image(entry(motion, other), index, cell, k);
+      const double allowed =
+          std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
+      minimum = std::min(minimum, allowed - kernels::closing(own.displacement, its.displacement));
+    }
+    return minimum;
+  }
+
+  double of_tools(int slot) const {
+    const auto& tools = *s.tools;
+    const Point3 origin{};
+    double minimum = 1e300;
+    for (int t = 0; t < tools.position.rows(); ++t) {
+      const Point3& before = entry(s.index->tools_before, t);
+      const OutlineMotion<D>& own = entry(motion, slot);
+      const OutlineMotion<D> relative{
+          moved(own.before, difference<D>(origin, before)),
+          moved(own.displacement, difference<D>(before, tool_position(tools, t)))};
+      minimum = std::min(minimum, left_of_tool(*s.index, tools, t, relative));
+    }
+    return minimum;
+  }
+};
+
+template <class D>
+double remaining_skin(const skin_check<D>& s) {
+  const Bodies& bodies = *s.bodies.bodies;
+  std::vector<OutlineMotion<D>> motion(bodies.slots.size());
+  tell_border(s.border, bodies);
+  tbb::parallel_for(std::size_t{0}, bodies.present_slots.size(), [&](std::size_t i) {
+    const int slot = bodies.present_slots[i];
+    const std::ptrdiff_t first = s.bodies.outline_begin(slot);
+    entry(motion, slot) =
+        motion_of<D>(s.before.values().data() + first, s.position.values().data() + first,
+                     s.bodies.outline_points(slot));
+  });
+  const Remaining<D> remaining{s, s.cell ? &**s.cell : nullptr, motion};
+  const double of_slots = min_of_slots(bodies.own_slots, [&](int slot) {
+    const double left = remaining.of_neighbours(slot);
+    return s.tools ? std::min(left, remaining.of_tools(slot)) : left;
+  });
+  return minimum_of_ranks(s.border, std::min(remaining.of_non_neighbours(), of_slots));
+}
+
+template <class D>
+void keep_positions(const skin_check<D>& s) {
+  for (const int slot : s.bodies.bodies->own_slots) {
+    const std::ptrdiff_t first = s.bodies.outline_begin(slot);
+    const int count = D::axes * s.bodies.outline_points(slot);
+    std::copy_n(s.position.values().begin() + first, count, s.before.values().begin() + first);
+  }
+  s.index->tools_before.clear();
+  for (int t = 0; s.tools && t < s.tools->position.rows(); ++t)
+    s.index->tools_before.push_back(tool_position(*s.tools, t));
 }
 
 }  // namespace
 
-void skin_check::operator()() const {
+template <class D>
+void skin_check<D>::operator()() const {
   index->due = false;
   const double ahead = look_ahead(*index, clock->travel);
   index->travel_seen = clock->travel;
   if (index->travel_at_bin >= 0) {
     if (clock->travel + ahead < index->look_at) return;
-    std::vector<OutlineMotion> motion(bodies->slots.size());
-    const auto& slots = bodies->own_slots;
-    const auto& present = bodies->present_slots;
-    tell_border(border, *bodies);
-    tbb::parallel_for(std::size_t{0}, present.size(), [&](std::size_t i) {
-      const int first = 2 * entry(bodies->slots, present[i]).first_control;
-      entry(motion, present[i]) =
-          motion_of(before.values().data() + first, control.values().data() + first,
-                    bodies->shape_of_slot(present[i]).control_points());
-    });
-    const PeriodicCell* periodic = cell ? &**cell : nullptr;
-    double left = remaining_of_non_neighbours(*index, periodic, slots, motion, border);
-    left = std::min(left, min_of_slots(slots, [&](int slot) {
-                      return left_of_neighbours(*bodies, *index, periodic, motion, slot);
-                    }));
-    if (tools)
-      left = std::min(left, min_of_slots(slots, [&](int slot) {
-                        return left_of_tools(*index, *tools, entry(motion, slot));
-                      }));
-    left = minimum_of_ranks(border, left);
+    const double left = remaining_skin(*this);
     index->look_at = clock->travel + left;
     if (left > std::max(min_left * index->skin, ahead)) return;
   }
@@ -182,16 +242,9 @@ void skin_check::operator()() const {
   index->travel_at_bin = clock->travel;
   index->look_at = clock->travel + index->skin;
   index->bins += 1;
-  for (const int slot : bodies->own_slots) {
-    const auto first = 2 * static_cast<std::size_t>(entry(bodies->slots, slot).first_control);
-    const auto count = 2 * static_cast<std::size_t>(bodies->shape_of_slot(slot).control_points());
-    std::ranges::copy(control.values().subspan(first, count), before.values().begin() + first);
-  }
-  index->tools_before.clear();
-  for (int t = 0; tools && t < tools->position.rows(); ++t)
-    index->tools_before.push_back({tools->position(Row<Tool>(t), 0),
-                                   tools->position(Row<Tool>(t), 1),
-                                   tools->position(Row<Tool>(t), 2)});
+  keep_positions(*this);
 }
+template struct skin_check<TwoD>;
+template struct skin_check<ThreeD>;
 
 }  // namespace pulvis

@@ -23,14 +23,6 @@ Box corner_box(const Piece& p) {
           {p.corner_x + p.radius, p.corner_y + p.radius}};
 }
 
-Box joined(Box a, const Box& b) {
-  for (int k = 0; k < 2; ++k) {
-    a.low[k] = std::min(a.low[k], b.low[k]);
-    a.high[k] = std::max(a.high[k], b.high[k]);
-  }
-  return a;
-}
-
 Box piece_box(const Piece& p) {
   return p.side == 0 ? straight_box(p) : joined(straight_box(p), corner_box(p));
 }

@@ -1,26 +1,34 @@
 // Contact systems. What a system reads and writes is declared here and nowhere else; systems/step.cpp sets the order
-// of the systems, and each is described at the top of its own file.
+// of the systems, and each is described at the top of its own file. D: the dimension (components/dimension.hpp).
 #pragma once
+
+#include <type_traits>
 
 #include "components/bond.hpp"
 #include "components/bundles.hpp"
 #include "components/cell.hpp"
 #include "components/hollow.hpp"
+#include "components/shaped_bodies.hpp"
+#include "components/space/tools.hpp"
 #include "engine/look_ahead.hpp"
 #include "systems/ranks/reduce.hpp"
 
 namespace pulvis {
 
+template <class D>
+using ToolSurfacesIn = std::conditional_t<D::axes == 2, ToolSurfaces, space::ToolSurfaces>;
+
 // ---- contact rows -------------------------------------------------------------------------------
+template <class D>
 struct skin_check {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
-  Read<CurvePosition> control;
-  Optional<ToolSurfaces> tools;
+  Read<typename D::OutlinePosition> position;
+  Optional<ToolSurfacesIn<D>> tools;
   Optional<Read<PeriodicCell>> cell;
-  Write<CurveBefore> before;
+  Write<typename D::OutlineBefore> before;
   Write<ContactIndex> index;
-  Optional<BorderOutlines<CurvePosition>> border;
+  Optional<BorderOutlines<typename D::OutlinePosition>> border;
   void operator()() const;
 };
 
@@ -139,13 +147,13 @@ struct contact_force {
   Optional<Pairs> pairs;
   Optional<TouchingRows<ToolContact>> tools;
   Write<CurveForce> curve_force;
-  Write<ContactForce> node_force;
+  Write<ContactForce<TwoD>> node_force;
   void operator()(Chunk chunk) const;
 };
 
 struct contact_curve {
   Read<Bodies> bodies;
-  Motion motion;
+  Motion<TwoD> motion;
   Write<CurvePosition> position;
   Optional<Write<CurveVelocity>> velocity;
   Write<MaximumSpeed> speed;
@@ -233,15 +241,16 @@ struct bond_totals {
 template <class At>
 struct RowsInSum {
   Read<ContactPair<At>> pair;
-  Read<ContactSums<At>> sums;
+  Read<ContactSums<typename At::Kind>> sums;
 };
 
+template <class D>
 struct contact_health {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   Read<ContactRules> rules;
-  Optional<RowsInSum<Contact>> pairs;
-  Optional<RowsInSum<ToolContact>> tools;
+  Optional<RowsInSum<typename D::Contact>> pairs;
+  Optional<RowsInSum<typename D::ToolContact>> tools;
   Optional<Read<ToolProgram>> program;
   Write<Totals> totals;
   Link link;
@@ -260,7 +269,7 @@ struct lost_bodies {
 struct outline_health {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Optional<Read<ContactRules>> rules;
   Optional<Read<Hollows>> hollows;
   void operator()() const;

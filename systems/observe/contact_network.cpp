@@ -20,7 +20,7 @@ namespace {
 
 // Running sums of a contact.
 struct Gathered {
-  ContactLink link;
+  ContactLink<TwoD> link;
   Image image{};  // of the second particle
   double weight = 0;
 
@@ -29,21 +29,21 @@ struct Gathered {
     const double size = length_of(force);
     const double push = force[0] * normal[0] + force[1] * normal[1];
     weight += size;
-    link.length += length;
+    link.size += length;
     for (std::size_t k = 0; k < 2; ++k) {
       link.point[k] += size * at[k];
       link.force[k] += side * force[k];
       link.normal[k] += side * std::abs(push) * normal[k];
     }
   }
-  ContactLink finished(double sides) const {
-    ContactLink done = link;
+  ContactLink<TwoD> finished(double sides) const {
+    ContactLink<TwoD> done = link;
     const double push = length_of(link.normal);
     for (std::size_t k = 0; k < 2; ++k) {
       done.point[k] /= weight;
       done.normal[k] /= push;
     }
-    done.length /= sides;
+    done.size /= sides;
     return done;
   }
 };
@@ -65,7 +65,7 @@ class Partners {
     return all_.back();
   }
   // Points may touch without a force, where the surfaces just meet: those form no contact.
-  void move_to(std::vector<ContactLink>& links, double sides) const {
+  void move_to(std::vector<ContactLink<TwoD>>& links, double sides) const {
     for (const Gathered& g : all_)
       if (g.weight > 0) links.push_back(g.finished(sides));
   }
@@ -89,12 +89,14 @@ void add_points(const Curve& sampled, const Read<PointForce<At>>& force, Row<At>
   }
 }
 
-void sort_by_numbers(std::vector<ContactLink>& links) {
-  std::ranges::sort(links, {}, [](const ContactLink& l) { return std::pair(l.first, l.second); });
+void sort_by_numbers(std::vector<ContactLink<TwoD>>& links) {
+  std::ranges::sort(links, {},
+                    [](const ContactLink<TwoD>& l) { return std::pair(l.first, l.second); });
 }
 
-std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex& index,
-                                        const Outlines& outlines, const TouchingPairs& pairs) {
+std::vector<ContactLink<TwoD>> links_of_pairs(const Bodies& bodies, const ContactIndex& index,
+                                              const Outlines& outlines,
+                                              const TouchingPairs& pairs) {
   const auto& pair = pairs.rows.pair;
   const auto& touches = pairs.rows.touches;
   const auto& force = pairs.rows.force;
@@ -119,8 +121,8 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
     return other > number || (other == number && image > Image{});
   };
   // Each pair belongs to its particle of lower number, whose rows and those against it are searched.
-  auto links = list_by_slot<ContactLink>(
-      static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ContactLink>& found) {
+  auto links = list_by_slot<ContactLink<TwoD>>(
+      static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ContactLink<TwoD>>& found) {
         const int number = outlines.number(slot);
         if (number == Bodies::empty_slot) return;
         const auto s = static_cast<std::size_t>(slot);

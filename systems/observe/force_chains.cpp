@@ -21,7 +21,7 @@ void force_chains::operator()() const {
     centres.push_back({x(particle, 0)[lane], x(particle, 1)[lane]});
   }
   std::vector<kernels::TouchingPair<2>> touching;
-  for (const ContactLink& link : network->pairs)
+  for (const ContactLink<TwoD>& link : network->pairs)
     touching.push_back({link.first, link.second, link.period});
   chains->chain = kernels::force_chains(stresses, centres, touching);
 }

@@ -26,10 +26,10 @@ struct Fabric {
   double angle() const { return 0.5 * portable::atan2(2 * xy, xx - yy); }
 };
 
-inline Fabric fabric(std::span<const ContactLink> links) {
+inline Fabric fabric(std::span<const ContactLink<TwoD>> links) {
   Fabric f;
   const double share = 1 / static_cast<double>(std::max<std::size_t>(1, links.size()));
-  for (const ContactLink& link : links) {
+  for (const ContactLink<TwoD>& link : links) {
     f.xx += share * link.normal[0] * link.normal[0];
     f.xy += share * link.normal[0] * link.normal[1];
     f.yy += share * link.normal[1] * link.normal[1];
@@ -69,11 +69,11 @@ struct Rose {
   std::array<double, rose_sectors> number{}, force{};  // shares of all contacts; each sums to 1
 };
 
-inline Rose rose(std::span<const ContactLink> links) {
+inline Rose rose(std::span<const ContactLink<TwoD>> links) {
   Rose rose;
   double all = 0;
-  for (const ContactLink& link : links) all += std::abs(link.normal_force());
-  for (const ContactLink& link : links) {
+  for (const ContactLink<TwoD>& link : links) all += std::abs(link.normal_force());
+  for (const ContactLink<TwoD>& link : links) {
     const double turn = portable::atan2(link.normal[1], link.normal[0]) / std::numbers::pi;
     const auto nearest = static_cast<int>(std::lround(rose_sectors * turn));
     const auto sector = static_cast<std::size_t>((nearest + rose_sectors) % rose_sectors);

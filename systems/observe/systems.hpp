@@ -15,7 +15,7 @@ struct contact_network {
   Read<CurvePosition> control;
   Optional<TouchingPairs> pairs;
   Optional<TouchingTools> tools;
-  Write<ContactNetwork> network;
+  Write<ContactNetwork<TwoD>> network;
   void operator()() const;
 };
 
@@ -32,9 +32,9 @@ struct contact_quality {
 
 struct force_chains {
   Read<Bodies> bodies;
-  Read<ParticleStress> stress;
-  Read<ParticleCentre> centre;
-  Read<ContactNetwork> network;
+  Read<ParticleStress<TwoD>> stress;
+  Read<ParticleCentre<TwoD>> centre;
+  Read<ContactNetwork<TwoD>> network;
   Write<ForceChains> chains;
   void operator()() const;
 };
@@ -58,7 +58,7 @@ struct fragments {
 
 struct local_density {
   Read<Bodies> bodies;
-  Read<Position> position;
+  Read<Position<TwoD>> position;
   Read<ToolPosition> tool_position;
   Write<DensityGrid> grid;
   void operator()() const;

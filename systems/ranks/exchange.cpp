@@ -15,8 +15,8 @@ namespace pulvis {
 namespace {
 
 template <class D>
-std::vector<Outlines> columns_of(const Write<typename D::Position>& position,
-                                 const Optional<Write<typename D::Velocity>>& velocity) {
+std::vector<Outlines> columns_of(const Write<typename D::OutlinePosition>& position,
+                                 const Optional<Write<typename D::OutlineVelocity>>& velocity) {
   std::vector<Outlines> columns{position};
   if (velocity) columns.emplace_back(*velocity);
   return columns;
@@ -82,10 +82,10 @@ void receive_outlines<D>::operator()(SmallTasks) const {
     if (!near.receive.empty()) unpack((message++)->bytes, *bodies, near.receive, columns);
 }
 
-template struct send_outlines<Plane>;
-template struct send_outlines<Space>;
-template struct receive_outlines<Plane>;
-template struct receive_outlines<Space>;
+template struct send_outlines<TwoD>;
+template struct send_outlines<ThreeD>;
+template struct receive_outlines<TwoD>;
+template struct receive_outlines<ThreeD>;
 
 // ---- contacts -----------------------------------------------------------------------------------------
 // For every touching row: its position among the shared ones, forces, closest points, couples.

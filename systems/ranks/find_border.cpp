@@ -41,13 +41,13 @@ struct Extent {  // a box, z = 0 in two dimensions; initially empty
   bool is_empty() const { return low[0] > high[0]; }
 };
 
-Extent extent_of(Plane, std::span<const double> points) {
+Extent extent_of(TwoD, std::span<const double> points) {
   Extent extent;
   for (std::size_t i = 0; i < points.size(); ++i) extent.take(i % 2, points[i]);
   extent.take(2, 0);
   return extent;
 }
-Extent extent_of(Space, std::span<const double> points) {
+Extent extent_of(ThreeD, std::span<const double> points) {
   Extent extent;
   for (std::size_t i = 0; i < points.size(); ++i) extent.take(i % 3, points[i]);
   return extent;
@@ -138,7 +138,7 @@ void find_border<D>::operator()() const {
     std::ranges::copy(outlines.of(*bodies, slot), old.of(*bodies, slot).begin());
 }
 
-template struct find_border<Plane>;
-template struct find_border<Space>;
+template struct find_border<TwoD>;
+template struct find_border<ThreeD>;
 
 }  // namespace pulvis

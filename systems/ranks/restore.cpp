@@ -39,10 +39,10 @@ std::map<int, std::vector<int>> needed_of(const World& share) {
 template <class D>
 void tell_all(World& share) {
   const Bodies& bodies = share.resource<Bodies>();
-  std::vector<Outlines> columns{Write<typename D::Position>(share),
-                                Write<typename D::Before>(share)};
-  if (share.has<typename D::Velocity>())
-    columns.emplace_back(Write<typename D::Velocity>(share));
+  std::vector<Outlines> columns{Write<typename D::OutlinePosition>(share),
+                                Write<typename D::OutlineBefore>(share)};
+  if (share.has<typename D::OutlineVelocity>())
+    columns.emplace_back(Write<typename D::OutlineVelocity>(share));
   tell_border(share.resource<RankLink>(), bodies, columns);
 }
 
@@ -69,8 +69,8 @@ void list_rows(World& world) {
 }
 
 void await_outlines(World& share) {
-  if (share.has<ContactPair<Contact>>()) opened<receive_outlines<Plane>>(share)(SmallTasks{});
-  if (share.has<ContactPair<FaceContact>>()) opened<receive_outlines<Space>>(share)(SmallTasks{});
+  if (share.has<ContactPair<Contact>>()) opened<receive_outlines<TwoD>>(share)(SmallTasks{});
+  if (share.has<ContactPair<FaceContact>>()) opened<receive_outlines<ThreeD>>(share)(SmallTasks{});
 }
 
 void find_border_again(World& share) {
@@ -94,10 +94,10 @@ void find_border_again(World& share) {
   }
   bodies.set_border(border);
   if (plane) {
-    tell_all<Plane>(share);
+    tell_all<TwoD>(share);
     opened<list_border_rows>(share).list();
   } else {
-    tell_all<Space>(share);
+    tell_all<ThreeD>(share);
     opened<list_border_pairs>(share).list();
   }
 }

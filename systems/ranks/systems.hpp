@@ -1,6 +1,5 @@
 // Systems of a run on several ranks: borders, and the data sent across them. What a system reads and writes is
 // declared here and nowhere else; systems/step.cpp and systems/space/step.cpp set their order.
-// D: Plane or Space, the outline columns in two or three dimensions.
 #pragma once
 
 #include "components/bond.hpp"
@@ -11,26 +10,15 @@
 
 namespace pulvis {
 
-struct Plane {
-  using Position = CurvePosition;
-  using Velocity = CurveVelocity;
-  using Before = CurveBefore;
-};
-struct Space {
-  using Position = space::SurfacePosition;
-  using Velocity = space::SurfaceVelocity;
-  using Before = space::SurfaceBefore;
-};
-
 // ---- when the rows are rebuilt --------------------------------------------------------------------
 template <class D>
 struct find_border {
   Read<ContactIndex> index;
   Optional<Read<PeriodicCell>> cell;
   Write<Bodies> bodies;
-  Write<typename D::Position> position;
-  Optional<Write<typename D::Velocity>> velocity;
-  Write<typename D::Before> before;
+  Write<typename D::OutlinePosition> position;
+  Optional<Write<typename D::OutlineVelocity>> velocity;
+  Write<typename D::OutlineBefore> before;
   Write<RankLink> link;
   void operator()() const;
 };
@@ -70,8 +58,8 @@ struct list_border_pairs {
 template <class D>
 struct send_outlines {
   Read<Bodies> bodies;
-  Write<typename D::Position> position;
-  Optional<Write<typename D::Velocity>> velocity;
+  Write<typename D::OutlinePosition> position;
+  Optional<Write<typename D::OutlineVelocity>> velocity;
   Write<RankLink> link;
   void operator()() const;
 };
@@ -79,8 +67,8 @@ struct send_outlines {
 template <class D>
 struct receive_outlines {
   Read<Bodies> bodies;
-  Write<typename D::Position> position;
-  Optional<Write<typename D::Velocity>> velocity;
+  Write<typename D::OutlinePosition> position;
+  Optional<Write<typename D::OutlineVelocity>> velocity;
   Write<RankLink> link;
   void operator()(SmallTasks) const;
 };

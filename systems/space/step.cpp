@@ -24,7 +24,7 @@ struct Touches {  // which kinds of contact are possible
 // In sampled steps: of the powder as a whole...
 void observe_whole(World& w, SystemList& observe) {
   // clang-format off
-  observe.add<contact_network>    ("contact_network",   w.has<ContactNetwork>());
+  observe.add<contact_network>    ("contact_network",   w.has<ContactNetwork<ThreeD>>());
   observe.add<fragments>          ("fragments",         w.has<Fragments>());
   observe.add<force_chains>       ("force_chains",      w.has<ForceChains>());
   observe.add<local_density>      ("local_density",     w.has<DensityGrid>());
@@ -36,13 +36,13 @@ std::vector<System> observed_in_space(World& w) {
   SystemList observe(w, When::on_sample);
 
   // clang-format off
-  observe.add<kinetic_energy>     ("kinetic_energy");
+  observe.add<kinetic_energy<ThreeD>>("kinetic_energy");
   observe.add<elastic_energy<F>>  ("elastic_energy");
   observe.add<node_spring_energy> ("node_spring_energy", w.has<Roughness>());
   observe.add<node_distance>      ("node_distance",     w.has<NodeDistance>());
   observe.add<plastic_work<F>>    ("plastic_work",      w.has<PlasticStrain<F::points>>());
   observe.add<hourglass_energy>   ("hourglass_energy",  F::stabilised);
-  observe.add<particle_stress<F>> ("particle_stress",   w.has<ParticleStress>());
+  observe.add<particle_stress<F>> ("particle_stress",   w.has<ParticleStress<ThreeD>>());
   observe.add<contact_quality>    ("contact_quality",   w.has<ContactQuality>());
   // clang-format on
   if (!w.has<RankLink>()) observe_whole(w, observe);
@@ -60,9 +60,9 @@ Steps steps_with(World& w) {
 
   // clang-format off
   force.add<tool_motion>         ("tool_motion",       touches.tools);
-  force.add<receive_outlines<Space>>("receive_outlines", ranks);
-  force.add<skin_check>          ("skin_check",        touches.any());
-  force.add<find_border<Space>>  ("find_border",       ranks);
+  force.add<receive_outlines<ThreeD>>("receive_outlines", ranks);
+  force.add<skin_check<ThreeD>>  ("skin_check",        touches.any());
+  force.add<find_border<ThreeD>>  ("find_border",       ranks);
   force.add<bin_faces>           ("bin_faces",         touches.pairs);
   force.add<bin_tool_faces>      ("bin_tool_faces",    touches.tools);
   force.add<list_border_pairs>   ("list_border_pairs", ranks);
@@ -72,19 +72,19 @@ Steps steps_with(World& w) {
   force.add<receive_loads>       ("receive_loads",     ranks);
   force.add<contact_totals>      ("contact_totals",    touches.any());
   force.add<bond_totals>         ("bond_totals",       w.has<BondTotals>());
-  force.add<contact_health>      ("contact_health",    touches.any());
+  force.add<contact_health<ThreeD>>("contact_health",    touches.any());
   force.add<contact_force>       ("contact_force",     touches.any());
   force.add<elastic_force<F>>    ("elastic_force",     !plastic);
   force.add<plastic_force<F>>    ("plastic_force",     plastic);
-  force.add<damping_force<F>>    ("damping_force",     w.has<DampingForce>());
+  force.add<damping_force<F>>    ("damping_force",     w.has<DampingForce<ThreeD>>());
   force.add<stable_time_step<F>> ("stable_time_step");
-  force.add<tool_reaction>       ("tool_reaction",     touches.tools);
+  force.add<tool_reaction<ThreeD>>("tool_reaction",     touches.tools);
   force.add<stage_control>       ("stage_control",     w.has<StageEnds>());
-  force.add<tool_servo>          ("tool_servo",        w.has<ToolServos>());
+  force.add<tool_servo<ThreeD>>  ("tool_servo",        w.has<ToolServos>());
 
-  move.add<integrate>            ("integrate");
+  move.add<integrate<ThreeD>>    ("integrate");
   move.add<contact_surface>      ("contact_surface",   touches.any());
-  move.add<send_outlines<Space>> ("send_outlines",     ranks);
+  move.add<send_outlines<ThreeD>> ("send_outlines",     ranks);
   move.add<element_health>       ("element_health");
   move.add<return_health>        ("return_health",     w.has<ReturnResidual>());
   move.add<advance_clock>        ("advance_clock");
@@ -98,8 +98,8 @@ std::vector<System> start_with(World& w) {
   const bool ranks = w.has<RankLink>() && touches.pairs;
   SystemList start(w);
   start.add<contact_surface>("contact_surface", touches.any());
-  start.add<skin_check>("skin_check", touches.any());
-  start.add<find_border<Space>>("find_border", ranks);
+  start.add<skin_check<ThreeD>>("skin_check", touches.any());
+  start.add<find_border<ThreeD>>("find_border", ranks);
   start.add<bin_faces>("bin_faces", touches.pairs);
   start.add<bin_tool_faces>("bin_tool_faces", touches.tools);
   start.add<list_border_pairs>("list_border_pairs", ranks);

@@ -1,9 +1,11 @@
 // Systems of the tools, and of the clock. What a system reads and writes is declared here and
 // nowhere else; systems/step.cpp sets their order, and each is described at the top of its own file.
+// D: the dimension (components/dimension.hpp).
 #pragma once
 
 #include "components/bundles.hpp"
 #include "components/servo.hpp"
+#include "components/shaped_bodies.hpp"
 #include "systems/contact/systems.hpp"
 
 namespace pulvis {
@@ -55,10 +57,12 @@ struct Servos {
   } drive;
 };
 
+template <class D>
 struct tool_servo {
   Servos servos;
-  TouchingRows<ToolContact> rows;
-  Read<ContactLaw<ToolContact>> law;
+  ShapedBodies<D> bodies;
+  TouchingRows<typename D::ToolContact> rows;
+  Read<ContactLaw<typename D::ToolContact>> law;
   Link link;
   void operator()() const;
 };
@@ -134,23 +138,24 @@ struct apply_constraints {
     Read<ConstraintOrigin> origin;
   } constraints;
   Read<Density> density;
-  Motion motion;
-  NodalForces<Write> forces;
+  Motion<TwoD> motion;
+  NodalForces<Write, TwoD> forces;
   Write<ConstraintReaction> reaction;
   void operator()(Chunk chunk) const;
 };
 
+struct ConstraintReactions {
+  Read<ConstraintIndex> index;
+  Read<ConstraintTarget> target;
+  Read<ConstraintTravel> travel;
+  Read<ConstraintReaction> reaction;
+};
+template <class D>
 struct tool_reaction {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Optional<TouchingRows<ToolContact>> contacts;
-  struct Constraints {
-    Read<ConstraintIndex> index;
-    Read<ConstraintTarget> target;
-    Read<ConstraintTravel> travel;
-    Read<ConstraintReaction> reaction;
-  };
-  Optional<Constraints> constraints;
+  Optional<TouchingRows<typename D::ToolContact>> contacts;
+  Optional<ConstraintReactions> constraints;  // in two dimensions
   Read<ToolVelocity> velocity;
   Write<ToolForce> tool_force;
   Write<Totals> totals;

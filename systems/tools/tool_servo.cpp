@@ -13,24 +13,31 @@
 namespace pulvis {
 namespace {
 
-kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
-                            const Read<ContactLaw<ToolContact>>& law, double bonds,
-                            const Link& link) {
-  TouchSum sums;
-  for (int r = 0; r < rows.pair.rows(); ++r) {
-    const Row<ToolContact> row(r);
-    if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
-    sums.add(touching_of(row, rows, law, bonds));
-  }
-  return sums.of_ranks(link);
+kernels::TouchSums touching_row(const tool_servo<TwoD>& s, Row<ToolContact> row) {
+  return touching_of(row, s.rows, s.law, s.servos.rules->stiffest_weld());
+}
+kernels::TouchSums touching_row(const tool_servo<ThreeD>& s, Row<FaceToolContact> row) {
+  const auto& faces = s.bodies.shape_of(s.rows.pair(row, 0)).faces;
+  const auto& area = entry(faces, s.rows.pair(row, 1)).weight;
+  return touching_of(
+      row, s.rows, s.law, [&](int g) { return entry(area, g); }, s.servos.rules->stiffest_weld());
 }
 
 }  // namespace
 
-void tool_servo::operator()() const {
+template <class D>
+void tool_servo<D>::operator()() const {
   drive_tools(servos, [&](int tool) {
-    return touching(tool, rows, law, servos.rules->stiffest_weld(), link);
+    TouchSum sums;
+    for (int r = 0; r < rows.pair.rows(); ++r) {
+      const Row<typename D::ToolContact> row(r);
+      if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
+      sums.add(touching_row(*this, row));
+    }
+    return sums.of_ranks(link);
   });
 }
+template struct tool_servo<TwoD>;
+template struct tool_servo<ThreeD>;
 
 }  // namespace pulvis

@@ -23,7 +23,7 @@ ROOMS = {
         "": "",
     },
     "components": {
-        "": "",
+        "": "space",  # both dimensions
         "space": "/",  # three dimensions, here and below
     },
     "systems": {

@@ -130,8 +130,8 @@ TEST(Determinism, AFailedStepIsCompletedOnAnyNumberOfThreads) {
       const Column<C>&a = failed.column<C>(), &b = going.column<C>();
       return std::memcmp(a.values(), b.values(), a.bytes()) == 0;
     };
-    EXPECT_TRUE(same.template operator()<Position>()) << threads;
-    EXPECT_TRUE(same.template operator()<Velocity>()) << threads;
+    EXPECT_TRUE(same.template operator()<Position<TwoD>>()) << threads;
+    EXPECT_TRUE(same.template operator()<Velocity<TwoD>>()) << threads;
   }
 }
 

@@ -150,7 +150,7 @@ TEST(Plan, ObservesNothingMoreUnlessAsked) {
   EXPECT_THAT(observing_systems(asked), IsEmpty());
   EXPECT_THAT(asked.called({"stress", "deformed_area", "centre"}), IsEmpty());
   const World& world = const_cast<Simulation&>(asked.experiment.simulation).world();
-  EXPECT_FALSE(world.has<ContactNetwork>());
+  EXPECT_FALSE(world.has<ContactNetwork<TwoD>>());
   EXPECT_FALSE(world.has<DensityGrid>());
 }
 

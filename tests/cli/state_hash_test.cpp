@@ -89,11 +89,11 @@ class StateHashOf : public ::testing::Test {
 TEST_F(StateHashOf, SeesEveryBitOfWhatTheNextStepStartsFrom) {
   for (const int number : {0, 24}) {
     const int slot = world().resource<Bodies>().slot_of_number[static_cast<std::size_t>(number)];
-    EXPECT_EQ(sees_ends<Position>(slot), both);
-    EXPECT_EQ(sees_ends<Velocity>(slot), both);
-    EXPECT_EQ(sees_ends<PlasticMetric<1>>(slot), both);
+    EXPECT_EQ(sees_ends<Position<TwoD>>(slot), both);
+    EXPECT_EQ(sees_ends<Velocity<TwoD>>(slot), both);
+    EXPECT_EQ(sees_ends<PlasticMetric<TwoD, 1>>(slot), both);
     EXPECT_EQ(sees_ends<PlasticStrain<1>>(slot), both);
-    EXPECT_EQ(sees_ends<PlasticHourglass>(slot), both);
+    EXPECT_EQ(sees_ends<PlasticHourglass<TwoD>>(slot), both);
   }
   EXPECT_TRUE(sees(slip<Contact>(true)));
   EXPECT_TRUE(sees(slip<ToolContact>(true)));
@@ -103,12 +103,12 @@ TEST_F(StateHashOf, SeesEveryBitOfWhatTheNextStepStartsFrom) {
 
 TEST_F(StateHashOf, DoesNotSeeWhatIsMadeAnewNorEmptyLanes) {
   const Bodies& bodies = world().resource<Bodies>();
-  EXPECT_EQ(sees_ends<InternalForce>(bodies.slot_of_number[0]), neither);
-  EXPECT_EQ(sees_ends<DeviatoricStress<1>>(bodies.slot_of_number[0]), neither);
+  EXPECT_EQ(sees_ends<InternalForce<TwoD>>(bodies.slot_of_number[0]), neither);
+  EXPECT_EQ(sees_ends<DeviatoricStress<TwoD, 1>>(bodies.slot_of_number[0]), neither);
   EXPECT_FALSE(sees(slip<Contact>(false)));
   const int last = static_cast<int>(bodies.slots.size()) - 1;
   ASSERT_EQ(bodies.slots.back().number, Bodies::empty_slot);
-  EXPECT_EQ(sees_ends<Position>(last), neither);
+  EXPECT_EQ(sees_ends<Position<TwoD>>(last), neither);
 }
 
 TEST(StateHash, SeesThePlasticStateOfFourPointElements) {
@@ -118,7 +118,7 @@ TEST(StateHash, SeesThePlasticStateOfFourPointElements) {
   const std::uint64_t before = state_hash(simulation.world());
   simulation.world().column<PlasticStrain<4>>().values()[0] = 1e-9;
   const std::uint64_t with_strain = state_hash(simulation.world());
-  simulation.world().column<PlasticMetric<4>>().values()[0] = 1e-9;
+  simulation.world().column<PlasticMetric<TwoD, 4>>().values()[0] = 1e-9;
   EXPECT_NE(before, with_strain);
   EXPECT_NE(with_strain, state_hash(simulation.world()));
 }

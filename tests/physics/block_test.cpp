@@ -30,7 +30,7 @@ TEST(SlidingBlock, StartsAndSlidesAtMuN) {
   Experiment e("basic/sliding-block.toml");
   const double mu = 0.3;
   const auto center = [&] {
-    const auto& x = e.column<Position>();
+    const auto& x = e.column<Position<TwoD>>();
     double sum = 0;
     for (std::size_t n = 0; n < x.table.rows; ++n) sum += x.lanes()[2 * n][0];
     return sum / static_cast<double>(x.table.rows);

@@ -114,7 +114,7 @@ struct BlockState {
 };
 
 BlockState state_of_block(Experiment& e) {
-  const auto& x = e.simulation.world().column<Position>();
+  const auto& x = e.simulation.world().column<Position<TwoD>>();
   double low[2] = {1, 1}, high[2] = {-1, -1};
   for (std::size_t n = 0; n < x.table.rows; ++n)
     for (std::size_t k = 0; k < 2; ++k) {

@@ -21,14 +21,14 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
   return all;
 }
 
-const ContactNetwork& network_of(Experiment& e) {
-  return e.simulation.world().resource<ContactNetwork>();
+const ContactNetwork<TwoD>& network_of(Experiment& e) {
+  return e.simulation.world().resource<ContactNetwork<TwoD>>();
 }
 const Bodies& bodies_of(Experiment& e) { return e.simulation.world().resource<Bodies>(); }
 
 // Sum of the forces on the nodes of a particle, as contact_force left them.
 Vec2 force_on_nodes(Experiment& e, int slot) {
-  const auto& column = e.column<ContactForce>();
+  const auto& column = e.column<ContactForce<TwoD>>();
   const auto first = static_cast<std::size_t>(
       column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
   Vec2 sum = Vec2::Zero();
@@ -41,11 +41,11 @@ Vec2 force_on_nodes(Experiment& e, int slot) {
 
 std::vector<Vec2> sums_by_particle(Experiment& e) {
   std::vector<Vec2> sums(static_cast<std::size_t>(bodies_of(e).particles()), Vec2::Zero());
-  for (const ContactLink& l : network_of(e).pairs) {
+  for (const ContactLink<TwoD>& l : network_of(e).pairs) {
     sums[static_cast<std::size_t>(l.first)] += Vec2(l.force[0], l.force[1]);
     sums[static_cast<std::size_t>(l.second)] -= Vec2(l.force[0], l.force[1]);
   }
-  for (const ContactLink& l : network_of(e).tools)
+  for (const ContactLink<TwoD>& l : network_of(e).tools)
     sums[static_cast<std::size_t>(l.first)] += Vec2(l.force[0], l.force[1]);
   return sums;
 }
@@ -61,7 +61,7 @@ TEST(ContactNetwork, GivesEveryParticleAndToolItsForce) {
     EXPECT_LT((sums[p] - force_on_nodes(e, bodies_of(e).slot_of_number[p])).norm(),
               1e-11 * maximum);
   std::vector<Vec2> on_tools(e.scene.tools.size(), Vec2::Zero());
-  for (const ContactLink& l : network_of(e).tools)
+  for (const ContactLink<TwoD>& l : network_of(e).tools)
     on_tools[static_cast<std::size_t>(l.second)] -= Vec2(l.force[0], l.force[1]);
   for (std::size_t t = 0; t < on_tools.size(); ++t) {
     const std::string name = "tool/" + e.scene.tools[t].name + "/force_";
@@ -71,7 +71,7 @@ TEST(ContactNetwork, GivesEveryParticleAndToolItsForce) {
 }
 
 Vec2 momentum_of(Experiment& e, int slot) {
-  const auto& column = e.column<Velocity>();
+  const auto& column = e.column<Velocity<TwoD>>();
   const Shape& shape = bodies_of(e).shape_of_slot(slot);
   const auto first = static_cast<std::size_t>(
       column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
@@ -172,10 +172,10 @@ TEST(ContactNetwork, KnowsTheWidthOfHertzContact) {
   ASSERT_EQ(network_of(e).tools.size(), 2U);
   const MaterialSpec& m = e.scene.materials[0];
   const double modulus = m.youngs_modulus / (1 - m.poissons_ratio * m.poissons_ratio);
-  for (const ContactLink& link : network_of(e).tools) {
+  for (const ContactLink<TwoD>& link : network_of(e).tools) {
     const double load = link.normal_force() / e.scene.thickness;
     const double width = 2 * std::sqrt(4 * load * 5e-3 / (std::numbers::pi * modulus));
-    EXPECT_NEAR(link.length / width, 1, 0.15);
+    EXPECT_NEAR(link.size / width, 1, 0.15);
     EXPECT_NEAR(link.point[0], 0, 1e-9);
     EXPECT_NEAR(std::abs(link.normal[1]), 1, 1e-12);
     EXPECT_NEAR(link.tangential_force() / link.normal_force(), 0, 1e-6);
@@ -188,7 +188,7 @@ TEST(ContactNetwork, TellsTensionFromCompression) {
   double most = 0;
   e.run(40, [&] {
     EXPECT_GE(e.value("contact_overlap"), 0);
-    for (const ContactLink& link : network_of(e).pairs) {
+    for (const ContactLink<TwoD>& link : network_of(e).pairs) {
       most = std::max(most, -link.normal_force());
       EXPECT_EQ(link.first, 0);
       EXPECT_NEAR(link.normal[1], -1, 1e-6);

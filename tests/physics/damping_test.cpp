@@ -45,8 +45,8 @@ Oscillation oscillate(const std::string& formulation, const Damping& damping, bo
   Simulation simulation(scene);
   World& w = simulation.world();
   Results results(scene, w);
-  auto& x = w.column<Position>();
-  auto& v = w.column<Velocity>();
+  auto& x = w.column<Position<TwoD>>();
+  auto& v = w.column<Velocity<TwoD>>();
   const std::vector<double> area = w.resource<Bodies>().shapes[0].nodal_area;
   const std::size_t axis = bends ? 1 : 0;
   std::vector<double> mode, start;
@@ -145,8 +145,8 @@ TEST(BulkDamping, OfStiffnessSeesNoForceInARigidTurnBetweenTwoSteps) {
     World& w = e.simulation.world();
     const double dt = 1e-8, angle = 0.3;
     w.resource<Clock>().dt_before = dt;
-    auto& x = w.column<Position>();
-    auto& v = w.column<Velocity>();
+    auto& x = w.column<Position<TwoD>>();
+    auto& v = w.column<Velocity<TwoD>>();
     for (std::size_t n = 0; n < x.table.rows; ++n) {
       const double px = x.lanes()[2 * n][0], py = x.lanes()[2 * n + 1][0];
       const double qx = std::cos(angle) * px - std::sin(angle) * py;
@@ -155,10 +155,11 @@ TEST(BulkDamping, OfStiffnessSeesNoForceInARigidTurnBetweenTwoSteps) {
       v.lanes()[2 * n][0] = (qx - px) / dt, v.lanes()[2 * n + 1][0] = (qy - py) / dt;
     }
     e.simulation.observe();
-    const auto& f = e.column<DampingForce>();
+    const auto& f = e.column<DampingForce<TwoD>>();
     double largest = 0;
     for (std::size_t i = 0; i < 2 * f.table.rows; ++i)
-      largest = std::max(largest, std::abs(const_cast<Column<DampingForce>&>(f).lanes()[i][0]));
+      largest =
+          std::max(largest, std::abs(const_cast<Column<DampingForce<TwoD>>&>(f).lanes()[i][0]));
     // Of beta E times the rate of turning, over an edge of 1 mm and 1 mm of thickness.
     EXPECT_LT(largest, 1e-10 * 2e-8 * 200e9 * angle / dt * 1e-6) << formulation;
   }
@@ -273,13 +274,13 @@ TEST(BulkDamping, IsRefusedWhereItIsWrong) {
 // ---- only where asked, the same for all threads -----------------------------------------------------------
 TEST(BulkDamping, TakesNothingUnlessAsked) {
   Experiment plain("basic/damped-strut.toml", {"material.steel.damping.mass_proportional=0 1/s"});
-  EXPECT_FALSE(plain.simulation.world().has<DampingForce>());
+  EXPECT_FALSE(plain.simulation.world().has<DampingForce<TwoD>>());
   EXPECT_FALSE(plain.simulation.world().has<MassDamping>());
   for (const System& system : step_list(plain.simulation.world()).forces)
     EXPECT_NE(std::string(system.name), "damping_force");
   EXPECT_FALSE(plain.results.has("energy/bulk_damping"));
   Experiment damped("basic/damped-strut.toml");
-  EXPECT_TRUE(damped.simulation.world().has<DampingForce>());
+  EXPECT_TRUE(damped.simulation.world().has<DampingForce<TwoD>>());
 }
 
 TEST(BulkDamping, ThreadsDoNotChangeABit) {
@@ -292,7 +293,7 @@ TEST(BulkDamping, ThreadsDoNotChangeABit) {
          "material[0].damping.stiffness_proportional=5 ns"},
         t + 1);
     e.simulation.run_steps(300);
-    const auto& v = e.column<Velocity>();
+    const auto& v = e.column<Velocity<TwoD>>();
     const double* values = v.values();
     states[t].assign(values, values + v.bytes() / sizeof(double));
     const auto& work = e.column<DampingWork>();

@@ -25,7 +25,7 @@ struct CurvePoint {
   double mises, strain;
 };
 std::vector<CurvePoint> points_of(Experiment& e, std::size_t block) {
-  auto& stress = e.simulation.world().column<DeviatoricStress<4>>();
+  auto& stress = e.simulation.world().column<DeviatoricStress<TwoD, 4>>();
   auto& strain = e.simulation.world().column<PlasticStrain<4>>();
   const auto& begin = stress.table.chunk_begin;
   std::vector<CurvePoint> points;

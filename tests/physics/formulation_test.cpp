@@ -20,12 +20,12 @@ TEST(OnePoint, AllocatesNoColumnsOfOtherFormulations) {
   Experiment plain("compaction/unit-cell.toml", {"element.formulation=four-point"});
   Experiment one("compaction/unit-cell.toml", {one_point});
   World& w = one.simulation.world();
-  EXPECT_FALSE(w.has<DeviatoricStress<4>>());
-  EXPECT_FALSE(w.has<PlasticMetric<4>>());
+  EXPECT_FALSE(w.has<DeviatoricStress<TwoD, 4>>());
+  EXPECT_FALSE(w.has<PlasticMetric<TwoD, 4>>());
   EXPECT_FALSE(w.has<PlasticStrain<4>>());
   EXPECT_FALSE(plain.simulation.world().has<HourglassStress>());
-  EXPECT_FALSE(plain.simulation.world().has<PlasticHourglass>());
-  EXPECT_FALSE(plain.simulation.world().has<DeviatoricStress<1>>());
+  EXPECT_FALSE(plain.simulation.world().has<PlasticHourglass<TwoD>>());
+  EXPECT_FALSE(plain.simulation.world().has<DeviatoricStress<TwoD, 1>>());
 }
 
 TEST(OnePoint, ForcesOfATurnedBodyAreTheTurnedForces) {
@@ -33,7 +33,7 @@ TEST(OnePoint, ForcesOfATurnedBodyAreTheTurnedForces) {
   const double c = std::cos(2.1), s = std::sin(2.1);
   for (int turned = 0; turned < 2; ++turned) {
     Experiment e("basic/spinning-disc.toml", {one_point});
-    auto& x = e.simulation.world().column<Position>();
+    auto& x = e.simulation.world().column<Position<TwoD>>();
     for (std::size_t n = 0; n < x.table.rows; ++n) {
       const double u = x.lanes()[2 * n][0], v = x.lanes()[2 * n + 1][0];
       const double p = u * 1.02 + 0.01 * v + 3 * u * v, q = 0.97 * v - 2 * u * u;
@@ -43,10 +43,10 @@ TEST(OnePoint, ForcesOfATurnedBodyAreTheTurnedForces) {
     e.simulation.observe();
     e.results.sample();
     EXPECT_GT(e.results.energies().hourglass, 1e-3 * e.results.energies().elastic);
-    const auto& f = e.column<InternalForce>();
+    const auto& f = e.column<InternalForce<TwoD>>();
     for (std::size_t n = 0; n < f.table.rows; ++n) {
-      const double fx = const_cast<Column<InternalForce>&>(f).lanes()[2 * n][0];
-      const double fy = const_cast<Column<InternalForce>&>(f).lanes()[2 * n + 1][0];
+      const double fx = const_cast<Column<InternalForce<TwoD>>&>(f).lanes()[2 * n][0];
+      const double fy = const_cast<Column<InternalForce<TwoD>>&>(f).lanes()[2 * n + 1][0];
       forces[turned].push_back(turned != 0 ? c * fx + s * fy : fx);
       forces[turned].push_back(turned != 0 ? -s * fx + c * fy : fy);
     }
@@ -74,8 +74,8 @@ Beam vibrate(const std::string& formulation, double nu) {
   Simulation simulation(scene);
   World& w = simulation.world();
   Results results(scene, w);
-  auto& x = w.column<Position>();
-  auto& v = w.column<Velocity>();
+  auto& x = w.column<Position<TwoD>>();
+  auto& v = w.column<Velocity<TwoD>>();
   const std::vector<double> area = w.resource<Bodies>().shapes[0].nodal_area;
   const auto momentum = [&] {
     std::array<double, 2> sum{};

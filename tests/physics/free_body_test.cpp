@@ -15,8 +15,8 @@ struct Momentum {
 Momentum momentum(Experiment& e) {
   World& w = e.simulation.world();
   const Bodies& bodies = w.resource<Bodies>();
-  const auto& x = w.column<Position>();
-  const auto& v = w.column<Velocity>();
+  const auto& x = w.column<Position<TwoD>>();
+  const auto& v = w.column<Velocity<TwoD>>();
   Momentum p;
   for (const int slot : bodies.slot_of_number) {
     const Shape& shape = bodies.shape_of_slot(slot);
@@ -107,7 +107,7 @@ TEST(Objectivity, StressTurnsWithASuperposedRotation) {
   std::vector<double> effective[2], pressure[2];
   for (int turned = 0; turned < 2; ++turned) {
     Experiment e("basic/spinning-disc.toml");
-    auto& x = e.simulation.world().column<Position>();
+    auto& x = e.simulation.world().column<Position<TwoD>>();
     const double angle = turned != 0 ? 2.1 : 0, c = std::cos(angle), s = std::sin(angle);
     for (std::size_t n = 0; n < x.table.rows; ++n) {
       const double u = x.lanes()[2 * n][0], v = x.lanes()[2 * n + 1][0];

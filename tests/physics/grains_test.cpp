@@ -32,8 +32,8 @@ Stress near_the_centre(Experiment& e, double R) {
   const World& world = e.simulation.world();
   const Bodies& bodies = world.resource<Bodies>();
   const double load = e.value("tool/top/force_y") / e.scene.thickness;
-  const auto& x = e.column<Position>();
-  const auto& s = e.column<DeviatoricStress<1>>();
+  const auto& x = e.column<Position<TwoD>>();
+  const auto& s = e.column<DeviatoricStress<TwoD, 1>>();
   const auto& p = e.column<MeanStress<1>>();
   Stress sum, law;
   for (int slot = 0; slot < static_cast<int>(bodies.slots.size()); ++slot) {

@@ -88,7 +88,7 @@ TEST_P(NotANumber, InAPositionStopsTheRunInTheSameStep) {
   Experiment e("compaction/regular-25.toml", {}, 2);
   e.simulation.run_steps(10);
   const std::int64_t step = e.simulation.clock().step;
-  const std::string failure = failure_with_nan<Position>(e, 7, node, 1);
+  const std::string failure = failure_with_nan<Position<TwoD>>(e, 7, node, 1);
   EXPECT_THAT(failure, StartsWith("element_health: particle 7, element "));
   EXPECT_THAT(failure, ContainsRegex("det F = -?nan at step " + std::to_string(step) + ","));
   EXPECT_EQ(e.simulation.clock().step, step);
@@ -100,7 +100,7 @@ TEST_P(NotANumber, InAVelocityStopsTheRunOneStepLater) {
   Experiment e("compaction/regular-25.toml", {}, 2);
   e.simulation.run_steps(10);
   const std::int64_t step = e.simulation.clock().step;
-  const std::string failure = failure_with_nan<Velocity>(e, 7, GetParam(), 2);
+  const std::string failure = failure_with_nan<Velocity<TwoD>>(e, 7, GetParam(), 2);
   EXPECT_THAT(failure, StartsWith("element_health: particle 7, element "));
   EXPECT_EQ(e.simulation.clock().step, step + 1);
 }
@@ -112,7 +112,7 @@ TEST_P(NotANumber, AmidContactIsFoundWithoutHarm) {
       {"stage.press.duration=50 us", "stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]"},
       2);
   e.simulation.run_steps(500);
-  EXPECT_THAT(failure_with_nan<Velocity>(e, 17, GetParam(), 2), HasSubstr("particle 17"));
+  EXPECT_THAT(failure_with_nan<Velocity<TwoD>>(e, 17, GetParam(), 2), HasSubstr("particle 17"));
 }
 
 // The outline's nodes come first (40 of them); 150 lies inside.
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, NotANumber, ::testing::Values(0, 5, 10, 15, 20, 
 
 TEST(Health, NotANumberInAnElasticSceneIsFoundToo) {
   Experiment e("basic/spinning-disc.toml");
-  EXPECT_THAT(failure_with_nan<Position>(e, 0, 3, 1), HasSubstr("particle 0, element "));
+  EXPECT_THAT(failure_with_nan<Position<TwoD>>(e, 0, 3, 1), HasSubstr("particle 0, element "));
 }
 
 // The energies are the second net: a sample with a NaN in it keeps no limit.

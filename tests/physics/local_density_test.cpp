@@ -88,7 +88,7 @@ TEST(LocalDensity, OfACompactMissesOnlyWhatReachesIntoTheTools) {
   const double missing = 1 - sum(grid_of(e).filled) / [&] {
     double area = 0;
     for (const int slot : e.simulation.world().resource<Bodies>().slot_of_number)
-      area += e.column<DeformedArea>().values()[slot];
+      area += e.column<DeformedSize<TwoD>>().values()[slot];
     return area;
   }();
   EXPECT_GT(missing, 0);

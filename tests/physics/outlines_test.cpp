@@ -24,7 +24,7 @@ Scene with_outline(const std::string& file, const std::string& outline,
 }
 
 std::vector<Point> positions(const Experiment& e) {  // of the particle in lane 0
-  const auto& x = e.column<Position>();
+  const auto& x = e.column<Position<TwoD>>();
   std::vector<Point> points;
   for (std::size_t n = 0; n < x.table.rows; ++n)
     points.push_back({x.lanes()[2 * n][0], x.lanes()[2 * n + 1][0]});

@@ -26,9 +26,9 @@ class Pressed : public Experiment {
     return column<C>().lanes()[at][slot % lane_count];
   }
   Tensor stress(int slot) {
-    const double xy = of_particle<ParticleStress>(slot, 3);
-    return (Tensor() << of_particle<ParticleStress>(slot, 0), xy, xy,
-            of_particle<ParticleStress>(slot, 1))
+    const double xy = of_particle<ParticleStress<TwoD>>(slot, 3);
+    return (Tensor() << of_particle<ParticleStress<TwoD>>(slot, 0), xy, xy,
+            of_particle<ParticleStress<TwoD>>(slot, 1))
         .finished();
   }
   // Sum over the nodes of force times position, relative to the centre (Love 1927, Weber 1966).
@@ -42,11 +42,12 @@ class Pressed : public Experiment {
       const Lane* xy = c.lanes() + 2 * (first(c) + n);
       return Vec2(xy[0][slot % lane_count], xy[1][slot % lane_count]);
     };
-    const Vec2 centre(of_particle<ParticleCentre>(slot, 0), of_particle<ParticleCentre>(slot, 1));
+    const Vec2 centre(of_particle<ParticleCentre<TwoD>>(slot, 0),
+                      of_particle<ParticleCentre<TwoD>>(slot, 1));
     Tensor sum = Tensor::Zero();
     for (std::size_t n = 0; n < nodes; ++n)
-      sum += at(column<Force>(), n) * (at(column<Position>(), n) - centre).transpose();
-    return sum / (of_particle<DeformedArea>(slot) * bodies().thickness);
+      sum += at(column<Force>(), n) * (at(column<Position<TwoD>>(), n) - centre).transpose();
+    return sum / (of_particle<DeformedSize<TwoD>>(slot) * bodies().thickness);
   }
 };
 
@@ -56,7 +57,7 @@ TEST_P(ParticleStressOf, IsTheVirialOfTheInternalForces) {
   Pressed e(GetParam());
   for (const int slot : e.bodies().slot_of_number) {
     const Tensor virial =
-        e.virial<InternalForce>(slot, e.bodies().shape_of_slot(slot).nodes.size());
+        e.virial<InternalForce<TwoD>>(slot, e.bodies().shape_of_slot(slot).nodes.size());
     EXPECT_LT((virial + e.stress(slot)).norm(), 1e-10 * e.stress(slot).norm());
   }
 }
@@ -67,7 +68,7 @@ TEST_P(ParticleStressOf, IsLoveAndWebersMeanOverTheContacts) {
   double size = 0;
   for (const int slot : e.bodies().slot_of_number) size += e.stress(slot).norm() / 25;
   for (const int slot : e.bodies().slot_of_number) {
-    const Tensor virial = e.virial<ContactForce>(
+    const Tensor virial = e.virial<ContactForce<TwoD>>(
         slot, static_cast<std::size_t>(e.bodies().shape_of_slot(slot).boundary_nodes));
     EXPECT_LT((virial - e.stress(slot)).norm(), 0.02 * size);
   }
@@ -79,17 +80,17 @@ INSTANTIATE_TEST_SUITE_P(Formulations, ParticleStressOf,
 // The same from the network: one force and one point a contact.
 TEST(ParticleStress, FollowsFromTheNetworkOfContacts) {
   Pressed e("one-point");
-  const auto& network = e.world().resource<ContactNetwork>();
+  const auto& network = e.world().resource<ContactNetwork<TwoD>>();
   std::vector<Tensor> sum(25, Tensor::Zero());
-  const auto add = [&](int number, const ContactLink& l, double side) {
+  const auto add = [&](int number, const ContactLink<TwoD>& l, double side) {
     const int slot = e.bodies().slot_of_number[static_cast<std::size_t>(number)];
-    const Vec2 arm(l.point[0] - e.of_particle<ParticleCentre>(slot, 0),
-                   l.point[1] - e.of_particle<ParticleCentre>(slot, 1));
+    const Vec2 arm(l.point[0] - e.of_particle<ParticleCentre<TwoD>>(slot, 0),
+                   l.point[1] - e.of_particle<ParticleCentre<TwoD>>(slot, 1));
     sum[static_cast<std::size_t>(number)] += side * Vec2(l.force[0], l.force[1]) * arm.transpose() /
-                                             (e.of_particle<DeformedArea>(slot) * 1e-3);
+                                             (e.of_particle<DeformedSize<TwoD>>(slot) * 1e-3);
   };
-  for (const ContactLink& l : network.pairs) add(l.first, l, 1), add(l.second, l, -1);
-  for (const ContactLink& l : network.tools) add(l.first, l, 1);
+  for (const ContactLink<TwoD>& l : network.pairs) add(l.first, l, 1), add(l.second, l, -1);
+  for (const ContactLink<TwoD>& l : network.tools) add(l.first, l, 1);
   double size = 0;
   for (const int slot : e.bodies().slot_of_number) size += e.stress(slot).norm() / 25;
   for (std::size_t p = 0; p < 25; ++p)
@@ -117,7 +118,7 @@ TEST(ParticleStress, OfAPatchTestIsUniform) {
   Experiment e("basic/patch-test.toml", {"output.particle_stress=true"});
   e.run(5);
   const double force = e.value("tool/top/force_y"), area = 10e-3 * e.scene.thickness;
-  const Lane* stress = e.column<ParticleStress>().lanes();
+  const Lane* stress = e.column<ParticleStress<TwoD>>().lanes();
   for (const int slot : e.simulation.world().resource<Bodies>().slot_of_number) {
     const Lane* of_slot = stress + slot / lane_count * 4;
     EXPECT_NEAR(of_slot[1][slot % lane_count] / (-force / area), 1, 0.01);

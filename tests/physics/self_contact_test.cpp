@@ -68,7 +68,7 @@ std::string run(Experiment& e) {
 }
 
 std::vector<Point> outline(Experiment& e) {
-  const auto& x = e.column<Position>();
+  const auto& x = e.column<Position<TwoD>>();
   const Bodies& bodies = e.simulation.world().resource<Bodies>();
   const int slot = bodies.slot_of_number[0];
   std::vector<Point> points;
@@ -164,7 +164,7 @@ TEST(SelfContact, StopsWhereNoClosestPointMayBeMissed) {
   Experiment e = pressed({.particle = notched(120), .friction = 0.3, .unconverged = 0});
   EXPECT_THAT(run(e),
               ContainsRegex("^edge_contact: particle 0, edge [0-9]+ against particle 0: the "
-                            "closest point was not found in 41 steps .* as for 1 of [0-9]+ "
+                            "closest point was not found by .* as for 1 of [0-9]+ "
                             "points so far.*allowed 0 .limits.unconverged_projections"));
 }
 
@@ -185,7 +185,7 @@ TEST(SelfContact, EndsThatWentThroughEachOtherAreFound) {
         pressed({.particle = "outline = \"rectangle\"\nwidth = \"40 mm\"\nheight = \"2 mm\"\n"
                              "mesh = {columns = 40, rows = 4}\n",
                  .half = 20.1});
-    auto& x = e.simulation.world().column<Position>();
+    auto& x = e.simulation.world().column<Position<TwoD>>();
     const double radius = length / (2 * std::numbers::pi);
     for (std::size_t i = 0; i < x.table.rows; ++i) {
       Lane &px = x.lanes()[2 * i], &py = x.lanes()[2 * i + 1];

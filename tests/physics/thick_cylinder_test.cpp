@@ -61,7 +61,7 @@ double limit_of(std::vector<std::string> overrides) {
 TEST(ThickCylinder, ConstraintHoldsTheBoreAlone) {
   Experiment e(scene_file);
   EXPECT_EQ(e.column<ConstraintTarget>().table.rows, 48U);
-  const auto& x = e.column<Position>();
+  const auto& x = e.column<Position<TwoD>>();
   const auto radius = [&](std::size_t n) {
     return std::hypot(x.lanes()[2 * n][0], x.lanes()[2 * n + 1][0]);
   };

@@ -317,7 +317,7 @@ TEST(Constraint, BarStretchesAsPlaneStrainSays) {
 // Nodes stand where the programme puts them, to round-off, at the end as in between.
 TEST(Constraint, NodesFollowTheProgramWithoutDrift) {
   Experiment e("basic/tension.toml");
-  const auto& x = e.column<Position>();
+  const auto& x = e.column<Position<TwoD>>();
   const std::size_t rows = x.table.rows;
   std::vector<std::size_t> right;
   for (std::size_t n = 0; n < rows; ++n)
@@ -385,7 +385,7 @@ ramp = 0.5)"));
   EXPECT_NEAR(e.value("tool/spread/force_x") / -force, 1, 1e-3);
   EXPECT_EQ(e.value("tool/spread/force_y"), 0);
   EXPECT_LT(e.results.energy_balance_error(), 1e-6);
-  const auto& x = e.column<Position>();
+  const auto& x = e.column<Position<TwoD>>();
   for (std::size_t n = 0; n < 4; ++n)
     EXPECT_NEAR(std::hypot(x.lanes()[2 * n][0] - 3e-3, x.lanes()[2 * n + 1][0] - 1e-3),
                 radius + 1e-7, 1e-15);

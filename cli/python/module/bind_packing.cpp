@@ -92,7 +92,7 @@ py::dict mesh_in_space(const Scene& scene, int number) {
   all["nodes"] = nodes;
   all["hexahedra"] = hexahedra;
   all["faces"] = faces;
-  all["surface_nodes"] = shape.surface_nodes;
+  all["surface_nodes"] = shape.boundary_nodes;
   all["volume"] = shape.true_volume;
   all["area"] = shape.area;
   return all;

@@ -63,8 +63,7 @@ inline std::vector<FieldInfo> link_fields(const std::string& group, bool pairs,
 }
 
 template <class Link>
-void append_links(const std::vector<Link>& links, double Link::*extent,
-                  std::vector<std::vector<double>>& fields) {
+void append_links(const std::vector<Link>& links, std::vector<std::vector<double>>& fields) {
   const auto column = [&](const auto& add) {
     std::vector<double>& values = fields.emplace_back();
     for (const Link& link : links) add(link, values);
@@ -82,7 +81,7 @@ void append_links(const std::vector<Link>& links, double Link::*extent,
   vector_of(&Link::force);
   column([](const Link& l, auto& to) { to.push_back(l.normal_force()); });
   column([](const Link& l, auto& to) { to.push_back(l.tangential_force()); });
-  column([extent](const Link& l, auto& to) { to.push_back(l.*extent); });
+  column([](const Link& l, auto& to) { to.push_back(l.size); });
 }
 
 // Per particle: contacts with particles, contacts with tools, number of its force chain.

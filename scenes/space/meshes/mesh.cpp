@@ -88,7 +88,7 @@ class Mesher {
 void set_mesh(Shape& shape, const std::vector<Vec3>& nodes, int surface_nodes,
               const std::vector<Hexahedron>& hexahedra) {
   for (const Vec3& p : nodes) shape.nodes.push_back({p.x(), p.y(), p.z()});
-  shape.surface_nodes = surface_nodes;
+  shape.boundary_nodes = surface_nodes;
   shape.hexahedra = hexahedra;
 }
 

@@ -341,7 +341,7 @@ void store_faces(Shape& shape, const SurfaceNet& net) {
 // The surface nodes, with the points at the corners of their faces.
 void measure_nodes(Shape& shape, const std::vector<Vec3>& points, const Fit& fit) {
   constexpr std::array corner_point{0, 3, 15, 12};
-  shape.surface_node.assign(static_cast<std::size_t>(shape.surface_nodes), {});
+  shape.surface_node.assign(static_cast<std::size_t>(shape.boundary_nodes), {});
   for (const Shape::Face& face : shape.faces)
     for (int k = 0; k < 4; ++k) {
       const Row<BoundaryNode> corner = entry(face.corner, k);

@@ -18,7 +18,7 @@ void collect_quads(const Shape& shape, SurfaceNet& net) {
       std::array<int, 4> quad{};
       for (int c = 0; c < 4; ++c)
         entry(quad, c) = entry(entry(shape.hexahedra, e), entry(side, c)).value;
-      if (*std::ranges::max_element(quad) >= shape.surface_nodes) continue;
+      if (*std::ranges::max_element(quad) >= shape.boundary_nodes) continue;
       net.quads.push_back(quad);
       net.element.push_back(e);
     }
@@ -56,7 +56,7 @@ SurfaceNet surface_net(const Shape& shape) {
   SurfaceNet net;
   collect_quads(shape, net);
   find_neighbours(net);
-  find_fans(net, shape.surface_nodes);
+  find_fans(net, shape.boundary_nodes);
   return net;
 }
 

@@ -34,7 +34,8 @@ double normal_force_on_die(const World& world, int die, const DieRoom::Vector& a
     const PatchNumbers points{
         world.column<SurfacePosition>().values() + 3 * std::ptrdiff_t{slot.first_control},
         entry(entry(world.resource<Shapes>().list, slot.shape).faces, pair[1]).number.data()};
-    const double* force = world.column<PointForce>().values() + 3 * face_points * row;
+    const double* force =
+        world.column<PointForce<FaceToolContact>>().values() + 3 * face_points * row;
     for (int half = 0; half < 2; ++half) {
       const VectorLanes from = sampled_points(points, half) - everywhere(centre);
       const RadiusAndHeight at(from, everywhere(axis));

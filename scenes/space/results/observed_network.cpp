@@ -4,7 +4,6 @@
 
 #include "components/observed.hpp"
 #include "components/space/contact.hpp"
-#include "components/space/observed.hpp"
 #include "scenes/results/parts/network_results.hpp"
 #include "systems/space/observe/network_kernel.hpp"
 
@@ -15,14 +14,14 @@ constexpr LinkWords link_words{3, "tangential to the surface; >= 0", "area", "m^
                                "of the surface in contact"};
 
 ContactCounts contact_counts(const World& world) {
-  return {world.resource<ContactNetwork>(), world.resource<Bodies>().particles()};
+  return {world.resource<ContactNetwork<ThreeD>>(), world.resource<Bodies>().particles()};
 }
 
 }  // namespace
 
 void add_observed_network(World& world, const Scene& scene) {
   if (!scene.output.contacts) return;
-  world.emplace<ContactNetwork>();
+  world.emplace<ContactNetwork<ThreeD>>();
   world.emplace<ForceChains>();
   if (world.has<ContactPoint>()) world.add<ContactPointForce>();
 }
@@ -45,7 +44,7 @@ std::vector<SeriesInfo> network_series(const Scene& scene) {
 }
 
 std::vector<FieldInfo> network_fields(const World& world) {
-  if (!world.has<ContactNetwork>()) return {};
+  if (!world.has<ContactNetwork<ThreeD>>()) return {};
   std::vector<FieldInfo> all = link_fields("contacts", true, link_words);
   for (const FieldInfo& field : link_fields("tool_contacts", false, link_words))
     all.push_back(field);
@@ -58,8 +57,8 @@ std::vector<FieldInfo> network_fields(const World& world) {
 }
 
 void append_network_sample(const World& world, std::vector<double>& row) {
-  if (!world.has<ContactNetwork>()) return;
-  const auto& network = world.resource<ContactNetwork>();
+  if (!world.has<ContactNetwork<ThreeD>>()) return;
+  const auto& network = world.resource<ContactNetwork<ThreeD>>();
   const auto particles = static_cast<double>(world.resource<Bodies>().particles());
   const kernels::Fabric fabric = kernels::fabric(network.pairs);
   const pulvis::kernels::ForceSizes sizes = pulvis::kernels::force_sizes(network.pairs);
@@ -71,10 +70,10 @@ void append_network_sample(const World& world, std::vector<double>& row) {
 }
 
 void append_network_frame(const World& world, std::vector<std::vector<double>>& fields) {
-  if (!world.has<ContactNetwork>()) return;
-  const auto& network = world.resource<ContactNetwork>();
-  append_links(network.pairs, &ContactLink::area, fields);
-  append_links(network.tools, &ContactLink::area, fields);
+  if (!world.has<ContactNetwork<ThreeD>>()) return;
+  const auto& network = world.resource<ContactNetwork<ThreeD>>();
+  append_links(network.pairs, fields);
+  append_links(network.tools, fields);
   append_counts(contact_counts(world), world.resource<ForceChains>().chain, fields);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "components/shape.hpp"
-#include "components/space/observed.hpp"
+#include "components/observed.hpp"
 #include "engine/access.hpp"
 #include "scenes/space/tools/die_room.hpp"
 
@@ -30,9 +30,9 @@ std::vector<double> of_particles(const World& world) {
 
 void add_observed_stress(World& world, const Scene& scene) {
   if (!scene.observes_stress()) return;
-  world.add<ParticleStress>();
-  world.add<DeformedVolume>();
-  world.add<ParticleCentre>();
+  world.add<ParticleStress<ThreeD>>();
+  world.add<DeformedSize<ThreeD>>();
+  world.add<ParticleCentre<ThreeD>>();
 }
 
 std::vector<SeriesInfo> stress_series(const Scene& scene) {
@@ -48,18 +48,18 @@ std::vector<SeriesInfo> stress_series(const Scene& scene) {
 }
 
 std::vector<FieldInfo> stress_fields(const World& world) {
-  if (!world.has<ParticleStress>()) return {};
-  return {{"particle_stress", "Pa", ParticleStress::info.meaning, FieldPlace::particle, 6},
-          {"particle_centre", "m", ParticleCentre::info.meaning, FieldPlace::particle, 3}};
+  if (!world.has<ParticleStress<ThreeD>>()) return {};
+  return {{"particle_stress", "Pa", ParticleStress<ThreeD>::info.meaning, FieldPlace::particle, 6},
+          {"particle_centre", "m", ParticleCentre<ThreeD>::info.meaning, FieldPlace::particle, 3}};
 }
 
 void append_stress_sample(const World& world, double room, std::vector<double>& row) {
-  if (!world.has<ParticleStress>()) return;
+  if (!world.has<ParticleStress<ThreeD>>()) return;
   std::array<double, 6> s{};
   for (const int slot : world.resource<Bodies>().slot_of_number)
     for (int k = 0; k < 6; ++k)
-      entry(s, k) += in_slot_of<DeformedVolume>(world, slot, 0) / room *
-                     in_slot_of<ParticleStress>(world, slot, k);
+      entry(s, k) += in_slot_of<DeformedSize<ThreeD>>(world, slot, 0) / room *
+                     in_slot_of<ParticleStress<ThreeD>>(world, slot, k);
   const double mean = (s[0] + s[1] + s[2]) / 3;
   const double xx = s[0] - mean, yy = s[1] - mean, zz = s[2] - mean;
   const double shear = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
@@ -68,9 +68,9 @@ void append_stress_sample(const World& world, double room, std::vector<double>& 
 }
 
 void append_stress_frame(const World& world, std::vector<std::vector<double>>& fields) {
-  if (!world.has<ParticleStress>()) return;
-  fields.push_back(of_particles<ParticleStress>(world));
-  fields.push_back(of_particles<ParticleCentre>(world));
+  if (!world.has<ParticleStress<ThreeD>>()) return;
+  fields.push_back(of_particles<ParticleStress<ThreeD>>(world));
+  fields.push_back(of_particles<ParticleCentre<ThreeD>>(world));
 }
 
 }  // namespace pulvis::space

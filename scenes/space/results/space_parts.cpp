@@ -10,7 +10,6 @@
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
-#include "components/space/body.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
 #include "scenes/space/results/die_wall.hpp"
@@ -42,7 +41,7 @@ std::vector<double> values_of_nodes(const World& world) {
 
 Eigen::AlignedBox3d box_of_nodes(const World& world) {
   Eigen::AlignedBox3d box;
-  const std::vector<double> nodes = values_of_nodes<Position>(world);
+  const std::vector<double> nodes = values_of_nodes<Position<ThreeD>>(world);
   for (std::size_t i = 0; i < nodes.size(); i += 3) box.extend(Vec3(Vec3::Map(&nodes[i])));
   return box;
 }
@@ -104,7 +103,7 @@ class SpaceParts : public ResultParts {
       first_node += static_cast<std::int32_t>(shape.nodes.size());
       particle += 1;
     });
-    mesh.reference = values_of_nodes<Position>(world_);
+    mesh.reference = values_of_nodes<Position<ThreeD>>(world_);
     mesh.tags = tags_;
     mesh.tool_faces = sheets_.faces();
     return mesh;
@@ -156,8 +155,8 @@ class SpaceParts : public ResultParts {
     visit_particles<Node>(world_, [&](std::size_t first, int lane, const Shape& shape) {
       const int slot = bodies.slot_of_number[number++];
       const double density = world_.column<Density>().values()[static_cast<std::size_t>(slot)];
-      const Lane* x = world_.column<Position>().lanes() + 3 * first;
-      const Lane* v = world_.column<Velocity>().lanes() + 3 * first;
+      const Lane* x = world_.column<Position<ThreeD>>().lanes() + 3 * first;
+      const Lane* v = world_.column<Velocity<ThreeD>>().lanes() + 3 * first;
       for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
         const Vec3 at(x[3 * n][lane], x[3 * n + 1][lane], x[3 * n + 2][lane]);
         const Vec3 p = density * shape.nodal_volume[n] *

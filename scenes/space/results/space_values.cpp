@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "components/body.hpp"
 #include "components/shape.hpp"
-#include "components/space/body.hpp"
 #include "components/space/formulation.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
@@ -41,8 +41,8 @@ ElementStresses stresses_of(const double* s, double mean_stress) {
 template <class F, class Append>
 ParticleValues of_stress(const Append& append) {
   return [append](const World& world, int slot, std::vector<double>& out) {
-    const double* deviator = first_value<DeviatoricStress<F::points>>(world, slot);
-    const double* mean = first_value<MeanStress>(world, slot);
+    const double* deviator = first_value<DeviatoricStress<ThreeD, F::points>>(world, slot);
+    const double* mean = first_value<MeanStress<1>>(world, slot);
     const std::size_t count = shape_in(world, slot).hexahedra.size();
     for (std::size_t e = 0; e < count; ++e)
       append(
@@ -72,7 +72,7 @@ template <class F>
 std::vector<ParticleValues> values_of(const World& world) {
   using Out = std::vector<double>;
   std::vector<ParticleValues> all{
-      of_nodes<Position>, of_nodes<Velocity>,
+      of_nodes<Position<ThreeD>>, of_nodes<Velocity<ThreeD>>,
       of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.effective); }),
       of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.pressure); }),
       of_stress<F>([](const ElementStresses& s, Out& out) {

@@ -8,7 +8,6 @@
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
-#include "components/space/body.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
 #include "scenes/space/tools/die_room.hpp"

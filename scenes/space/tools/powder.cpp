@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "components/body.hpp"
 #include "components/shape.hpp"
-#include "components/space/body.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"

@@ -5,6 +5,7 @@
 //          (systems/body/damping_force.cpp)
 // Runs     after the stress forces, before integrate
 // Active   if a material of the scene has [material.damping]
+#include "systems/body/damping_force.hpp"
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
@@ -83,56 +84,30 @@ void add_viscous_force(EightPoint, const Force& force, const MovingModes& m,
   add_force(force, entry(shape.hexahedra, e), 2, sum.z);
 }
 
-// Power of nodal forces at nodal velocities v.
-template <class Forces, class Velocities>
-Packet power(const Shape& shape, const Forces& force, const Velocities& v) {
-  Packet sum{};
-  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
-    for (int k = 0; k < 3; ++k) sum += force(Row<Node>(i), k) * v(Row<Node>(i), k);
-  return sum;
-}
-
 }  // namespace
 
 template <class F>
 [[gnu::flatten]] void damping_force<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = meshes.of_chunk(chunk);
-  // The first force acts for half a step (systems/space/body/integrate.cpp).
-  const double start = clock->step == 1 ? 0.5 : 1.0;
+  const Shape& shape = bodies.shape_of(chunk);
   for (int part = 0; part < parts_of_a_lane; ++part) {
     const auto of_part = [&](const auto& column) { return part_of(column.chunk(chunk), part); };
-    const auto x = of_part(motion.position);
-    const auto v = of_part(motion.velocity);
-    const auto force = of_part(damping);
-    const Packet before = start * power(shape, force, v);
-
-    const Packet drag = of_part(constants.mass)(particle) * of_part(material.density)(particle);
-    for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
-      for (int k = 0; k < 3; ++k)
-        force(Row<Node>(i), k) = -(entry(shape.nodal_volume, i) * drag) * v(Row<Node>(i), k);
-
-    const Packet viscous = of_part(constants.stiffness)(particle);
-    if (any(viscous > 0.0)) {
-      const Packet mu = of_part(material.elastic.shear)(particle),
-                   k = of_part(material.elastic.bulk)(particle);
-      const auto moduli = kernels::hourglass_moduli(mu, k);
-      const ViscosityOfPart viscosity{
-          2.0 * viscous * mu,
-          viscous * k,
-          {viscous * moduli.plate, viscous * moduli.shear, viscous * moduli.last}};
-      for (int i = 0; i < shape.elements(); ++i) {
-        const Hexahedron& nodes = entry(shape.hexahedra, i);
-        MovingModes m{element_modes(x, nodes), {}, element_modes(v, nodes)};
-        m.middle = kernels::halfway_back(m.now, m.rate, 0.5 * clock->dt_before);
-        add_viscous_force(F{}, force, m, viscosity, shape, Row<Element>(i));
-      }
-    }
-
-    of_part(work)(particle) -= 0.5 * clock->dt_before * (before + power(shape, force, v));
-    const auto f = of_part(internal);
-    for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
-      for (int k = 0; k < 3; ++k) f(Row<Node>(i), k) += force(Row<Node>(i), k);
+    damp(*this, chunk, of_part,
+         [&](const auto& force, const auto& x, const auto& v, const Packet& beta) {
+           const Packet mu = of_part(material.elastic.shear)(particle),
+                        k = of_part(material.elastic.bulk)(particle);
+           const auto moduli = kernels::hourglass_moduli(mu, k);
+           const ViscosityOfPart viscosity{
+               2.0 * beta * mu,
+               beta * k,
+               {beta * moduli.plate, beta * moduli.shear, beta * moduli.last}};
+           for (int i = 0; i < shape.elements(); ++i) {
+             const Hexahedron& nodes = entry(shape.hexahedra, i);
+             MovingModes m{element_modes(x, nodes), {}, element_modes(v, nodes)};
+             m.middle = kernels::halfway_back(m.now, m.rate, 0.5 * clock->dt_before);
+             add_viscous_force(F{}, force, m, viscosity, shape, Row<Element>(i));
+           }
+         });
   }
 }
 template struct damping_force<OnePoint>;

@@ -24,7 +24,7 @@ struct ElasticMaterial {
 
 template <class F>
 [[gnu::flatten]] void elastic_force<F>::operator()(BusyChunk chunk) const {
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   ElasticMaterial material;
   for (int part = 0; part < parts_of_a_lane; ++part)
     part_force(chunk, part, shape, force_views<F>(position, elastic, results, chunk, part),

@@ -1,7 +1,7 @@
 // How the element systems access an element of a chunk: its modes and state. No physics.
 #pragma once
 
-#include "components/space/bundles.hpp"
+#include "components/bundles.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
 #include "systems/space/body/hourglass_kernel.hpp"

@@ -16,10 +16,10 @@ namespace pulvis::space {
 
 template <class F>
 struct ForceViews {
-  ReadPart<Position> x;
-  WritePart<DeviatoricStress<F::points>> deviator;
-  WritePart<MeanStress> mean;
-  WritePart<InternalForce> force;
+  ReadPart<Position<ThreeD>> x;
+  WritePart<DeviatoricStress<ThreeD, F::points>> deviator;
+  WritePart<MeanStress<1>> mean;
+  WritePart<InternalForce<ThreeD>> force;
   Packet mu, inv_mu, bulk;
   kernels::HourglassModuli<Packet> moduli;
 };
@@ -190,7 +190,7 @@ Packet element_force(const ForceViews<EightPoint>& v, Material& material, const 
 
 // ---- one register of particles -----------------------------------------------------------------------------
 template <class F>
-ForceViews<F> force_views(const Read<Position>& position, const Elasticity& elastic,
+ForceViews<F> force_views(const Read<Position<ThreeD>>& position, const Elasticity& elastic,
                           const ForceResults<F>& results, Chunk chunk, int part) {
   const Row<Particle> particle;
   const Packet mu = part_of(elastic.shear.chunk(chunk), part)(particle),

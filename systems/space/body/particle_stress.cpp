@@ -5,6 +5,7 @@
 //          not change with uniform strain
 // Runs     in sampled steps, once the stresses are known
 // Active   if the scene asks for particle stresses or contacts
+#include "systems/body/particle_stress.hpp"
 #include "engine/entry.hpp"
 #include "systems/space/body/element_access.hpp"
 #include "systems/space/body/systems.hpp"
@@ -12,16 +13,10 @@
 namespace pulvis::space {
 namespace {
 
-struct Sums {
-  Lane xx{}, yy{}, xy{}, yz{}, zx{}, mean{}, volume{}, x{}, y{}, z{};
-};
-
-void add_deviator(const kernels::Deviator<Lane>& s, const Lane& volume, Sums& sums) {
-  sums.xx = fma(volume, s.xx, sums.xx);
-  sums.yy = fma(volume, s.yy, sums.yy);
-  sums.xy = fma(volume, s.xy, sums.xy);
-  sums.yz = fma(volume, s.yz, sums.yz);
-  sums.zx = fma(volume, s.zx, sums.zx);
+void add_deviator(const kernels::Deviator<Lane>& s, const Lane& volume, StressSums<ThreeD>& sums) {
+  const std::array parts{s.xx, s.yy, s.xy, s.yz, s.zx};
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    sums.deviator[k] = fma(volume, parts[k], sums.deviator[k]);
 }
 
 // Ratio of current to undeformed volume.
@@ -43,49 +38,33 @@ Lane dilatation(const Shape& shape, int i, const kernels::ElementModes<Lane>& mo
 
 template <class F, class Nodes, class Deviators, class Means>
 void add_element(const Shape& shape, int i, const Nodes& x, const Deviators& s, const Means& p,
-                 Sums& sums) {
+                 StressSums<ThreeD>& sums) {
   const Hexahedron& nodes = entry(shape.hexahedra, i);
   const Row<Element> e(i);
   const double undeformed = entry(shape.element, i).volume;
   const Lane theta = dilatation<F>(shape, i, element_modes(x, nodes)), volume = theta * undeformed;
-  for (int g = 0; g < F::points; ++g) {
-    const double share = F::points == 1 ? undeformed : entry(entry(shape.gauss, i), g).volume;
-    add_deviator(deviator_at(s, e, g), theta * share, sums);
-  }
+  for (int g = 0; g < F::points; ++g)
+    add_deviator(deviator_at(s, e, g), theta * shape.size_of_point<F::points>(i, g), sums);
   const auto middle = [&](int k) {
     Lane sum{};
     for (const Row<Node> node : nodes) sum += x(node, k);
     return 0.125 * sum;
   };
   sums.mean = fma(volume, p(e), sums.mean);
-  sums.x = fma(volume, middle(0), sums.x);
-  sums.y = fma(volume, middle(1), sums.y);
-  sums.z = fma(volume, middle(2), sums.z);
-  sums.volume += volume;
+  for (int k = 0; k < 3; ++k) entry(sums.middle, k) = fma(volume, middle(k), entry(sums.middle, k));
+  sums.size += volume;
 }
 
 }  // namespace
 
 template <class F>
 void particle_stress<F>::operator()(Chunk chunk) const {
-  const Row<Particle> particle;
-  const Shape& shape = meshes.of_chunk(chunk);
-  Sums sums;
+  const Shape& shape = bodies.shape_of(chunk);
+  StressSums<ThreeD> sums;
   for (int i = 0; i < shape.elements(); ++i)
     add_element<F>(shape, i, position.chunk(chunk), element.deviator.chunk(chunk),
                    element.mean.chunk(chunk), sums);
-  const Lane over = 1.0 / sums.volume;
-  const auto mean = stress.chunk(chunk);
-  mean(particle, 0) = (sums.xx + sums.mean) * over;
-  mean(particle, 1) = (sums.yy + sums.mean) * over;
-  mean(particle, 2) = (sums.mean - (sums.xx + sums.yy)) * over;
-  mean(particle, 3) = sums.xy * over;
-  mean(particle, 4) = sums.yz * over;
-  mean(particle, 5) = sums.zx * over;
-  volume.chunk(chunk)(particle) = sums.volume;
-  centre.chunk(chunk)(particle, 0) = sums.x * over;
-  centre.chunk(chunk)(particle, 1) = sums.y * over;
-  centre.chunk(chunk)(particle, 2) = sums.z * over;
+  sums.store_means(*this, chunk);
 }
 template struct particle_stress<OnePoint>;
 template struct particle_stress<EightPoint>;

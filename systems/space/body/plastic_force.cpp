@@ -85,9 +85,9 @@ void keep_worst_return(Packet residual, Row<Element> e, PacketSums& sums) {
 
 template <class F, class Rule>
 struct PlasticMaterial {
-  WritePart<PlasticMetric<F::points>> metric;
+  WritePart<PlasticMetric<ThreeD, F::points>> metric;
   WritePart<PlasticStrain<F::points>> strain;
-  std::optional<WritePart<PlasticHourglass>> hourglass;
+  std::optional<WritePart<PlasticHourglass<ThreeD>>> hourglass;
   Packet mu, inv_mu;
   Rule rule;
   PacketSums sums;
@@ -207,7 +207,7 @@ template <class F>
 template <class F>
 void plastic_force<F>::operator()(BusyChunk chunk) const {
   const Row<Particle> particle;
-  const ChunkAt<F> at{*this, chunk, meshes.of_chunk(chunk)};
+  const ChunkAt<F> at{*this, chunk, bodies.shape_of(chunk)};
   for (int part = 0; part < parts_of_a_lane; ++part) {
     const pulvis::kernels::LinearHardening<Packet> line{
         part_of(flow.yield_stress.chunk(chunk), part)(particle),
@@ -216,7 +216,7 @@ void plastic_force<F>::operator()(BusyChunk chunk) const {
       flow_by_line(at, part, line);
       continue;
     }
-    with_law((*flow.laws)->of_chunk(*meshes.bodies, chunk), line, 1 / clock->dt_before,
+    with_law((*flow.laws)->of_chunk(*bodies.bodies, chunk), line, 1 / clock->dt_before,
              [&](const auto& law) { flow_by_any(at, part, any_rule<F>(law)); });
   }
 }

@@ -1,11 +1,11 @@
-// Systems of the bodies in three dimensions. Each declares here what it reads and writes; the descriptions
-// are at the top of the individual files.
+// Systems of the hexahedra. Each declares here what it reads and writes; the descriptions are at the top of the individual
+// files. What both dimensions have is in systems/body/systems.hpp.
 // F: the formulation of the elements (components/space/formulation.hpp).
 #pragma once
 
-#include "components/space/bundles.hpp"
+#include "components/bundles.hpp"
 #include "components/space/formulation.hpp"
-#include "components/space/observed.hpp"
+#include "components/observed.hpp"
 #include "engine/look_ahead.hpp"
 #include "systems/body/systems.hpp"
 
@@ -16,13 +16,13 @@ template <class F>
 struct ForceResults {
   ElementStress<Write, F> stress;
   WorstJacobian<Write> worst;
-  Write<InternalForce> force;
+  Write<InternalForce<ThreeD>> force;
 };
 
 template <class F>
 struct elastic_force {
-  Meshes meshes;
-  Read<Position> position;
+  ShapedBodies<ThreeD> bodies;
+  Read<Position<ThreeD>> position;
   Elasticity elastic;
   ForceResults<F> results;
   void operator()(BusyChunk chunk) const;
@@ -30,16 +30,16 @@ struct elastic_force {
 
 template <class F>
 struct PlasticState {
-  Write<PlasticMetric<F::points>> metric;
+  Write<PlasticMetric<ThreeD, F::points>> metric;
   Write<PlasticStrain<F::points>> strain;
-  Optional<Write<PlasticHourglass>> hourglass;  // for one-point elements
+  Optional<Write<PlasticHourglass<ThreeD>>> hourglass;  // for one-point elements
 };
 
 template <class F>
 struct plastic_force {
-  Meshes meshes;
+  ShapedBodies<ThreeD> bodies;
   Read<Clock> clock;
-  Read<Position> position;
+  Read<Position<ThreeD>> position;
   Elasticity elastic;
   Flow flow;
   PlasticState<F> state;
@@ -54,35 +54,25 @@ struct plastic_force {
 
 template <class F>
 struct damping_force {
-  Meshes meshes;
+  ShapedBodies<ThreeD> bodies;
   Read<Clock> clock;
-  Motion motion;
+  Motion<ThreeD> motion;
   Material material;
   BulkDamping constants;
-  Write<DampingForce> damping;
+  Write<DampingForce<ThreeD>> damping;
   Write<DampingWork> work;
-  Write<InternalForce> internal;
+  Write<InternalForce<ThreeD>> internal;
   void operator()(Chunk chunk) const;
 };
 
-// ---- motion, and the stable time step -----------------------------------------------------------
-struct integrate {
-  Meshes meshes;
-  Read<Clock> clock;
-  Read<Density> density;
-  NodalForces<Read> forces;
-  Write<Velocity> velocity;
-  Write<Position> position;
-  void operator()(Chunk chunk) const;
-};
-
+// ---- the stable time step -----------------------------------------------------------------------
 template <class F>
 struct stable_time_step {
-  Meshes meshes;
+  ShapedBodies<ThreeD> bodies;
   Read<Clock> clock;
-  Read<Position> position;
+  Read<Position<ThreeD>> position;
   Material material;
-  Read<DeviatoricStress<F::points>> deviator;
+  Read<DeviatoricStress<ThreeD, F::points>> deviator;
   Optional<Read<ContactRules>> rules;
   Optional<BulkDamping> damping;
   Write<StableTimeStep> stable;
@@ -90,42 +80,21 @@ struct stable_time_step {
 };
 
 // ---- in sampled steps -----------------------------------------------------------------------------
-struct kinetic_energy {
-  Meshes meshes;
-  Read<Clock> clock;
-  Read<Density> density;
-  NodalForces<Read> forces;
-  Read<Velocity> velocity;
-  Write<KineticEnergy> energy;
-  void operator()(Chunk chunk) const;
-};
-
 template <class F>
 struct elastic_energy {
-  Meshes meshes;
-  Read<Position> position;
+  ShapedBodies<ThreeD> bodies;
+  Read<Position<ThreeD>> position;
   Elasticity elastic;
-  Optional<Read<PlasticMetric<F::points>>> metric;
+  Optional<Read<PlasticMetric<ThreeD, F::points>>> metric;
   Write<ElasticEnergy> energy;
   void operator()(Chunk chunk) const;
 };
 
-template <class F>
-struct plastic_work {
-  Meshes meshes;
-  Flow flow;
-  Read<PlasticStrain<F::points>> eps;
-  Optional<Read<HourglassWork>> hourglass;
-  Read<WorkBeyondHardening> beyond;
-  Write<PlasticWork> work;
-  void operator()(Chunk chunk) const;
-};
-
 struct hourglass_energy {
-  Meshes meshes;
-  Read<Position> position;
+  ShapedBodies<ThreeD> bodies;
+  Read<Position<ThreeD>> position;
   Elasticity elastic;
-  Optional<Read<PlasticHourglass>> plastic;
+  Optional<Read<PlasticHourglass<ThreeD>>> plastic;
   Optional<Read<HourglassWork>> spent;
   Write<HourglassEnergy> energy;
   void operator()(Chunk chunk) const;
@@ -133,12 +102,12 @@ struct hourglass_energy {
 
 template <class F>
 struct particle_stress {
-  Meshes meshes;
-  Read<Position> position;
+  ShapedBodies<ThreeD> bodies;
+  Read<Position<ThreeD>> position;
   ElementStress<Read, F> element;
-  Write<ParticleStress> stress;
-  Write<DeformedVolume> volume;
-  Write<ParticleCentre> centre;
+  Write<ParticleStress<ThreeD>> stress;
+  Write<DeformedSize<ThreeD>> size;
+  Write<ParticleCentre<ThreeD>> centre;
   void operator()(Chunk chunk) const;
 };
 

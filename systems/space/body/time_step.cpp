@@ -79,7 +79,7 @@ template <class F>
 [[gnu::flatten]] void stable_time_step<F>::operator()(Chunk chunk) const {
   if (clock->step < clock->next_look) return;
   const Row<Particle> particle;
-  const Shape& shape = meshes.of_chunk(chunk);
+  const Shape& shape = bodies.shape_of(chunk);
   const auto nodes = position.chunk(chunk);
   const auto stress = deviator.chunk(chunk);
   const Lane k = material.elastic.bulk.chunk(chunk)(particle),
@@ -87,7 +87,7 @@ template <class F>
              rho = material.density.chunk(chunk)(particle);
   Contact contact;
   if (rules) {
-    const double stiffening = springs_of(chunk, *meshes.bodies, **rules, *clock);
+    const double stiffening = springs_of(chunk, *bodies.bodies, **rules, *clock);
     contact = {(*rules)->stiffness * (stiffening + 2 * (*rules)->damping),
                (*rules)->stiffness * stiffening, dashpot_ratio(**rules)};
   }

@@ -106,7 +106,7 @@ void spread(std::span<const Shape::Term> terms, Lane x, Lane y, Lane z, const To
 template <class Load, class Net, class Nodes>
 void to_nodes(const Shape& shape, const Load& load, const std::vector<std::uint8_t>& loaded,
               const Net& net, const Nodes& node_force) {
-  for (int i = 0; i < shape.surface_nodes; ++i)
+  for (int i = 0; i < shape.boundary_nodes; ++i)
     for (int k = 0; k < 3; ++k)
       net(Row<BoundaryNode>(i), k) = node_force(Row<BoundaryNode>(i), k) = Lane{};
   for (int p = 0; p < shape.surface_points(); ++p) {
@@ -115,7 +115,7 @@ void to_nodes(const Shape& shape, const Load& load, const std::vector<std::uint8
     spread(shape.points.of(p), load(row, 0), load(row, 1), load(row, 2), net);
     for (int k = 0; k < 3; ++k) load(row, k) = Lane{};
   }
-  for (int i = 0; i < shape.surface_nodes; ++i) {
+  for (int i = 0; i < shape.boundary_nodes; ++i) {
     const Row<BoundaryNode> row(i);
     spread(shape.net.of(i), net(row, 0), net(row, 1), net(row, 2), node_force);
   }

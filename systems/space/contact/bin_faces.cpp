@@ -53,7 +53,7 @@ std::vector<std::int32_t> rows_before(const std::vector<std::int32_t>& before_be
 
 // kappa = k K A/V of the sampled face in series with the mean of the other surface, like two springs: a sphere touching
 // its mirror image gets the same force as on a rigid plane.
-double stiffness_of_pair(const ContactStiffness& material, const ShapedBodies& bodies,
+double stiffness_of_pair(const ContactStiffness& material, const ShapedBodies<ThreeD>& bodies,
                          const FaceKey& key) {
   const double a = entry(material.bulk.values(), key.slot) *
                    entry(bodies.shape_of(key.slot).faces, key.face).stiffness;
@@ -63,7 +63,7 @@ double stiffness_of_pair(const ContactStiffness& material, const ShapedBodies& b
 }
 
 // Of surfaces that may be bonded from the start, relative to the others.
-double initial_stiffness(const ContactStiffness& material, const ShapedBodies& bodies,
+double initial_stiffness(const ContactStiffness& material, const ShapedBodies<ThreeD>& bodies,
                          const FaceKey& key) {
   if (!material.bonds) return 1;
   const auto& slots = bodies.bodies->slots;
@@ -71,8 +71,8 @@ double initial_stiffness(const ContactStiffness& material, const ShapedBodies& b
   return bonds.contact_stiffness(
       bonds.initial_between(entry(slots, key.slot), entry(slots, key.other)));
 }
-double initial_stiffness_with_tool(const ContactStiffness& material, const ShapedBodies& bodies,
-                                   const FaceKey& key) {
+double initial_stiffness_with_tool(const ContactStiffness& material,
+                                   const ShapedBodies<ThreeD>& bodies, const FaceKey& key) {
   if (!material.bonds) return 1;
   const BondRules& bonds = **material.bonds;
   return bonds.contact_stiffness(

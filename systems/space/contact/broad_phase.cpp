@@ -73,7 +73,7 @@ struct NearParticle {
 
 // Finds the candidates of one slot after another.
 struct FaceSearch {
-  const ShapedBodies& bodies;
+  const ShapedBodies<ThreeD>& bodies;
   const SurfaceBoxes& boxes;
   const BySlot<std::int32_t>& neighbours;
   double distance;
@@ -124,7 +124,7 @@ struct FaceSearch {
 
 }  // namespace
 
-SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> positions) {
+SurfaceBoxes surface_boxes(const ShapedBodies<ThreeD>& bodies, std::span<const double> positions) {
   SurfaceBoxes boxes{std::vector<Box>(static_cast<std::size_t>(bodies.slots())),
                      list_by_slot<Box>(bodies.slots(), [&](int slot, std::vector<Box>& found) {
                        if (bodies.is_absent(slot)) return;
@@ -142,8 +142,8 @@ SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> p
   return boxes;
 }
 
-BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
-                                         double distance) {
+BySlot<std::int32_t> particle_neighbours(const ShapedBodies<ThreeD>& bodies,
+                                         const SurfaceBoxes& boxes, double distance) {
   const std::vector<int>& slots = bodies.bodies->present_slots;
   if (slots.empty()) return BySlot<std::int32_t>::none(bodies.slots());
   const ParticleGrid grid(boxes.particle, slots, distance);
@@ -160,7 +160,7 @@ BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const Surfa
       });
 }
 
-BySlot<FaceCandidate> face_candidates(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
+BySlot<FaceCandidate> face_candidates(const ShapedBodies<ThreeD>& bodies, const SurfaceBoxes& boxes,
                                       const BySlot<std::int32_t>& neighbours, double distance) {
   return list_by_slot<FaceCandidate>(bodies.slots(),
                                      FaceSearch{bodies, boxes, neighbours, distance});

@@ -21,14 +21,14 @@ struct SurfaceBoxes {
   std::vector<Box> particle;  // [slots]; undefined for empty slots
   BySlot<Box> face;
 };
-SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> positions);
+SurfaceBoxes surface_boxes(const ShapedBodies<ThreeD>& bodies, std::span<const double> positions);
 
 // For every slot, the other particles within `distance` (between boxes), ascending.
-BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
-                                         double distance);
+BySlot<std::int32_t> particle_neighbours(const ShapedBodies<ThreeD>& bodies,
+                                         const SurfaceBoxes& boxes, double distance);
 
 // All candidates within `distance`, sorted by (slot, other, face). `neighbours`: found with at least `distance`.
-BySlot<FaceCandidate> face_candidates(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
+BySlot<FaceCandidate> face_candidates(const ShapedBodies<ThreeD>& bodies, const SurfaceBoxes& boxes,
                                       const BySlot<std::int32_t>& neighbours, double distance);
 
 }  // namespace pulvis::space

@@ -37,7 +37,7 @@ void add_pairs(const contact_force::Pairs& pairs, const ContactIndex& index, int
   }
 }
 
-void add_tools(const TouchingRows& tools, const ContactIndex& index, int slot,
+void add_tools(const TouchingRows<FaceToolContact>& tools, const ContactIndex& index, int slot,
                const FaceForces& own) {
   for (const Row<FaceToolContact> row : RowRange<FaceToolContact>::of(index.tool_begin, slot))
     if (tools.touches(row) != 0) add_sampled(&tools.force(row), own.on(tools.pair(row, 1)));

@@ -45,8 +45,8 @@ class PairPass {
     if (s_.columns.bonds) find_bonds(slot, other);
     own_ = &s_.bodies.shape_of(slot);
     its_ = &s_.bodies.shape_of(other);
-    own_surface_ = s_.bodies.surface(slot);
-    its_surface_ = s_.bodies.surface(other);
+    own_surface_ = s_.bodies.outline_begin(slot);
+    its_surface_ = s_.bodies.outline_begin(other);
   }
 
   void run() {

@@ -32,7 +32,7 @@ constexpr double facing = -0.5;  // product of the normals
 void initial_bonds::operator()() const {
   const double* control = position.values().data();
   const auto patch = [&](int slot, int face) {
-    return PatchNumbers{control + bodies.surface(slot),
+    return PatchNumbers{control + bodies.outline_begin(slot),
                         entry(bodies.shape_of(slot).faces, face).number.data()};
   };
   for (int r = 0; r < rows.pair.rows(); ++r) {

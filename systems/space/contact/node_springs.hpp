@@ -35,8 +35,8 @@ inline NodeSpring node_spring(const Shape::SurfaceNode& node, const kernels::Vec
 }
 
 // m, of a surface node of eight particles from its point.
-inline kernels::Vector<Lane> away_from_surface(const ShapedBodies& bodies, const NodesOfSurface& of,
-                                               Chunk chunk, int number) {
+inline kernels::Vector<Lane> away_from_surface(const ShapedBodies<ThreeD>& bodies,
+                                               const NodesOfSurface& of, Chunk chunk, int number) {
   const Shape::SurfaceNode& node = entry(bodies.shape_of(chunk).surface_node, number);
   const auto x = of.nodes.chunk(chunk);
   std::array<Lane, 3> d;
@@ -45,7 +45,8 @@ inline kernels::Vector<Lane> away_from_surface(const ShapedBodies& bodies, const
     entry(d, k) = at - Lane::from([&](int lane) {
                     const int slot = ChunkLane(chunk, lane).slot();
                     if (bodies.is_absent(slot)) return at[lane];
-                    return entry(of.surface.values(), bodies.surface(slot) + 3 * node.point + k);
+                    return entry(of.surface.values(),
+                                 bodies.outline_begin(slot) + 3 * node.point + k);
                   });
   }
   return {d[0], d[1], d[2]};

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "components/body.hpp"
-#include "components/space/body.hpp"
+#include "components/bundles.hpp"
 #include "components/space/bond.hpp"
-#include "components/space/bundles.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
 #include "systems/ranks/reduce.hpp"
@@ -14,8 +13,8 @@ namespace pulvis::space {
 
 // ---- surfaces -----------------------------------------------------------------------------------
 struct contact_surface {
-  ShapedBodies bodies;
-  Motion motion;
+  ShapedBodies<ThreeD> bodies;
+  Motion<ThreeD> motion;
   Write<NetPosition> net;
   Write<PointPosition> points;
   Write<SurfacePosition> position;
@@ -27,7 +26,7 @@ struct contact_surface {
 
 // Where the surface nodes are, and their points of the smooth surface (node_springs.hpp).
 struct NodesOfSurface {
-  Read<Position> nodes;
+  Read<Position<ThreeD>> nodes;
   Read<SurfacePosition> surface;
   Read<BulkModulus> bulk;
   Read<Roughness> roughness;
@@ -39,7 +38,7 @@ struct NodesOfSurface {
 
 // Adds to the elastic energy of the particles, in sampled steps.
 struct node_spring_energy {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   NodesOfSurface nodes;
   Write<ElasticEnergy> energy;
   void operator()(Chunk chunk) const;
@@ -47,24 +46,13 @@ struct node_spring_energy {
 
 // In sampled steps.
 struct node_distance {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   NodesOfSurface nodes;
   Write<NodeDistance> distance;
   void operator()(Chunk chunk) const;
 };
 
 // ---- contact rows -------------------------------------------------------------------------------
-struct skin_check {
-  ShapedBodies bodies;
-  Read<Clock> clock;
-  Read<SurfacePosition> position;
-  Optional<ToolSurfaces> tools;
-  Write<SurfaceBefore> before;
-  Write<ContactIndex> index;
-  Optional<BorderOutlines<SurfacePosition>> border;
-  void operator()() const;
-};
-
 // Input of the contact laws of a row.
 struct ContactStiffness {
   Read<ContactRules> rules;
@@ -81,7 +69,7 @@ struct NewRows {
 };
 
 struct bin_faces {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   ContactStiffness material;
   Read<SurfacePosition> position;
   Write<ContactIndex> index;
@@ -93,7 +81,7 @@ struct bin_faces {
 };
 
 struct bin_tool_faces {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   ContactStiffness material;
   Read<SurfacePosition> position;
   ToolSurfaces tools;
@@ -138,7 +126,7 @@ struct NewBonds {
   }
 };
 struct initial_bonds {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<SurfacePosition> position;
   Read<ContactPoint> point;
   NewBonds<FaceContact> rows;
@@ -154,7 +142,7 @@ struct ContactFaces {
 };
 
 struct face_contact {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<Clock> clock;
   ContactFaces faces;
   struct Columns {
@@ -179,15 +167,8 @@ struct face_contact {
   void operator()(SmallTasks) const;
 };
 
-// Output of the narrow phase on the tool rows, for systems that look at touching rows.
-struct TouchingRows {
-  Read<ContactPair<FaceToolContact>> pair;
-  Read<ContactTouches<FaceToolContact>> touches;
-  Read<PointForce> force;
-};
-
 struct contact_force {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<ContactIndex> index;
   struct Pairs {
     Read<ContactPair<FaceContact>> pair;
@@ -197,7 +178,7 @@ struct contact_force {
     Read<PairLoads> loads;
   };
   Optional<Pairs> pairs;
-  Optional<TouchingRows> tools;
+  Optional<TouchingRows<FaceToolContact>> tools;
   NodesOfSurface nodes;
   struct Loads {
     Write<FaceForce> face;
@@ -205,29 +186,8 @@ struct contact_force {
     Write<NetLoad> net;
   };
   Loads loads;
-  Write<ContactForce> node_force;
+  Write<ContactForce<ThreeD>> node_force;
   void operator()(Chunk chunk) const;
-};
-
-// ---- health of the run ------------------------------------------------------------------------------
-struct contact_health {
-  ShapedBodies bodies;
-  Read<Clock> clock;
-  Read<ContactRules> rules;
-  struct Pairs {
-    Read<ContactPair<FaceContact>> pair;
-    Read<ContactSums<Contact>> sums;
-  };
-  Optional<Pairs> pairs;
-  struct Tools {
-    Read<ContactPair<FaceToolContact>> pair;
-    Read<ContactSums<ToolContact>> sums;
-    Read<ToolProgram> program;
-  };
-  Optional<Tools> tools;
-  Write<Totals> totals;
-  Link link;
-  void operator()() const;
 };
 
 }  // namespace pulvis::space

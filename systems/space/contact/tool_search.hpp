@@ -16,7 +16,7 @@ struct ToolCandidate {
 };
 
 struct FaceLook {
-  const ShapedBodies& bodies;
+  const ShapedBodies<ThreeD>& bodies;
   std::span<const double> positions;  // of all Bezier points
   const ToolSurfaces& tools;
   double distance;  // m

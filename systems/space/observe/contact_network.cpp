@@ -34,14 +34,14 @@ struct TouchingPoint {
 
 // Sums over a contact while its points are collected.
 struct Gathered {
-  ContactLink link;
+  ContactLink<ThreeD> link;
   double weight = 0;
 
   // `side` is -1 if the sampled side is the link's second particle.
   void add(const TouchingPoint& p, double side) {
     const double size = length_of(p.force), push = dot(p.force, p.normal);
     weight += size;
-    link.area += p.area;
+    link.size += p.area;
     const std::array at{p.at.x, p.at.y, p.at.z}, force{p.force.x, p.force.y, p.force.z},
         normal{p.normal.x, p.normal.y, p.normal.z};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -50,15 +50,15 @@ struct Gathered {
       link.normal[k] += side * std::abs(push) * normal[k];
     }
   }
-  ContactLink finished(double sides) const {
-    ContactLink done = link;
+  ContactLink<ThreeD> finished(double sides) const {
+    ContactLink<ThreeD> done = link;
     const auto [x, y, z] = link.normal;
     const double push = length_of({x, y, z});
     for (std::size_t k = 0; k < 3; ++k) {
       done.point[k] /= weight;
       done.normal[k] /= push;
     }
-    done.area /= sides;
+    done.size /= sides;
     return done;
   }
 };
@@ -76,7 +76,7 @@ class Partners {
     return all_.back();
   }
   // Points may touch without a force, where the surfaces just meet: those do not count as contact.
-  void move_to(std::vector<ContactLink>& links, double sides) const {
+  void move_to(std::vector<ContactLink<ThreeD>>& links, double sides) const {
     for (const Gathered& g : all_)
       if (g.weight > 0) links.push_back(g.finished(sides));
   }
@@ -86,8 +86,9 @@ class Partners {
   std::vector<Gathered> all_;
 };
 
-void sort_by_numbers(std::vector<ContactLink>& links) {
-  std::ranges::sort(links, {}, [](const ContactLink& l) { return std::pair(l.first, l.second); });
+void sort_by_numbers(std::vector<ContactLink<ThreeD>>& links) {
+  std::ranges::sort(links, {},
+                    [](const ContactLink<ThreeD>& l) { return std::pair(l.first, l.second); });
 }
 
 struct Looker {
@@ -154,7 +155,7 @@ struct Looker {
   }
 
   // Each pair belongs to its particle with the lower number: searches the rows of that particle and those against it.
-  void find_pairs(int slot, std::vector<ContactLink>& found) const {
+  void find_pairs(int slot, std::vector<ContactLink<ThreeD>>& found) const {
     Partners partners(number(slot));
     for (const Row<FaceContact> row : RowRange<FaceContact>::of(s.index->sampled_begin, slot)) {
       const int other = number(s.pairs->pair(row, 2));
@@ -172,7 +173,7 @@ struct Looker {
     }
     partners.move_to(found, 2);
   }
-  void find_tools(int slot, std::vector<ContactLink>& found) const {
+  void find_tools(int slot, std::vector<ContactLink<ThreeD>>& found) const {
     Partners partners(number(slot));
     for (const Row<FaceToolContact> row : RowRange<FaceToolContact>::of(s.index->tool_begin, slot))
       if (s.tools->rows.touches(row) != 0) add_tool(row, partners.with(s.tools->rows.pair(row, 2)));
@@ -185,8 +186,8 @@ struct Looker {
 void contact_network::operator()() const {
   const Looker looker{*this};
   const auto found_by = [&](const auto& find) {
-    auto links =
-        list_by_slot<ContactLink>(bodies.slots(), [&](int slot, std::vector<ContactLink>& found) {
+    auto links = list_by_slot<ContactLink<ThreeD>>(
+        bodies.slots(), [&](int slot, std::vector<ContactLink<ThreeD>>& found) {
           if (bodies.bodies->owns(slot)) find(slot, found);
         });
     sort_by_numbers(links.all);

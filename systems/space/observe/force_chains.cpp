@@ -25,7 +25,8 @@ void force_chains::operator()() const {
     centres.push_back({x(particle, 0)[lane], x(particle, 1)[lane], x(particle, 2)[lane]});
   }
   std::vector<pulvis::kernels::TouchingPair<3>> touching;
-  for (const ContactLink& link : network->pairs) touching.push_back({link.first, link.second});
+  for (const ContactLink<ThreeD>& link : network->pairs)
+    touching.push_back({link.first, link.second});
   chains->chain = pulvis::kernels::chains_of<3>(loads, centres, touching);
 }
 

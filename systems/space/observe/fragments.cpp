@@ -32,7 +32,7 @@ double count_points(const BondedRows<At>& rows, Row<At> row, const Shape::Face& 
   return area;
 }
 
-const Shape::Face& face_of(const ShapedBodies& bodies, int slot, int face) {
+const Shape::Face& face_of(const ShapedBodies<ThreeD>& bodies, int slot, int face) {
   return entry(bodies.shape_of(slot).faces, face);
 }
 

@@ -136,7 +136,7 @@ struct DensityLook {
     Point low, high;
     low.fill(std::numeric_limits<double>::max());
     high.fill(std::numeric_limits<double>::lowest());
-    for (int n = 0; n < shape.surface_nodes; ++n)
+    for (int n = 0; n < shape.boundary_nodes; ++n)
       for (std::size_t k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], node(n)[k]);
         high[k] = std::max(high[k], node(n)[k]);

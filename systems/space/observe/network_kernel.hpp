@@ -10,7 +10,7 @@
 #include <cmath>
 #include <span>
 
-#include "components/space/observed.hpp"
+#include "components/observed.hpp"
 #include "systems/observe/force_chain_kernel.hpp"
 
 namespace pulvis::space::kernels {
@@ -23,9 +23,9 @@ struct Fabric {
   }
 };
 
-inline Fabric fabric(std::span<const ContactLink> links) {
+inline Fabric fabric(std::span<const ContactLink<ThreeD>> links) {
   Fabric f;
-  for (const ContactLink& link : links) {
+  for (const ContactLink<ThreeD>& link : links) {
     const auto [x, y, z] = link.normal;
     const double share = 1 / static_cast<double>(links.size());
     f.xx += share * x * x;

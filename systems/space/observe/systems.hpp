@@ -10,7 +10,7 @@
 namespace pulvis::space {
 
 struct contact_network {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<ContactIndex> index;
   Read<SurfacePosition> position;
   struct Pairs {
@@ -22,20 +22,20 @@ struct contact_network {
   };
   Optional<Pairs> pairs;
   struct Tools {
-    TouchingRows rows;
+    TouchingRows<FaceToolContact> rows;
     ToolSurfaces surfaces;
     Optional<ToolTriangles> triangles;
   };
   Optional<Tools> tools;
-  Write<ContactNetwork> network;
+  Write<ContactNetwork<ThreeD>> network;
   void operator()() const;
 };
 
 struct contact_quality {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<ContactIndex> index;
   Optional<contact_force::Pairs> pairs;
-  Optional<TouchingRows> tools;
+  Optional<TouchingRows<FaceToolContact>> tools;
   Write<ContactQuality> quality;
   Link link;
   void operator()() const;
@@ -43,9 +43,9 @@ struct contact_quality {
 
 struct force_chains {
   Read<Bodies> bodies;
-  Read<ParticleStress> stress;
-  Read<ParticleCentre> centre;
-  Read<ContactNetwork> network;
+  Read<ParticleStress<ThreeD>> stress;
+  Read<ParticleCentre<ThreeD>> centre;
+  Read<ContactNetwork<ThreeD>> network;
   Write<ForceChains> chains;
   void operator()() const;
 };
@@ -56,7 +56,7 @@ struct BondedRows {
   Read<ContactPair<At>> pair;
 };
 struct fragments {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Optional<Read<BondRules>> rules;  // if contact is possible
   Read<BondTotals> totals;
   Optional<BondedRows<FaceContact>> pairs;
@@ -66,8 +66,8 @@ struct fragments {
 };
 
 struct local_density {
-  ShapedBodies bodies;
-  Read<Position> position;
+  ShapedBodies<ThreeD> bodies;
+  Read<Position<ThreeD>> position;
   Read<ToolPosition> tool_position;
   Write<DensityGrid> grid;
   void operator()() const;

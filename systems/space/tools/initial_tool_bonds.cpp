@@ -22,7 +22,8 @@ void initial_tool_bonds::operator()() const {
     if (number == 0) continue;
     const BondRules::Law& law = rows.rules->law(number);
     const Shape::Face& face = entry(bodies.shape_of(slot).faces, rows.pair(row, 1));
-    const PatchNumbers own{position.values().data() + bodies.surface(slot), face.number.data()};
+    const PatchNumbers own{position.values().data() + bodies.outline_begin(slot),
+                           face.number.data()};
     const double strength = drawn_strength(law, body.number, -1 - tool);
     for (int half = 0; half < 2; ++half) {
       const VectorLanes at = sampled_points(own, half);

@@ -1,11 +1,9 @@
-// Systems of the tools in three dimensions. Tool motion and the clock are shared with two dimensions
+// Contact with tools in three dimensions. Their motion, reaction and servos are shared with two dimensions
 // (systems/tools/systems.hpp).
 #pragma once
 
-#include "components/servo.hpp"
 #include "components/space/tools.hpp"
 #include "systems/space/contact/systems.hpp"
-#include "systems/tools/systems.hpp"
 
 namespace pulvis::space {
 
@@ -16,7 +14,7 @@ struct ToolTriangles {
 };
 
 struct tool_contact {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<Clock> clock;
   ContactFaces faces;
   struct Columns {
@@ -25,8 +23,8 @@ struct tool_contact {
     Write<ContactTouches<FaceToolContact>> touches;
     Write<Activation<FaceToolContact>> activation;
     Read<ContactLaw<FaceToolContact>> law;
-    Write<PointForce> force;
-    Optional<Write<ElasticSlip>> slip;                     // only with friction
+    Write<PointForce<FaceToolContact>> force;
+    Optional<Write<ElasticSlip<FaceToolContact>>> slip;    // only with friction
     Optional<Write<SlipWeakening<FaceToolContact>>> lost;  // of friction that is not just Coulomb's
   };
   Columns columns;
@@ -48,7 +46,7 @@ struct tool_contact {
 };
 
 struct initial_tool_bonds {
-  ShapedBodies bodies;
+  ShapedBodies<ThreeD> bodies;
   Read<SurfacePosition> position;
   ToolSurfaces tools;
   Optional<ToolTriangles> triangles;
@@ -56,25 +54,6 @@ struct initial_tool_bonds {
   Write<ToolAnchor> anchor;
   Write<Activation<FaceToolContact>> activation;
   Write<BondTotals> totals;
-  void operator()() const;
-};
-
-struct tool_reaction {
-  Read<Clock> clock;
-  TouchingRows contacts;
-  Read<ToolVelocity> velocity;
-  Write<ToolForce> tool_force;
-  Write<Totals> totals;
-  Link link;
-  void operator()() const;
-};
-
-struct tool_servo {
-  Servos servos;
-  ShapedBodies bodies;
-  TouchingRows rows;
-  Read<ContactLaw<FaceToolContact>> law;
-  Link link;
   void operator()() const;
 };
 

@@ -176,7 +176,7 @@ struct ToolPass {
   void operator()(Row<FaceToolContact> row, Sums& sums) const {
     const int slot = s.columns.pair(row, 0);
     const Shape::Face& face = entry(s.bodies.shape_of(slot).faces, s.columns.pair(row, 1));
-    const PatchNumbers own{points.data() + s.bodies.surface(slot), face.number.data()};
+    const PatchNumbers own{points.data() + s.bodies.outline_begin(slot), face.number.data()};
     const ToolRow of{row, face, rules_of(s, row),
                      s.tools.surfaces.position_of(s.columns.pair(row, 2))};
     RowMotion motion;
@@ -193,7 +193,8 @@ struct ToolPass {
     if (!rates.empty())
       for (int half = 0; half < 2; ++half)
         if (motion.touches(half))
-          set_rates(row, sampled_points({rates.data() + s.bodies.surface(slot), own.number}, half),
+          set_rates(row,
+                    sampled_points({rates.data() + s.bodies.outline_begin(slot), own.number}, half),
                     entry(motion.half, half));
     act(s, of, motion, sums);
   }

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "components/body.hpp"
-#include "components/space/body.hpp"
 #include "tests/helpers/elastic_ball.hpp"
 #include "tests/helpers/experiment.hpp"
 
@@ -42,7 +41,7 @@ TEST(DampedBall, FliesEverSlower) {
 
 TEST(DampedBall, TakesNothingUnlessAsked) {
   Experiment e(damped_ball({}));
-  EXPECT_FALSE(e.simulation.world().has<space::DampingForce>());
+  EXPECT_FALSE(e.simulation.world().has<DampingForce<ThreeD>>());
   EXPECT_FALSE(e.simulation.world().has<MassDamping>());
   EXPECT_FALSE(e.results.has("energy/bulk_damping"));
 }

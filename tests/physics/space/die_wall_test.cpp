@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "components/space/observed.hpp"
+#include "components/observed.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {
@@ -20,7 +20,7 @@ TEST(DieWall, BearsTheNormalForcesOfItsContacts) {
   e.simulation.observe();
   e.results.sample();
   double normal = 0, across = 0;
-  for (const auto& link : e.simulation.world().resource<space::ContactNetwork>().tools)
+  for (const auto& link : e.simulation.world().resource<ContactNetwork<ThreeD>>().tools)
     if (link.second == 0) normal += link.normal_force();
   for (const char* axis : {"x", "y"})
     across = std::hypot(across, e.value(std::string("tool/die/force_") + axis));

@@ -4,9 +4,8 @@
 
 #include <numbers>
 
+#include "components/body.hpp"
 #include "components/observed.hpp"
-#include "components/space/body.hpp"
-#include "components/space/observed.hpp"
 #include "components/space/shape.hpp"
 #include "scenes/results/state_hash.hpp"
 #include "scenes/spec/space_scene.hpp"
@@ -29,19 +28,19 @@ Scene body_centred(std::vector<std::string> more = {}) {
   return network_scene("unit-cell-bcc.toml", std::move(more));
 }
 
-const ContactNetwork& network_in(Experiment& e) {
-  return e.simulation.world().resource<ContactNetwork>();
+const ContactNetwork<ThreeD>& network_in(Experiment& e) {
+  return e.simulation.world().resource<ContactNetwork<ThreeD>>();
 }
 Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
 
 std::vector<Vec3> forces_by_particle(Experiment& e) {
   std::vector<Vec3> sums(
       static_cast<std::size_t>(e.simulation.world().resource<Bodies>().particles()), Vec3::Zero());
-  for (const ContactLink& l : network_in(e).pairs) {
+  for (const ContactLink<ThreeD>& l : network_in(e).pairs) {
     sums[static_cast<std::size_t>(l.first)] += vector_of(l.force);
     sums[static_cast<std::size_t>(l.second)] -= vector_of(l.force);
   }
-  for (const ContactLink& l : network_in(e).tools)
+  for (const ContactLink<ThreeD>& l : network_in(e).tools)
     sums[static_cast<std::size_t>(l.first)] += vector_of(l.force);
   return sums;
 }
@@ -49,13 +48,13 @@ std::vector<Vec3> forces_by_particle(Experiment& e) {
 // Sum of the forces on the nodes of a particle, as contact_force left them.
 Vec3 contact_force_on(Experiment& e, int slot) {
   const World& world = e.simulation.world();
-  const auto& column = e.column<ContactForce>();
+  const auto& column = e.column<ContactForce<ThreeD>>();
   const int lane = slot % lane_count,
             shape = world.resource<Bodies>().slots[static_cast<std::size_t>(slot)].shape;
   const auto first = static_cast<std::size_t>(
       column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
   const auto nodes = static_cast<std::size_t>(
-      world.resource<Shapes>().list[static_cast<std::size_t>(shape)].surface_nodes);
+      world.resource<Shapes>().list[static_cast<std::size_t>(shape)].boundary_nodes);
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = first; n < first + nodes; ++n)
     for (std::size_t k = 0; k < 3; ++k)
@@ -75,7 +74,7 @@ TEST(NetworkInSpace, GivesEveryParticleAndToolItsForce) {
     EXPECT_LT((sums[p] - contact_force_on(e, slots[p])).norm(), 1e-11 * largest) << p;
   const auto& tools = e.scene.space->tools;
   std::vector<Vec3> on_tools(tools.size(), Vec3::Zero());
-  for (const ContactLink& l : network_in(e).tools)
+  for (const ContactLink<ThreeD>& l : network_in(e).tools)
     on_tools[static_cast<std::size_t>(l.second)] -= vector_of(l.force);
   for (std::size_t t = 0; t < tools.size(); ++t)
     for (const auto& [k, axis] : {std::pair{0, "x"}, {1, "y"}, {2, "z"}})
@@ -105,7 +104,7 @@ TEST(NetworkInSpace, OfABodyCentredLatticeHasEightNeighboursAlongTheDiagonals) {
   std::vector<double> pairs(forces_by_particle(e).size());
   pulvis::kernels::count_contacts(network_in(e).pairs, true, pairs);
   EXPECT_EQ(*std::max_element(pairs.begin(), pairs.end()), 8);
-  for (const ContactLink& l : network_in(e).pairs) {
+  for (const ContactLink<ThreeD>& l : network_in(e).pairs) {
     for (const double part : l.normal) EXPECT_NEAR(std::abs(part), std::sqrt(1 / 3.0), 0.02);
     EXPECT_LT(l.tangential_force(), 0.05 * l.normal_force());
   }
@@ -126,10 +125,10 @@ TEST(NetworkInSpace, KnowsTheAreaOfHertzContact) {
   e.simulation.observe();
   ASSERT_EQ(network_in(e).tools.size(), 2U);
   const double modulus = 200e9 / (1 - 0.3 * 0.3), radius = 5e-3;
-  for (const ContactLink& link : network_in(e).tools) {
+  for (const ContactLink<ThreeD>& link : network_in(e).tools) {
     const double touching = std::cbrt(0.75 * link.normal_force() * radius / modulus);
     EXPECT_NEAR(std::abs(link.normal[2]), 1, 1e-12);
-    EXPECT_NEAR(link.area / (std::numbers::pi * touching * touching), 1, 0.35);
+    EXPECT_NEAR(link.size / (std::numbers::pi * touching * touching), 1, 0.35);
   }
 }
 

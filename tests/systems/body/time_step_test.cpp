@@ -27,10 +27,10 @@ class LoneParticle {
     forces_ = std::make_unique<TaskGraph>(std::move(forces), world_->chunks());
   }
   Eigen::Index unknowns() const {
-    return static_cast<Eigen::Index>(2 * world_->column<Position>().table.rows);
+    return static_cast<Eigen::Index>(2 * world_->column<Position<TwoD>>().table.rows);
   }
-  double position(Eigen::Index i) const { return world_->column<Position>().lanes()[i][0]; }
-  void put(Eigen::Index i, double x) { world_->column<Position>().lanes()[i][0] = x; }
+  double position(Eigen::Index i) const { return world_->column<Position<TwoD>>().lanes()[i][0]; }
+  void put(Eigen::Index i, double x) { world_->column<Position<TwoD>>().lanes()[i][0] = x; }
 
   void deform(const Eigen::Matrix2d& stretch) {
     for (Eigen::Index n = 0; n < unknowns(); n += 2) {
@@ -44,7 +44,7 @@ class LoneParticle {
     forces_->run();
     Eigen::VectorXd f(unknowns());
     for (Eigen::Index i = 0; i < f.size(); ++i)
-      f[i] = world_->column<InternalForce>().lanes()[i][0];
+      f[i] = world_->column<InternalForce<TwoD>>().lanes()[i][0];
     return f;
   }
   double highest_frequency() {

@@ -10,8 +10,8 @@ namespace {
 
 using std::numbers::pi;
 
-ContactLink towards(double angle, double force) {
-  ContactLink link;
+ContactLink<TwoD> towards(double angle, double force) {
+  ContactLink<TwoD> link;
   link.normal = {std::cos(angle), std::sin(angle)};
   link.force = {force * link.normal[0], force * link.normal[1]};
   return link;
@@ -19,7 +19,7 @@ ContactLink towards(double angle, double force) {
 
 TEST(Fabric, OfRegularArrangementsIsIsotropic) {
   for (const int directions : {2, 3, 4, 7}) {
-    std::vector<ContactLink> links;
+    std::vector<ContactLink<TwoD>> links;
     for (int k = 0; k < directions; ++k) links.push_back(towards(0.3 + pi * k / directions, 1));
     const Fabric f = fabric(links);
     EXPECT_NEAR(f.xx, 0.5, 1e-15) << directions;
@@ -47,7 +47,7 @@ TEST(Rose, CountsOppositeNormalsAlikeAndWeighsThem) {
 }
 
 TEST(Rose, SumsToOneWhateverTheDirections) {
-  std::vector<ContactLink> links;
+  std::vector<ContactLink<TwoD>> links;
   for (int k = 0; k < 1000; ++k) links.push_back(towards(0.37 * k, 1 + k % 7));
   const Rose r = rose(links);
   double number = 0, force = 0;

@@ -39,7 +39,7 @@ TEST(SpaceMesh, HasTheCountsOfACubedSphere) {
   for (const auto& [name, true_shape, n, rings, shape] : mesh_cases()) {
     SCOPED_TRACE(name);
     EXPECT_EQ(shape.elements(), n * n * n + 6 * n * n * rings);
-    EXPECT_EQ(shape.surface_nodes, 6 * n * n + 2);
+    EXPECT_EQ(shape.boundary_nodes, 6 * n * n + 2);
     EXPECT_EQ(static_cast<int>(shape.nodes.size()),
               rings * (6 * n * n + 2) + (n + 1) * (n + 1) * (n + 1));
   }
@@ -108,10 +108,10 @@ TEST(SpaceMesh, ExtrudedHasTheCountsOfADiscInLayers) {
     EXPECT_EQ(shape.elements(), disc * m);
     EXPECT_EQ(particle.mesh.hexahedra(), shape.elements());
     EXPECT_EQ(particle.mesh.faces(), static_cast<std::int64_t>(shape.faces.size()));
-    EXPECT_EQ(particle.mesh.surface_nodes(), shape.surface_nodes);
+    EXPECT_EQ(particle.mesh.surface_nodes(), shape.boundary_nodes);
     EXPECT_EQ(particle.mesh.nodes(), static_cast<std::int64_t>(shape.nodes.size()));
     EXPECT_EQ(static_cast<int>(shape.faces.size()), 2 * disc + 4 * n * m);
-    EXPECT_EQ(shape.surface_nodes, static_cast<int>(shape.faces.size()) + 2);  // Euler
+    EXPECT_EQ(shape.boundary_nodes, static_cast<int>(shape.faces.size()) + 2);  // Euler
   }
 }
 
@@ -223,7 +223,7 @@ TEST(SpaceMesh, OfASharpShapeHasNoSpikes) {
   const double radius = std::cbrt(0.75 / std::numbers::pi * surface->volume());
   for (const int n : {4, 7}) {
     const Shape shape = shape_of(sharp, n, 1);
-    for (int i = 0; i < shape.surface_nodes; ++i) {
+    for (int i = 0; i < shape.boundary_nodes; ++i) {
       const Vec3 at = node_of(shape, i);
       const Vec3 along = at.normalized();
       const double off = (at.norm() - surface->radius(along)) * along.dot(surface->normal(along));

@@ -287,7 +287,7 @@ TEST(SmoothSurface, AUniformPressureWorksOnTheVolumeItEncloses) {
 
 // m^2, a quarter of every face.
 std::vector<double> shares_of_nodes(const Shape& shape) {
-  std::vector<double> share(static_cast<std::size_t>(shape.surface_nodes));
+  std::vector<double> share(static_cast<std::size_t>(shape.boundary_nodes));
   for (const Shape::Face& face : shape.faces)
     for (const Row<BoundaryNode> corner : face.corner)
       entry(share, corner) += face.size * face.size / 4;
@@ -307,7 +307,7 @@ TEST(SmoothSurface, AUniformPressureOnAFlatFaceLoadsTheNodesEvenly) {
       double top = 0;
       for (const Point& node : shape.nodes) top = std::max(top, node[2]);
       int looked_at = 0;
-      for (int i = 0; i < shape.surface_nodes; ++i) {
+      for (int i = 0; i < shape.boundary_nodes; ++i) {
         const Vec3 node = node_of(shape, i);
         if (node.z() < top - 0.02 || node.head<2>().norm() > 0.36 - 0.8 / divisions) continue;
         EXPECT_NEAR(entry(load, i).z() / entry(share, i), 1, 0.1) << node.transpose();
@@ -323,7 +323,7 @@ TEST(SmoothSurface, AUniformPressureLoadsTheNodesEvenly) {
   const Shape shape = shape_of(SphereShape{2}, 4, 2);
   const std::vector<Vec3> load = pressure_loads(shape, shape.nodes);
   const std::vector<double> share = shares_of_nodes(shape);
-  for (int i = 0; i < shape.surface_nodes; ++i) {
+  for (int i = 0; i < shape.boundary_nodes; ++i) {
     const double ratio = entry(load, i).dot(node_of(shape, i).normalized()) / entry(share, i);
     EXPECT_GT(ratio, 0.7) << i;
     EXPECT_LT(ratio, 1.15) << i;

@@ -8,8 +8,8 @@
 #include <memory>
 #include <numeric>
 
+#include "components/body.hpp"
 #include "components/run_state.hpp"
-#include "components/space/body.hpp"
 #include "scenes/space/body_columns.hpp"
 #include "scenes/space/meshes/element_constants.hpp"
 #include "systems/space/body/systems.hpp"
@@ -117,11 +117,12 @@ class Body {
     return world.column<C>().lanes()[row * C::count + component][lane];
   }
   Vector position(int n) {
-    return {number<Position>(n, 0), number<Position>(n, 1), number<Position>(n, 2)};
+    return {number<Position<ThreeD>>(n, 0), number<Position<ThreeD>>(n, 1),
+            number<Position<ThreeD>>(n, 2)};
   }
   void put(int n, const Vector& x) {
     for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < lane_count; ++l) number<Position>(n, k, l) = x[k];
+      for (int l = 0; l < lane_count; ++l) number<Position<ThreeD>>(n, k, l) = x[k];
   }
   void place(const std::function<Vector(const Vector&)>& of_undeformed) {
     for (int n = 0; n < nodes(); ++n) {
@@ -130,7 +131,8 @@ class Body {
     }
   }
   Vector force(int n) {
-    return {number<InternalForce>(n, 0), number<InternalForce>(n, 1), number<InternalForce>(n, 2)};
+    return {number<InternalForce<ThreeD>>(n, 0), number<InternalForce<ThreeD>>(n, 1),
+            number<InternalForce<ThreeD>>(n, 2)};
   }
   double stored_energy() {
     run<elastic_energy<F>>();
@@ -143,10 +145,10 @@ class Body {
     return sum;
   }
   Matrix cauchy(int e, int g = 0) {
-    const auto s = [&](int k) { return number<DeviatoricStress<F::points>>(e, 5 * g + k); };
+    const auto s = [&](int k) { return number<DeviatoricStress<ThreeD, F::points>>(e, 5 * g + k); };
     Matrix m;
     m << s(0), s(2), s(4), s(2), s(1), s(3), s(4), s(3), -s(0) - s(1);
-    return m + number<MeanStress>(e) * Matrix::Identity();
+    return m + number<MeanStress<1>>(e) * Matrix::Identity();
   }
 
   World world;

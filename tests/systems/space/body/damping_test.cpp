@@ -31,12 +31,13 @@ class DampedBlock : public Body<F> {
     for (int n = 0; n < this->nodes(); ++n)
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < lane_count; ++l)
-          this->template number<Velocity>(n, k, l) = of_node(n)[k];
+          this->template number<Velocity<ThreeD>>(n, k, l) = of_node(n)[k];
   }
   void find_damping() { this->template run<damping_force<F>>(); }
   Vector damping(int n) {
-    return {this->template number<DampingForce>(n, 0), this->template number<DampingForce>(n, 1),
-            this->template number<DampingForce>(n, 2)};
+    return {this->template number<DampingForce<ThreeD>>(n, 0),
+            this->template number<DampingForce<ThreeD>>(n, 1),
+            this->template number<DampingForce<ThreeD>>(n, 2)};
   }
 };
 

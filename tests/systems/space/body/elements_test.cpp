@@ -107,7 +107,7 @@ TYPED_TEST(Elements, ForceIsTheDerivativeOfTheEnergyAfterFlow) {
   for (int l = 0; l < lane_count; ++l) body.template number<YieldStress>(0, 0, l) = 1e6;
   EXPECT_GT(body.template number<PlasticStrain<TypeParam::points>>(0), 0.01);
   if constexpr (TypeParam::stabilised) {
-    EXPECT_NE(body.template number<PlasticHourglass>(0, 4), 0);
+    EXPECT_NE(body.template number<PlasticHourglass<ThreeD>>(0, 4), 0);
   }
   shake(body, random, 0.05);
   expect_forces_of_energy(body);

@@ -27,7 +27,7 @@ Shape unit_cube() {
 kernels::ElementModes<double> modes_of_body(Body<OnePoint>& body, int lane = 0) {
   const auto of = [&](int k) {
     return kernels::modes_of<double>([&](int i) {
-      return body.number<Position>(entry(body.shape().hexahedra[0], i).value, k, lane);
+      return body.number<Position<ThreeD>>(entry(body.shape().hexahedra[0], i).value, k, lane);
     });
   };
   return {of(0), of(1), of(2)};
@@ -138,7 +138,7 @@ TEST(InversionBarrier, LeavesElementsFarFromFoldingAlone) {
     body->place([](const Vector& x) { return bent(1.1 * x, 0.1); });
   for (int n = 0; n < 8; ++n) {
     const Vector x = bent(beside.position(n) / 1.1, 0.7);
-    for (int k = 0; k < 3; ++k) beside.number<Position>(n, k, 1) = x[k];
+    for (int k = 0; k < 3; ++k) beside.number<Position<ThreeD>>(n, k, 1) = x[k];
   }
   alone.find_forces();
   beside.find_forces();
@@ -146,7 +146,8 @@ TEST(InversionBarrier, LeavesElementsFarFromFoldingAlone) {
   EXPECT_EQ(beside.number<MinJacobian>(0), alone.number<MinJacobian>(0));
   for (int n = 0; n < 8; ++n)
     for (int k = 0; k < 3; ++k)
-      EXPECT_EQ(beside.number<InternalForce>(n, k), alone.number<InternalForce>(n, k));
+      EXPECT_EQ(beside.number<InternalForce<ThreeD>>(n, k),
+                alone.number<InternalForce<ThreeD>>(n, k));
 }
 
 // Work of the internal forces on bending by one.

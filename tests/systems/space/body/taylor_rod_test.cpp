@@ -84,8 +84,8 @@ struct Rod {
 };
 
 void stop_at_wall(World& world) {
-  auto& x = world.column<Position>();
-  auto& v = world.column<Velocity>();
+  auto& x = world.column<Position<ThreeD>>();
+  auto& v = world.column<Velocity<ThreeD>>();
   for (std::size_t i = 2; i < 3 * x.table.rows; i += 3) {
     const auto outside = x.lanes()[i] < 0.0;
     x.lanes()[i] = select(outside, 0.0, x.lanes()[i]);
@@ -101,7 +101,7 @@ Rod fly(int n, int rings, int layers) {
   Clock& clock = body.world.template resource<Clock>();
   clock.dt = 0;
   for (int i = 0; i < body.nodes(); ++i)
-    for (int l = 0; l < lane_count; ++l) body.template number<Velocity>(i, 2, l) = -227;
+    for (int l = 0; l < lane_count; ++l) body.template number<Velocity<ThreeD>>(i, 2, l) = -227;
   const auto kinetic = [&] {
     body.template run<kinetic_energy>();
     return body.template number<KineticEnergy>(0);

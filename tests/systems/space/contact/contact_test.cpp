@@ -133,7 +133,7 @@ TEST(SpaceContact, SameBitsForAnyNumberOfThreads) {
       w.update();
       w.update(false);
     });
-    const auto& column = w.world.column<ContactForce>();
+    const auto& column = w.world.column<ContactForce<ThreeD>>();
     forces.emplace_back(reinterpret_cast<const double*>(column.data()),
                         reinterpret_cast<const double*>(column.data() + column.bytes()));
     forces.back().push_back(w.energy());
@@ -150,8 +150,8 @@ Shape flat_square(int n, double width, double thickness) {
   const auto node = [n](int i, int j) { return j * (n + 1) + i; };
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) shape.nodes.push_back({i * width / n, j * width / n, 0});
-  shape.surface_nodes = static_cast<int>(shape.nodes.size());
-  for (int i = 0; i < shape.surface_nodes; ++i) {
+  shape.boundary_nodes = static_cast<int>(shape.nodes.size());
+  for (int i = 0; i < shape.boundary_nodes; ++i) {
     shape.net.all.push_back({Row<BoundaryNode>(i), 1});
     shape.net.close();
   }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "components/body.hpp"
-#include "components/space/body.hpp"
 #include "components/space/contact.hpp"
 #include "engine/system.hpp"
 #include "scenes/space/contact_columns.hpp"
@@ -55,9 +54,9 @@ class TouchingBodies {
     const auto particle = static_cast<std::size_t>(bodies[static_cast<std::size_t>(body)].particle);
     return world.resource<Shapes>().list[particle];
   }
-  int surface_nodes(int body) const { return shape(body).surface_nodes; }
-  double& node(int body, int number, int k) { return at<Position>(body, number, k); }
-  double& velocity(int body, int number, int k) { return at<Velocity>(body, number, k); }
+  int surface_nodes(int body) const { return shape(body).boundary_nodes; }
+  double& node(int body, int number, int k) { return at<Position<ThreeD>>(body, number, k); }
+  double& velocity(int body, int number, int k) { return at<Velocity<ThreeD>>(body, number, k); }
   Vec3 position_of(int body, int number) {
     return {node(body, number, 0), node(body, number, 1), node(body, number, 2)};
   }
@@ -65,7 +64,7 @@ class TouchingBodies {
     return {velocity(body, number, 0), velocity(body, number, 1), velocity(body, number, 2)};
   }
   Vec3 force_on(int body, int number) {
-    const auto row = lane_row<ContactForce>(body, number);
+    const auto row = lane_row<ContactForce<ThreeD>>(body, number);
     return {row[0][lane(body)], row[1][lane(body)], row[2][lane(body)]};
   }
   Vec3 force_on(int body) {
@@ -108,7 +107,7 @@ class TouchingBodies {
     const bool pairs = world.has<ContactPair<FaceContact>>();
     const bool tools = world.has<ContactPair<FaceToolContact>>();
     run<contact_surface>("contact_surface");
-    run<skin_check>("skin_check");
+    run<skin_check<ThreeD>>("skin_check");
     if (pairs) run<bin_faces>("bin_faces");
     if (tools) run<bin_tool_faces>("bin_tool_faces");
     if (pairs) run<face_contact>("face_contact");
@@ -116,7 +115,7 @@ class TouchingBodies {
     run<pulvis::contact_totals>("contact_totals");
     if (world.has<BondTotals>()) run<pulvis::bond_totals>("bond_totals");
     run<contact_force>("contact_force");
-    if (tools) run<tool_reaction>("tool_reaction");
+    if (tools) run<tool_reaction<ThreeD>>("tool_reaction");
   }
   // As at the start of a run, after an update.
   void bond() {
@@ -196,8 +195,8 @@ class TouchingBodies {
     all.hold_all();
     const std::size_t lanes = all.slots.size();
     world.add_table<Node>(nodes);
-    world.add<Position>();
-    world.add<Velocity>();
+    world.add<Position<ThreeD>>();
+    world.add<Velocity<ThreeD>>();
     world.add_table<Particle>(std::vector<std::int32_t>(lanes / lane_count, 1));
     world.add<BulkModulus>();
     world.add<Density>();
