@@ -13,103 +13,194 @@
 #include "systems/observe/systems.hpp"
 #include "systems/ranks/failure.hpp"
 #include "systems/ranks/systems.hpp"
-#include "systems/space/step.hpp"
+#include "systems/space/body/systems.hpp"
+#include "systems/space/contact/systems.hpp"
+#include "systems/space/observe/systems.hpp"
+#include "systems/space/tools/systems.hpp"
 #include "systems/tools/systems.hpp"
 
 namespace pulvis {
 namespace {
 
-// On sampled steps, once the forces are known: what each rank knows of its particles...
+template <class D>
+constexpr bool in_plane = D::axes == 2;
+template <class D>
+constexpr bool in_space = D::axes == 3;
+
+// Which contacts a scene can have: between particles, with tools, between particles of several processes.
+template <class D>
+struct Contacts {
+  bool pairs, tools, ranks;
+  explicit Contacts(const World& w)
+      : pairs(w.has<ContactPair<typename D::Contact>>()),
+        tools(w.has<ContactPair<typename D::ToolContact>>()),
+        ranks(pairs && w.has<RankLink>()) {}
+  bool any() const { return pairs || tools; }
+};
+
+// ---- the elements ----------------------------------------------------------------------------------
+// F: the element formulation of the scene (components/formulation.hpp, components/space/formulation.hpp).
+template <class F>
+void add_element_forces(World& w, SystemList& force) {
+  const bool plastic = w.has<PlasticStrain<F::points>>();
+  const bool damped = w.has<DampingForce<typename F::Dimension>>();
+  // clang-format off
+  if constexpr (in_plane<typename F::Dimension>) {
+    force.add<elastic_stress<F>>        ("elastic_stress",    !plastic);
+    force.add<trial_stress<F>>          ("trial_stress",      plastic);
+    force.add<j2_return_map<F>>         ("j2_return_map",     plastic);
+    force.add<internal_force<F>>        ("internal_force");
+    force.add<damping_force<F>>         ("damping_force",     damped);
+  } else {
+    force.add<space::elastic_force<F>>  ("elastic_force",     !plastic);
+    force.add<space::plastic_force<F>>  ("plastic_force",     plastic);
+    force.add<space::damping_force<F>>  ("damping_force",     damped);
+  }
+  // clang-format on
+}
+
+template <class F>
+void add_time_step(World& w, SystemList& list) {
+  if constexpr (in_plane<typename F::Dimension>) {
+    list.add<stable_time_step<F::points>>("stable_time_step");
+    list.add<highest_mode<F::points>>("highest_mode", w.has<HighestMode>());
+  } else {
+    list.add<space::stable_time_step<F>>("stable_time_step");
+  }
+}
+
+template <class F>
+void observe_elements(World& w, SystemList& observe) {
+  using D = typename F::Dimension;
+  const bool plastic = w.has<PlasticStrain<F::points>>();
+  const bool stresses = w.has<ParticleStress<D>>();
+  // clang-format off
+  observe.add<kinetic_energy<D>>        ("kinetic_energy");
+  if constexpr (in_plane<D>) {
+    observe.add<elastic_energy<F>>      ("elastic_energy");
+    observe.add<hourglass_energy>       ("hourglass_energy",  F::stabilised);
+    observe.add<particle_stress<F>>     ("particle_stress",   stresses);
+  } else {
+    observe.add<space::elastic_energy<F>>("elastic_energy");
+    observe.add<space::node_spring_energy>("node_spring_energy", w.has<space::Roughness>());
+    observe.add<space::hourglass_energy>("hourglass_energy",  F::stabilised);
+    observe.add<space::particle_stress<F>>("particle_stress", stresses);
+  }
+  observe.add<plastic_work<F>>          ("plastic_work",      plastic);
+  // clang-format on
+}
+
+// ---- on sampled steps, once the forces are known -----------------------------------------------------
+// What each rank knows of its particles...
 template <class F>
 void observe_particles(World& w, SystemList& observe) {
-  const bool plastic = w.has<PlasticStrain<F::points>>();
-  const bool tools = w.has<ContactPair<ToolContact>>();
-  const bool touching = tools || w.has<ContactPair<Contact>>();
-  const bool constraints = w.has<ConstraintReaction>();
+  using D = typename F::Dimension;
+  const Contacts<D> contacts(w);
+  const bool outlines = contacts.any() || w.has<ConstraintReaction>();
+  const bool quality = w.has<ContactQuality>();
 
   // clang-format off
-  observe.add<lost_bodies>              ("lost_bodies",       tools);
-  observe.add<outline_health>           ("outline_health",    touching || constraints);
-  observe.add<kinetic_energy<TwoD>>     ("kinetic_energy");
-  observe.add<elastic_energy<F>>        ("elastic_energy");
-  observe.add<plastic_work<F>>          ("plastic_work",      plastic);
-  observe.add<hourglass_energy>         ("hourglass_energy",  F::stabilised);
-  observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress<TwoD>>());
-  observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
+  observe.add<lost_bodies>              ("lost_bodies",       in_plane<D> && contacts.tools);
+  observe.add<outline_health>           ("outline_health",    in_plane<D> && outlines);
+  observe_elements<F>(w, observe);
+  observe.add<space::node_distance>     ("node_distance",     w.has<space::NodeDistance>());
+  observe.add<contact_quality>          ("contact_quality",   in_plane<D> && quality);
+  observe.add<space::contact_quality>   ("contact_quality",   in_space<D> && quality);
   // clang-format on
 }
-// ...and for the powder as a whole.
+
+// ...and the powder as a whole.
+template <class D>
 void observe_whole(World& w, SystemList& observe) {
+  const bool network = w.has<ContactNetwork<D>>();
+  const bool chains = w.has<ForceChains>();
+  const bool bonds = w.has<Fragments>();
+
   // clang-format off
-  observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork<TwoD>>());
-  observe.add<force_chains>             ("force_chains",      w.has<ForceChains>());
-  observe.add<fragments>                ("fragments",         w.has<Fragments>());
+  observe.add<contact_network>          ("contact_network",   in_plane<D> && network);
+  observe.add<space::contact_network>   ("contact_network",   in_space<D> && network);
+  observe.add<force_chains>             ("force_chains",      in_plane<D> && chains);
+  observe.add<space::force_chains>      ("force_chains",      in_space<D> && chains);
+  observe.add<fragments>                ("fragments",         in_plane<D> && bonds);
+  observe.add<space::fragments>         ("fragments",         in_space<D> && bonds);
   observe.add<local_density>            ("local_density",     w.has<DensityGrid>());
+  observe.add<space::local_density>     ("local_density",     w.has<space::DensityGrid>());
   // clang-format on
 }
+
 template <class F>
 std::vector<System> observed_of(World& w) {
   SystemList observe(w, When::on_sample);
   observe_particles<F>(w, observe);
-  if (!w.has<RankLink>()) observe_whole(w, observe);
+  if (!w.has<RankLink>()) observe_whole<typename F::Dimension>(w, observe);
   return observe.taken();
 }
 
-// ---- the order of a step: start reading here -----------------------------------------------------
-// F: the element formulation of the scene (components/formulation.hpp).
+// ---- the order of a step: start reading here, with step_list_of ------------------------------------
+template <class D>
+void add_contacts(World& w, SystemList& force) {
+  const auto [pairs, tools, ranks] = Contacts<D>(w);
+  const bool touching = pairs || tools;
+
+  // clang-format off
+  force.add<receive_outlines<D>>        ("receive_outlines",  ranks);
+  force.add<skin_check<D>>              ("skin_check",        touching);
+  force.add<find_border<D>>             ("find_border",       ranks);
+  force.add<bin_edges>                  ("bin_edges",         in_plane<D> && pairs);
+  force.add<space::bin_faces>           ("bin_faces",         in_space<D> && pairs);
+  force.add<bin_tool_edges>             ("bin_tool_edges",    in_plane<D> && tools);
+  force.add<space::bin_tool_faces>      ("bin_tool_faces",    in_space<D> && tools);
+  force.add<list_border_rows>           ("list_border_rows",  in_plane<D> && ranks);
+  force.add<list_border_pairs>          ("list_border_pairs", in_space<D> && ranks);
+  force.add<pressed_bonds>              ("pressed_bonds",     w.has<WeldPressure<Contact>>());
+  force.add<edge_contact>               ("edge_contact",      in_plane<D> && pairs);
+  force.add<space::face_contact>        ("face_contact",      in_space<D> && pairs);
+  force.add<bond_forces>                ("bond_forces",       w.has<CurveAnchor>());
+  force.add<send_contacts>              ("send_contacts",     in_plane<D> && ranks);
+  force.add<send_loads>                 ("send_loads",        in_space<D> && ranks);
+  force.add<pressed_tool_bonds>         ("pressed_tool_bonds", w.has<WeldPressure<ToolContact>>());
+  force.add<tool_contact>               ("tool_contact",      in_plane<D> && tools);
+  force.add<space::tool_contact>        ("tool_contact",      in_space<D> && tools);
+  force.add<tool_bond_forces>           ("tool_bond_forces",  w.has<ToolAnchor>());
+  force.add<receive_contacts>           ("receive_contacts",  in_plane<D> && ranks);
+  force.add<receive_loads>              ("receive_loads",     in_space<D> && ranks);
+  force.add<contact_totals>             ("contact_totals",    touching);
+  force.add<bond_totals>                ("bond_totals",       w.has<BondTotals>());
+  force.add<contact_health<D>>          ("contact_health",    touching);
+  force.add<ridge_health>               ("ridge_health",      w.has<SurfaceRange>());
+  force.add<contact_force>              ("contact_force",     in_plane<D> && touching);
+  force.add<space::contact_force>       ("contact_force",     in_space<D> && touching);
+  // clang-format on
+}
+
+// F: the formulation of the scene's elements.
 template <class F>
 StepList step_list_of(World& w) {
-  const bool plastic = w.has<PlasticStrain<F::points>>();
-  const bool pairs = w.has<ContactPair<Contact>>();
-  const bool tools = w.has<ContactPair<ToolContact>>();
-  const bool touching = pairs || tools;
-  const bool bonds = w.has<BondTotals>();
-  const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
+  using D = typename F::Dimension;
+  const Contacts<D> contacts(w);
   const bool constraints = w.has<ConstraintReaction>();
+  const bool moved = contacts.tools || constraints;
   const bool cell = w.has<PeriodicCell>();
-  const bool ranks = w.has<RankLink>();
   SystemList force(w), move(w);
 
   // clang-format off
-  force.add<tool_motion>                ("tool_motion",       tools || constraints);
-  force.add<receive_outlines<TwoD>>    ("receive_outlines",  ranks && pairs);
-  force.add<skin_check<TwoD>>           ("skin_check",        touching);
-  force.add<find_border<TwoD>>         ("find_border",       ranks && pairs);
-  force.add<bin_edges>                  ("bin_edges",         pairs);
-  force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
-  force.add<list_border_rows>           ("list_border_rows",  ranks && pairs);
-  force.add<pressed_bonds>              ("pressed_bonds",     w.has<WeldPressure<Contact>>());
-  force.add<edge_contact>               ("edge_contact",      pairs);
-  force.add<bond_forces>                ("bond_forces",       pair_bonds);
-  force.add<send_contacts>              ("send_contacts",     ranks && pairs);
-  force.add<pressed_tool_bonds>         ("pressed_tool_bonds", w.has<WeldPressure<ToolContact>>());
-  force.add<tool_contact>               ("tool_contact",      tools);
-  force.add<tool_bond_forces>           ("tool_bond_forces",  tool_bonds);
-  force.add<receive_contacts>           ("receive_contacts",  ranks && pairs);
-  force.add<contact_totals>             ("contact_totals",    touching);
-  force.add<bond_totals>                ("bond_totals",       bonds);
-  force.add<contact_health<TwoD>>       ("contact_health",    touching);
-  force.add<ridge_health>               ("ridge_health",      w.has<SurfaceRange>());
-  force.add<contact_force>              ("contact_force",     touching);
+  force.add<tool_motion>                ("tool_motion",       moved);
+  add_contacts<D>(w, force);
   force.add<cell_load>                  ("cell_load",         cell);
   force.add<cell_control>               ("cell_control",      cell);
-  force.add<elastic_stress<F>>          ("elastic_stress",    !plastic);
-  force.add<trial_stress<F>>            ("trial_stress",      plastic);
-  force.add<j2_return_map<F>>           ("j2_return_map",     plastic);
-  force.add<internal_force<F>>          ("internal_force");
-  force.add<damping_force<F>>           ("damping_force",     w.has<DampingForce<TwoD>>());
-  force.add<stable_time_step<F::points>>("stable_time_step");
-  force.add<highest_mode<F::points>>    ("highest_mode",      w.has<HighestMode>());
+  add_element_forces<F>(w, force);
+  add_time_step<F>(w, force);
   force.add<apply_constraints>          ("apply_constraints", constraints);
-  force.add<tool_reaction<TwoD>>        ("tool_reaction",     tools || constraints);
+  force.add<tool_reaction<D>>           ("tool_reaction",     moved);
   force.add<wall_control>               ("wall_control",      w.has<DrivenWalls>());
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
-  force.add<tool_servo<TwoD>>           ("tool_servo",        w.has<ToolServos>());
+  force.add<tool_servo<D>>              ("tool_servo",        w.has<ToolServos>());
 
   move.add<cell_kick>                   ("cell_kick",         cell);
-  move.add<integrate<TwoD>>             ("integrate");
-  move.add<contact_curve>               ("contact_curve",     touching);
-  move.add<send_outlines<TwoD>>        ("send_outlines",     ranks && pairs);
+  move.add<integrate<D>>                ("integrate");
+  move.add<contact_curve>               ("contact_curve",     in_plane<D> && contacts.any());
+  move.add<space::contact_surface>      ("contact_surface",   in_space<D> && contacts.any());
+  move.add<send_outlines<D>>            ("send_outlines",     contacts.ranks);
   move.add<cell_motion>                 ("cell_motion",       cell);
   move.add<element_health>              ("element_health");
   move.add<return_health>               ("return_health",     w.has<ReturnResidual>());
@@ -119,52 +210,66 @@ StepList step_list_of(World& w) {
 }
 
 // What touches at the start is known only after the contact search.
+template <class D>
 void add_first_contacts(World& w, SystemList& start) {
-  const bool pairs = w.has<ContactPair<Contact>>(), tools = w.has<ContactPair<ToolContact>>();
-  const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
-  const bool ranks = w.has<RankLink>();
-  start.add<skin_check<TwoD>>("skin_check", pairs || tools);
-  start.add<find_border<TwoD>>("find_border", pairs && ranks);
-  start.add<bin_edges>("bin_edges", pairs);
-  start.add<bin_tool_edges>("bin_tool_edges", tools);
-  start.add<list_border_rows>("list_border_rows", pairs && ranks);
-  start.add<edge_contact>("edge_contact", pairs);
-  start.add<tool_contact>("tool_contact", tools);
-  start.add<initial_bonds>("initial_bonds", pair_bonds);
-  start.add<initial_tool_bonds>("initial_tool_bonds", tool_bonds);
-  start.add<initial_bond_totals>("initial_bond_totals", (pair_bonds || tool_bonds) && ranks);
-  start.add<first_penetration>("first_penetration", pairs || tools);
+  using SpacePairBonds = space::BondOffset<FaceContact>;
+  using SpaceToolBonds = space::BondOffset<FaceToolContact>;
+  const auto [pairs, tools, ranks] = Contacts<D>(w);
+  const bool bonds = w.has<BondTotals>();
+
+  // clang-format off
+  start.add<skin_check<D>>              ("skin_check",        pairs || tools);
+  start.add<find_border<D>>             ("find_border",       ranks);
+  start.add<bin_edges>                  ("bin_edges",         in_plane<D> && pairs);
+  start.add<space::bin_faces>           ("bin_faces",         in_space<D> && pairs);
+  start.add<bin_tool_edges>             ("bin_tool_edges",    in_plane<D> && tools);
+  start.add<space::bin_tool_faces>      ("bin_tool_faces",    in_space<D> && tools);
+  start.add<list_border_rows>           ("list_border_rows",  in_plane<D> && ranks);
+  start.add<list_border_pairs>          ("list_border_pairs", in_space<D> && ranks);
+  start.add<edge_contact>               ("edge_contact",      in_plane<D> && pairs);
+  start.add<space::face_contact>        ("face_contact",      in_space<D> && pairs);
+  start.add<tool_contact>               ("tool_contact",      in_plane<D> && tools);
+  start.add<space::tool_contact>        ("tool_contact",      in_space<D> && tools);
+  start.add<initial_bonds>              ("initial_bonds",     w.has<CurveAnchor>());
+  start.add<space::initial_bonds>       ("initial_bonds",     w.has<SpacePairBonds>());
+  start.add<initial_tool_bonds>         ("initial_tool_bonds", w.has<ToolAnchor>());
+  start.add<space::initial_tool_bonds>  ("initial_tool_bonds", w.has<SpaceToolBonds>());
+  start.add<initial_bond_totals>        ("initial_bond_totals", bonds && w.has<RankLink>());
+  start.add<first_penetration>          ("first_penetration", pairs || tools);
+  // clang-format on
 }
 
 template <class F>
 std::vector<System> start_list_of(World& w) {
+  using D = typename F::Dimension;
+  const bool touching = Contacts<D>(w).any();
   SystemList start(w);
-  start.add<contact_curve>("contact_curve", w.has<CurvePosition>());
-  add_first_contacts(w, start);
-  start.add<stable_time_step<F::points>>("stable_time_step");
-  start.add<highest_mode<F::points>>("highest_mode", w.has<HighestMode>());
+  start.add<contact_curve>("contact_curve", in_plane<D> && touching);
+  start.add<space::contact_surface>("contact_surface", in_space<D> && touching);
+  add_first_contacts<D>(w, start);
+  add_time_step<F>(w, start);
   start.add<first_time_step>("first_time_step");
   return start.taken();
 }
 
-// In three dimensions.
-StepList step_list_in_space(World& w) {
-  space::Steps steps = space::steps_of(w);
-  return {std::move(steps.forces), std::move(steps.observe), std::move(steps.motion)};
-}
+bool is_in_space(const World& w) { return w.has<space::Shapes>(); }
 
-Formulation formulation(const World& w) { return w.resource<Bodies>().formulation; }
+// visit(F{}) with the formulation of the scene's elements.
+template <class Visit>
+auto with_formulation_of(const World& w, const Visit& visit) {
+  const Formulation formulation = w.resource<Bodies>().formulation;
+  return is_in_space(w) ? space::with_hexahedra(formulation, visit)
+                        : with_formulation(formulation, visit);
+}
 
 }  // namespace
 
 StepList step_list(World& w) {
-  if (w.has<space::Shapes>()) return step_list_in_space(w);
-  return with_formulation(formulation(w), [&]<class F>(F) { return step_list_of<F>(w); });
+  return with_formulation_of(w, [&]<class F>(F) { return step_list_of<F>(w); });
 }
 
 std::vector<System> start_list(World& w) {
-  if (w.has<space::Shapes>()) return space::start_of(w);
-  return with_formulation(formulation(w), [&]<class F>(F) { return start_list_of<F>(w); });
+  return with_formulation_of(w, [&]<class F>(F) { return start_list_of<F>(w); });
 }
 
 namespace {
@@ -227,9 +332,11 @@ std::vector<System> watched(std::vector<System> systems, World& world, StepFailu
 namespace {
 
 std::vector<System> whole_list(World& world) {
-  if (world.has<space::Shapes>()) return space::observers_of_whole(world);
   SystemList observe(world, When::on_sample);
-  observe_whole(world, observe);
+  if (is_in_space(world))
+    observe_whole<ThreeD>(world, observe);
+  else
+    observe_whole<TwoD>(world, observe);
   return observe.taken();
 }
 

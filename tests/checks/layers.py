@@ -40,8 +40,7 @@ ROOMS = {
         "space/contact": "contact laws ranks",
         "space/tools": "space/contact contact tools laws ranks",
         "space/observe": "space/contact space/tools contact observe",
-        "space": "space/body space/contact space/observe space/tools contact tools observe ranks",
-        "": "body cell contact tools observe ranks space",
+        "": "body cell contact tools observe ranks space/body space/contact space/observe space/tools",
     },
     "scenes": {
         "language": "",
