@@ -103,7 +103,7 @@ Rod fly(int n, int rings, int layers) {
   for (int i = 0; i < body.nodes(); ++i)
     for (int l = 0; l < lane_count; ++l) body.template number<Velocity<ThreeD>>(i, 2, l) = -227;
   const auto kinetic = [&] {
-    body.template run<kinetic_energy>();
+    body.template run<kinetic_energy<ThreeD>>();
     return body.template number<KineticEnergy>(0);
   };
   double start = 0;
@@ -113,7 +113,7 @@ Rod fly(int n, int rings, int layers) {
     clock.dt_before = clock.dt;
     clock.dt = 0.9 * body.template number<StableTimeStep>(0);
     if (clock.step == 0) start = kinetic();
-    body.template run<integrate>();
+    body.template run<integrate<ThreeD>>();
     stop_at_wall(body.world);
     ++clock.step;
   }

@@ -16,6 +16,7 @@
 #include "systems/contact/systems.hpp"
 #include "systems/space/contact/systems.hpp"
 #include "systems/space/tools/systems.hpp"
+#include "systems/tools/systems.hpp"
 
 namespace pulvis::space {
 
