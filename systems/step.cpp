@@ -113,14 +113,12 @@ void observe_particles(World& w, SystemList& observe) {
 template <class D>
 void observe_whole(World& w, SystemList& observe) {
   const bool network = w.has<ContactNetwork<D>>();
-  const bool chains = w.has<ForceChains>();
   const bool bonds = w.has<Fragments>();
 
   // clang-format off
   observe.add<contact_network>          ("contact_network",   in_plane<D> && network);
   observe.add<space::contact_network>   ("contact_network",   in_space<D> && network);
-  observe.add<force_chains>             ("force_chains",      in_plane<D> && chains);
-  observe.add<space::force_chains>      ("force_chains",      in_space<D> && chains);
+  observe.add<force_chains<D>>          ("force_chains",      w.has<ForceChains>());
   observe.add<fragments>                ("fragments",         in_plane<D> && bonds);
   observe.add<space::fragments>         ("fragments",         in_space<D> && bonds);
   observe.add<local_density>            ("local_density",     w.has<DensityGrid>());

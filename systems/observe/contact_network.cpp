@@ -6,74 +6,17 @@
 //          mesh nodes. Length: current tributary length of the touching points, mean of both sides
 // Runs     on sampled steps, after the narrow phases
 // Active   when the scene requests contacts
-#include <algorithm>
-#include <cmath>
-
 #include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
 #include "systems/contact/contact_outlines.hpp"
+#include "systems/observe/gathered_contacts.hpp"
 #include "systems/observe/nearest_of_tool.hpp"
 #include "systems/observe/systems.hpp"
 
 namespace pulvis {
 namespace {
 
-// Running sums of a contact.
-struct Gathered {
-  ContactLink<TwoD> link;
-  Image image{};  // of the second particle
-  double weight = 0;
-
-  // `force` on the sampled side, `normal` into it; `side` -1 if that is the link's second particle.
-  void add(const Point& at, const Point& normal, const Point& force, double length, double side) {
-    const double size = length_of(force);
-    const double push = force[0] * normal[0] + force[1] * normal[1];
-    weight += size;
-    link.size += length;
-    for (std::size_t k = 0; k < 2; ++k) {
-      link.point[k] += size * at[k];
-      link.force[k] += side * force[k];
-      link.normal[k] += side * std::abs(push) * normal[k];
-    }
-  }
-  ContactLink<TwoD> finished(double sides) const {
-    ContactLink<TwoD> done = link;
-    const double push = length_of(link.normal);
-    for (std::size_t k = 0; k < 2; ++k) {
-      done.point[k] /= weight;
-      done.normal[k] /= push;
-    }
-    done.size /= sides;
-    return done;
-  }
-};
-
-// The contacts of one particle, found by their other side.
-class Partners {
- public:
-  explicit Partners(int first) : first_(first) {}
-  Gathered& with(int second, const Image& image = {}, const Point& period = {}) {
-    const auto same = [&](const Gathered& g) {
-      return g.link.second == second && g.image == image;
-    };
-    const auto found = std::ranges::find_if(all_, same);
-    if (found != all_.end()) return *found;
-    all_.emplace_back().link.first = first_;
-    all_.back().link.second = second;
-    all_.back().link.period = period;
-    all_.back().image = image;
-    return all_.back();
-  }
-  // Points may touch without a force, where the surfaces just meet: those form no contact.
-  void move_to(std::vector<ContactLink<TwoD>>& links, double sides) const {
-    for (const Gathered& g : all_)
-      if (g.weight > 0) links.push_back(g.finished(sides));
-  }
-
- private:
-  int first_;
-  std::vector<Gathered> all_;
-};
+using Gathered = GatheredContact<TwoD>;
 
 // Adds the points of a row that carry a force; normal_at(point, g) points into the sampled particle. `shift` m, from the
 // position of the sampled particle to where it touches the link's first one.
@@ -85,13 +28,8 @@ void add_points(const Curve& sampled, const Read<PointForce<At>>& force, Row<At>
     if (f[0] == 0 && f[1] == 0) continue;
     const Point at = sampled.value(kernels::edge_u[g]), along = sampled.slope(kernels::edge_u[g]);
     const double length = kernels::edge_w[g] * length_of(along);
-    contact.add({at[0] + shift[0], at[1] + shift[1]}, normal_at(at, g), f, length, side);
+    contact.add({{at[0] + shift[0], at[1] + shift[1]}, normal_at(at, g), f, length}, side);
   }
-}
-
-void sort_by_numbers(std::vector<ContactLink<TwoD>>& links) {
-  std::ranges::sort(links, {},
-                    [](const ContactLink<TwoD>& l) { return std::pair(l.first, l.second); });
 }
 
 std::vector<ContactLink<TwoD>> links_of_pairs(const Bodies& bodies, const ContactIndex& index,
@@ -126,7 +64,7 @@ std::vector<ContactLink<TwoD>> links_of_pairs(const Bodies& bodies, const Contac
         const int number = outlines.number(slot);
         if (number == Bodies::empty_slot) return;
         const auto s = static_cast<std::size_t>(slot);
-        Partners partners(number);
+        ContactsOfParticle<TwoD> partners(number);
         for (int r = index.sampled_begin[s]; r < index.sampled_begin[s + 1]; ++r) {
           const Row<Contact> row(r);
           if (touches(row) == 0) continue;
@@ -160,7 +98,7 @@ void contact_network::operator()() const {
 
   for (const int slot : bodies->slot_of_number) {
     const auto s = static_cast<std::size_t>(slot);
-    Partners partners(outlines.number(slot));
+    ContactsOfParticle<TwoD> partners(outlines.number(slot));
     for (int r = index->tool_begin[s]; r < index->tool_begin[s + 1]; ++r) {
       const Row<ToolContact> row(r);
       if (tools->rows.touches(row) == 0) continue;

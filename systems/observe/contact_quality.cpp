@@ -9,12 +9,12 @@
 // Runs     on sampled steps, after the narrow phases
 // Active   when contact is possible
 #include <algorithm>
-#include <array>
 
 #include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
 #include "systems/contact/contact_outlines.hpp"
 #include "systems/observe/nearest_of_tool.hpp"
+#include "systems/observe/quality_sum.hpp"
 #include "systems/observe/systems.hpp"
 
 namespace pulvis {
@@ -83,22 +83,6 @@ ContactQuality quality_of(const Found& found) {
   return of_one;
 }
 
-// Exact, and hence the same for any number of ranks.
-ContactQuality sum(const std::vector<Found>& particles, const Link& link) {
-  constexpr std::array numbers{&ContactQuality::overlap,      &ContactQuality::penetration_work,
-                               &ContactQuality::force,        &ContactQuality::narrow_force,
-                               &ContactQuality::narrow_width, &ContactQuality::narrow_edges};
-  std::array<ExactSum, numbers.size()> sums;
-  for (const Found& found : particles) {
-    const ContactQuality of_one = quality_of(found);
-    for (std::size_t i = 0; i < numbers.size(); ++i) sums[i].add(of_one.*numbers[i]);
-  }
-  sum_of_ranks(link, sums);
-  ContactQuality all;
-  for (std::size_t i = 0; i < numbers.size(); ++i) all.*numbers[i] = sums[i].value();
-  return all;
-}
-
 }  // namespace
 
 void contact_quality::operator()() const {
@@ -141,15 +125,16 @@ void contact_quality::operator()() const {
     }
   };
 
-  const auto found = list_by_slot<Found>(static_cast<int>(bodies->slots.size()),
-                                         [&](int slot, std::vector<Found>& list) {
-                                           Found mine;
-                                           if (!bodies->owns(slot)) return;
-                                           if (pairs) add_pairs(slot, mine);
-                                           if (tools) add_tools(slot, mine);
-                                           if (!mine.sides.empty()) list.push_back(std::move(mine));
-                                         });
-  *quality = sum(found.all, link);
+  const auto found = list_by_slot<ContactQuality>(static_cast<int>(bodies->slots.size()),
+                                                  [&](int slot, std::vector<ContactQuality>& list) {
+                                                    Found mine;
+                                                    if (!bodies->owns(slot)) return;
+                                                    if (pairs) add_pairs(slot, mine);
+                                                    if (tools) add_tools(slot, mine);
+                                                    if (!mine.sides.empty())
+                                                      list.push_back(quality_of(mine));
+                                                  });
+  *quality = exact_sum(found.all, link);
 }
 
 }  // namespace pulvis

@@ -8,6 +8,7 @@
 //          three particles; branches belong to the chain
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,6 +44,21 @@ inline MajorCompression<2> major_compression(const PlaneStress& s) {
   const double middle = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
   const double angle = 0.5 * portable::atan2(-s.xy, -half);  // of the smallest normal stress
   return {portable::hypot(half, s.xy) - middle, {portable::cos(angle), portable::sin(angle)}};
+}
+
+// Of a mean stress in the plane, xx yy zz xy.
+inline MajorCompression<2> major_compression(const std::array<double, 4>& stress) {
+  return major_compression(PlaneStress{stress[0], stress[1], stress[3]});
+}
+// Of a mean stress of particles, Pa, xx yy zz xy yz zx; tension > 0.
+inline MajorCompression<3> major_compression(const std::array<double, 6>& stress) {
+  Eigen::Matrix3d s;
+  s << stress[0], stress[3], stress[5],  //
+      stress[3], stress[1], stress[4],   //
+      stress[5], stress[4], stress[2];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(s);  // smallest first
+  const Eigen::Vector3d way = principal.eigenvectors().col(0);
+  return {-principal.eigenvalues()[0], {way.x(), way.y(), way.z()}};
 }
 
 inline constexpr int min_of_a_chain = 3;
@@ -89,14 +105,6 @@ std::vector<std::int32_t> chains_of(const std::vector<MajorCompression<N>>& load
     chain[p] = number.emplace(first, static_cast<std::int32_t>(number.size()) + 1).first->second;
   }
   return chain;
-}
-
-inline std::vector<std::int32_t> force_chains(std::span<const PlaneStress> stress,
-                                              std::span<const Point> centre,
-                                              std::span<const TouchingPair<2>> touching) {
-  std::vector<MajorCompression<2>> load;
-  for (const PlaneStress& s : stress) load.push_back(major_compression(s));
-  return chains_of<2>(load, centre, touching);
 }
 
 }  // namespace pulvis::kernels

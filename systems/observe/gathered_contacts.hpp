@@ -15,7 +15,7 @@ namespace pulvis {
 template <class D>
 struct PointOfContact {
   typename D::Point at, normal, force;  // m, -, N
-  double size;                          // m or m^2, current length or area that belongs to the point
+  double size;  // m or m^2, current length or area that belongs to the point
 };
 
 // Sums over a contact while its points are collected.

@@ -30,11 +30,12 @@ struct contact_quality {
   void operator()() const;
 };
 
+template <class D>
 struct force_chains {
   Read<Bodies> bodies;
-  Read<ParticleStress<TwoD>> stress;
-  Read<ParticleCentre<TwoD>> centre;
-  Read<ContactNetwork<TwoD>> network;
+  Read<ParticleStress<D>> stress;
+  Read<ParticleCentre<D>> centre;
+  Read<ContactNetwork<D>> network;
   Write<ForceChains> chains;
   void operator()() const;
 };

@@ -1,5 +1,5 @@
 // Systems of a run on several ranks: borders, and the data sent across them. What a system reads and writes is
-// declared here and nowhere else; systems/step.cpp and systems/space/step.cpp set their order.
+// declared here and nowhere else; systems/step.cpp sets their order.
 #pragma once
 
 #include "components/bond.hpp"

@@ -1,5 +1,5 @@
 // Systems for contact of surfaces in three dimensions. Each declares here what it reads and writes;
-// systems/space/step.cpp defines their order, and the descriptions are at the top of the individual files.
+// systems/step.cpp defines their order, and the descriptions are at the top of the individual files.
 #pragma once
 
 #include "components/body.hpp"

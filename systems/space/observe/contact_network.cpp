@@ -6,11 +6,11 @@
 //          area of the points with a force, mean of both sides
 // Runs     in sampled steps, after the narrow phases
 // Active   if the scene asks for contacts
-#include <algorithm>
 #include <cmath>
 
 #include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
+#include "systems/observe/gathered_contacts.hpp"
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/observe/systems.hpp"
 #include "systems/space/tools/tool_standing.hpp"
@@ -26,70 +26,9 @@ constexpr std::array<double, 4> weight_at{0.173927422568726928687, 0.32607257743
 
 double length_of(const VectorOfPoint& a) { return std::sqrt(dot(a, a)); }
 
-// A Gauss point with a force, `normal` into the sampled side.
-struct TouchingPoint {
-  VectorOfPoint at, normal, force;
-  double area;
-};
+using Gathered = GatheredContact<ThreeD>;
 
-// Sums over a contact while its points are collected.
-struct Gathered {
-  ContactLink<ThreeD> link;
-  double weight = 0;
-
-  // `side` is -1 if the sampled side is the link's second particle.
-  void add(const TouchingPoint& p, double side) {
-    const double size = length_of(p.force), push = dot(p.force, p.normal);
-    weight += size;
-    link.size += p.area;
-    const std::array at{p.at.x, p.at.y, p.at.z}, force{p.force.x, p.force.y, p.force.z},
-        normal{p.normal.x, p.normal.y, p.normal.z};
-    for (std::size_t k = 0; k < 3; ++k) {
-      link.point[k] += size * at[k];
-      link.force[k] += side * force[k];
-      link.normal[k] += side * std::abs(push) * normal[k];
-    }
-  }
-  ContactLink<ThreeD> finished(double sides) const {
-    ContactLink<ThreeD> done = link;
-    const auto [x, y, z] = link.normal;
-    const double push = length_of({x, y, z});
-    for (std::size_t k = 0; k < 3; ++k) {
-      done.point[k] /= weight;
-      done.normal[k] /= push;
-    }
-    done.size /= sides;
-    return done;
-  }
-};
-
-// The contacts of one particle, by their other side.
-class Partners {
- public:
-  explicit Partners(int first) : first_(first) {}
-  Gathered& with(int second) {
-    const auto same = [&](const Gathered& g) { return g.link.second == second; };
-    const auto found = std::ranges::find_if(all_, same);
-    if (found != all_.end()) return *found;
-    all_.emplace_back().link.first = first_;
-    all_.back().link.second = second;
-    return all_.back();
-  }
-  // Points may touch without a force, where the surfaces just meet: those do not count as contact.
-  void move_to(std::vector<ContactLink<ThreeD>>& links, double sides) const {
-    for (const Gathered& g : all_)
-      if (g.weight > 0) links.push_back(g.finished(sides));
-  }
-
- private:
-  int first_;
-  std::vector<Gathered> all_;
-};
-
-void sort_by_numbers(std::vector<ContactLink<ThreeD>>& links) {
-  std::ranges::sort(links, {},
-                    [](const ContactLink<ThreeD>& l) { return std::pair(l.first, l.second); });
-}
+Point point_of(const VectorOfPoint& v) { return {v.x, v.y, v.z}; }
 
 struct Looker {
   const contact_network& s;
@@ -110,9 +49,9 @@ struct Looker {
       const double u = entry(kernels::gauss_at, g % 4), v = entry(kernels::gauss_at, g / 4);
       const auto own = surface(slot, number, u, v);
       const double stretch = length_of(cross(own.u, own.v));
-      contact.add(
-          {own.x, normal_at(g), force, entry(weight_at, g % 4) * entry(weight_at, g / 4) * stretch},
-          side);
+      contact.add({point_of(own.x), point_of(normal_at(g)), point_of(force),
+                   entry(weight_at, g % 4) * entry(weight_at, g / 4) * stretch},
+                  side);
     }
   }
   void add_pair(Row<FaceContact> row, double side, Gathered& contact) const {
@@ -156,7 +95,7 @@ struct Looker {
 
   // Each pair belongs to its particle with the lower number: searches the rows of that particle and those against it.
   void find_pairs(int slot, std::vector<ContactLink<ThreeD>>& found) const {
-    Partners partners(number(slot));
+    ContactsOfParticle<ThreeD> partners(number(slot));
     for (const Row<FaceContact> row : RowRange<FaceContact>::of(s.index->sampled_begin, slot)) {
       const int other = number(s.pairs->pair(row, 2));
       if (s.pairs->touches(row) != 0 && other > number(slot))
@@ -174,7 +113,7 @@ struct Looker {
     partners.move_to(found, 2);
   }
   void find_tools(int slot, std::vector<ContactLink<ThreeD>>& found) const {
-    Partners partners(number(slot));
+    ContactsOfParticle<ThreeD> partners(number(slot));
     for (const Row<FaceToolContact> row : RowRange<FaceToolContact>::of(s.index->tool_begin, slot))
       if (s.tools->rows.touches(row) != 0) add_tool(row, partners.with(s.tools->rows.pair(row, 2)));
     partners.move_to(found, 1);

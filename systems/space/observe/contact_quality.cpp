@@ -12,6 +12,7 @@
 
 #include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
+#include "systems/observe/quality_sum.hpp"
 #include "systems/space/contact/assembly.hpp"
 #include "systems/space/observe/systems.hpp"
 
@@ -65,11 +66,11 @@ struct TouchLooker {
     }
     return found;
   }
-  void find_pairs(int slot, std::vector<TouchedFaces>& found) const {
+  void find_pairs(int slot, std::vector<ContactQuality>& found) const {
     const FacePairs& of = *s.pairs->of;
     const std::int32_t end = entry(s.index->sampled_begin, slot + 1);
     for (int p = of.from_row(entry(s.index->sampled_begin, slot)); entry(of.begin, p) < end; ++p)
-      found.push_back(with_other(p));
+      found.push_back(with_other(p).quality());
   }
 
   void add_tool(Row<FaceToolContact> row, TouchedFaces& found) const {
@@ -80,7 +81,7 @@ struct TouchLooker {
       if (part(0, g) != 0 || part(1, g) != 0 || part(2, g) != 0)
         found.add_point(face, g, part(0, g), part(1, g), part(2, g));
   }
-  void find_tools(int slot, std::vector<TouchedFaces>& found) const {
+  void find_tools(int slot, std::vector<ContactQuality>& found) const {
     std::vector<TouchedFaces> sides;
     for (const Row<FaceToolContact> row :
          RowRange<FaceToolContact>::of(s.index->tool_begin, slot)) {
@@ -90,35 +91,20 @@ struct TouchLooker {
       if (side == sides.end()) side = sides.insert(side, TouchedFaces{.other = tool});
       add_tool(row, *side);
     }
-    found.insert(found.end(), sides.begin(), sides.end());
+    for (const TouchedFaces& side : sides) found.push_back(side.quality());
   }
 };
-
-// Exact, and hence the same for any number of ranks.
-ContactQuality exact_sum(const std::vector<TouchedFaces>& contacts, const Link& link) {
-  constexpr std::array numbers{&ContactQuality::force, &ContactQuality::narrow_force,
-                               &ContactQuality::narrow_width, &ContactQuality::narrow_edges};
-  std::array<ExactSum, numbers.size()> sums;
-  for (const TouchedFaces& contact : contacts) {
-    const ContactQuality of_one = contact.quality();
-    for (std::size_t i = 0; i < numbers.size(); ++i) sums[i].add(of_one.*numbers[i]);
-  }
-  sum_of_ranks(link, sums);
-  ContactQuality all;
-  for (std::size_t i = 0; i < numbers.size(); ++i) all.*numbers[i] = sums[i].value();
-  return all;
-}
 
 }  // namespace
 
 void contact_quality::operator()() const {
   const TouchLooker looker{*this};
-  const auto found = list_by_slot<TouchedFaces>(bodies.slots(),
-                                                [&](int slot, std::vector<TouchedFaces>& contacts) {
-                                                  if (!bodies.bodies->owns(slot)) return;
-                                                  if (pairs) looker.find_pairs(slot, contacts);
-                                                  if (tools) looker.find_tools(slot, contacts);
-                                                });
+  const auto found = list_by_slot<ContactQuality>(
+      bodies.slots(), [&](int slot, std::vector<ContactQuality>& contacts) {
+        if (!bodies.bodies->owns(slot)) return;
+        if (pairs) looker.find_pairs(slot, contacts);
+        if (tools) looker.find_tools(slot, contacts);
+      });
   *quality = exact_sum(found.all, link);
 }
 

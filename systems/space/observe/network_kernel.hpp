@@ -1,17 +1,14 @@
-// Properties of a contact network in three dimensions as a whole, and the direction in which it carries the load.
+// Properties of a contact network in three dimensions as a whole.
 //
 // Source   fabric tensor: Satake, "Fabric tensor in granular materials" (1982); Oda, Soils & Foundations 22(4), 96 (1982)
 // Law      F_ij = mean over the contacts of n_i n_j: trace 1; anisotropy = sqrt(3/2 F' : F') with F' its deviator, 0 if
 //          isotropic, 1 if all contacts are parallel
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <array>
 #include <cmath>
 #include <span>
 
 #include "components/observed.hpp"
-#include "systems/observe/force_chain_kernel.hpp"
 
 namespace pulvis::space::kernels {
 
@@ -36,17 +33,6 @@ inline Fabric fabric(std::span<const ContactLink<ThreeD>> links) {
     f.zx += share * z * x;
   }
   return f;
-}
-
-// `stress`: Pa, xx yy zz xy yz zx; tension > 0.
-inline pulvis::kernels::MajorCompression<3> major_compression(const std::array<double, 6>& stress) {
-  Eigen::Matrix3d s;
-  s << stress[0], stress[3], stress[5],  //
-      stress[3], stress[1], stress[4],   //
-      stress[5], stress[4], stress[2];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(s);  // smallest first
-  const Eigen::Vector3d way = principal.eigenvectors().col(0);
-  return {-principal.eigenvalues()[0], {way.x(), way.y(), way.z()}};
 }
 
 }  // namespace pulvis::space::kernels

@@ -1,5 +1,5 @@
 // Systems that observe a powder in three dimensions as a whole, in sampled steps. Each declares here what it reads and
-// writes; systems/space/step.cpp defines their order, and the descriptions are at the top of the individual files.
+// writes; systems/step.cpp defines their order, and the descriptions are at the top of the individual files.
 #pragma once
 
 #include "components/observed.hpp"
@@ -38,15 +38,6 @@ struct contact_quality {
   Optional<TouchingRows<FaceToolContact>> tools;
   Write<ContactQuality> quality;
   Link link;
-  void operator()() const;
-};
-
-struct force_chains {
-  Read<Bodies> bodies;
-  Read<ParticleStress<ThreeD>> stress;
-  Read<ParticleCentre<ThreeD>> centre;
-  Read<ContactNetwork<ThreeD>> network;
-  Write<ForceChains> chains;
   void operator()() const;
 };
 

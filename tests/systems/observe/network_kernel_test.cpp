@@ -90,7 +90,11 @@ struct Columns {
       if (y < 3) touching.push_back({p, p + 3});
     }
   }
-  std::vector<std::int32_t> chains() const { return force_chains(stress, centre, touching); }
+  std::vector<std::int32_t> chains() const {
+    std::vector<MajorCompression<2>> load;
+    for (const PlaneStress& s : stress) load.push_back(major_compression(s));
+    return chains_of<2>(load, centre, touching);
+  }
 };
 
 TEST(ForceChains, FollowTheLoadedColumn) {
