@@ -22,7 +22,7 @@
 namespace pulvis {
 namespace {
 
-using Shape = TipSpec::Shape;
+using TipShape = TipSpec::Shape;
 
 class AfmChecks {
  public:
@@ -108,7 +108,7 @@ class AfmChecks {
     if (along && across) no_say("aspect", "elements_along and elements_across set the mesh");
     if (across) no_say("side_aspect", "elements_across sets the mesh");
     if (along || across) no_say("foot_layers", "a uniform mesh has none");
-    if (tip_.shape == Shape::none) {
+    if (tip_.shape == TipShape::none) {
       no_say("foot_edge", "there is no tip");
       no_say("foot_layers", "there is no tip");
     }
@@ -130,13 +130,13 @@ class AfmChecks {
   }
 
   void tip() {
-    if (tip_.shape == Shape::sphere && tip_.neck_radius >= tip_.radius) {
+    if (tip_.shape == TipShape::sphere && tip_.neck_radius >= tip_.radius) {
       refuse("tip.neck_radius", fmt::format("{:g} m: the neck is not thinner than the ball, "
                                             "allowed: < {:g} m",
                                             tip_.neck_radius, tip_.radius));
       return;
     }
-    if (tip_.shape == Shape::mesh && tip_.file.empty() &&
+    if (tip_.shape == TipShape::mesh && tip_.file.empty() &&
         !(lever_.solid && !lever_.solid->end.empty())) {
       refuse("tip.file",
              "required key is missing, allowed: a file, or a lever of shape mesh whose file has "
@@ -145,11 +145,11 @@ class AfmChecks {
     }
     if (!contact_mesh()) return;
     const double reach = foot_reach(tip_);
-    const std::string size = tip_.shape == Shape::sphere ? "tip.neck_radius" : "tip.foot";
+    const std::string size = tip_.shape == TipShape::sphere ? "tip.neck_radius" : "tip.foot";
     if (reach >= half_width_at(lever_.length - tip_.set_back) && reach > 0)
       refuse(size, fmt::format("{:g} m: its foot is wider than the lever there, allowed: < {:g} m",
-                               tip_.shape == Shape::sphere ? reach : 2 * reach,
-                               (tip_.shape == Shape::sphere ? 1 : 2) *
+                               tip_.shape == TipShape::sphere ? reach : 2 * reach,
+                               (tip_.shape == TipShape::sphere ? 1 : 2) *
                                    half_width_at(lever_.length - tip_.set_back)));
     else if (!foot_on_lever(reach))
       refuse(std::abs(tip_.offset) > 0 ? "tip.offset" : "tip.set_back",
@@ -185,7 +185,7 @@ class AfmChecks {
         const Vec2 off = tip_.solid->solid.nodes[static_cast<std::size_t>(n)].head<2>();
         return locate(plan, axis + off).has_value();
       });
-    const bool square = tip_.shape == Shape::block || tip_.shape == Shape::pyramid;
+    const bool square = tip_.shape == TipShape::block || tip_.shape == TipShape::pyramid;
     for (int i = 0; i < 32; ++i) {
       const double angle = 2 * std::numbers::pi * (i + 0.5) / 32;
       Vec2 off(portable::cos(angle), portable::sin(angle));
@@ -258,7 +258,7 @@ class AfmChecks {
     const std::string limit =
         fmt::format("{:g} elements and {:.3g} numbers in the factors of their stiffness",
                     max_solid_elements, max_solid_factors);
-    if (tip_size(afm).factors >= lever_size(afm).factors && tip_.shape != Shape::mesh)
+    if (tip_size(afm).factors >= lever_size(afm).factors && tip_.shape != TipShape::mesh)
       refuse("tip.elements", fmt::format("{}: {}, allowed: at most {}, which keeps within {}",
                                          tip_.elements, what, max_tip_elements(), limit));
     else
@@ -295,7 +295,7 @@ class AfmChecks {
     only_with("surface.adhesion_range", "dmt", origins_.contains("surface.adhesion_range"));
     if (target.work == 0)
       refuse("surface.work_of_adhesion", "required key is missing, allowed: a quantity in J/m^2");
-    if (tip_.shape != Shape::sphere)
+    if (tip_.shape != TipShape::sphere)
       refuse("surface.adhesion",
              "jkr is the law of an elastic ball, allowed: a tip of shape sphere");
     if (target.shape != TargetSpec::Shape::plane)

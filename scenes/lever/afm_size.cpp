@@ -18,7 +18,7 @@
 namespace pulvis {
 namespace {
 
-using Shape = TipSpec::Shape;
+using TipShape = TipSpec::Shape;
 
 constexpr double program_bytes = 64e6;
 constexpr double factor_bytes = 12;  // a double and its row
@@ -84,7 +84,7 @@ double stacked(const TipSpec& tip, const FootPlan& foot) {
 // Entries of the solid's responses to forces at every contact point: three fields each.
 double answers_of(const AfmScene& afm, const SolidSize& solid) {
   if (afm.actions.empty()) return 0;
-  const double edges = afm.tip.shape == Shape::sphere ? contact_edges(afm.tip) : 1;
+  const double edges = afm.tip.shape == TipShape::sphere ? contact_edges(afm.tip) : 1;
   return 9 * solid.nodes * std::numbers::pi * edges * edges;
 }
 
@@ -113,20 +113,20 @@ SolidSize tip_size(const AfmScene& afm) {
   const TipSpec& tip = afm.tip;
   const double n = tip.elements;
   switch (tip.shape) {
-    case Shape::none:
+    case TipShape::none:
       return {};
-    case Shape::block:
-    case Shape::pyramid: {
+    case TipShape::block:
+    case TipShape::pyramid: {
       const FootPlan foot = *foot_plan(afm.lever, tip);
       const double across = foot.across();
       return grid_size(across, across, stacked(tip, foot));
     }
-    case Shape::cone:  // a disc is a square core in a ring with half as many layers: 3 n^2 quads
+    case TipShape::cone:  // a disc is a square core in a ring with half as many layers: 3 n^2 quads
       return grid_size(std::sqrt(3.0) * n, std::sqrt(3.0) * n,
                        stacked(tip, *foot_plan(afm.lever, tip)));
-    case Shape::sphere:
+    case TipShape::sphere:
       return ball_size(tip);
-    case Shape::mesh:
+    case TipShape::mesh:
       return tip.solid ? as_cube(static_cast<double>(tip.solid->solid.hexahedra.size() +
                                                      tip.solid->solid.tetrahedra.size()))
                        : SolidSize{};
