@@ -232,7 +232,7 @@ void state(Input input) {
   };
   attempt(ToolProgram());
   attempt(ContactIndex());
-  attempt(ContactNetwork());
+  attempt(ContactNetwork<TwoD>());
   attempt(BondTotals());
   attempt(Fragments());
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -11,8 +10,6 @@
 
 namespace pulvis {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 double void_ratio(double density) { return (1 - density) / density; }
 
@@ -55,7 +52,7 @@ std::string abaqus_block(const std::string& name, const std::vector<CapRow>& row
       "*CAP PLASTICITY, DEPENDENCIES=1\n";
   for (const CapRow& row : rows)
     text += fmt::format("{:.6e}, {:.6f}, {:.6f}, 0., {:g}, 1., , {:.6f}\n", row.d,
-                        row.beta * degrees, row.r, cap_transition, row.density);
+                        row.beta * degrees_in_radian, row.r, cap_transition, row.density);
   text +=
       "** hydrostatic yield pressure p_b, volumetric plastic strain since the first row\n"
       "*CAP HARDENING\n";
@@ -113,7 +110,7 @@ std::vector<CapRow> read_abaqus_block(const std::string& text) {
       row.youngs_modulus = values.at(0), row.poissons_ratio = values.at(1);
       row.density = values.at(3);
     } else if (keyword == "*CAP PLASTICITY") {
-      row.d = values.at(0), row.beta = values.at(1) / degrees, row.r = values.at(2);
+      row.d = values.at(0), row.beta = values.at(1) / degrees_in_radian, row.r = values.at(2);
     } else if (keyword == "*CAP HARDENING") {
       row.p_b = values.at(0);
     } else {

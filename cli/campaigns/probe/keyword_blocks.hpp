@@ -1,6 +1,7 @@
 // Fitted caps as input blocks for continuum codes. Units: Pa; densities are relative.
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "cli/campaigns/probe/cap_models.hpp"
 
 namespace pulvis {
+
+inline constexpr double degrees_in_radian = 180 / std::numbers::pi;
 
 // One density of a material: means over its seeds.
 struct CapRow {

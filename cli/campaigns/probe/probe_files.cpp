@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "cli/campaigns/probe/keyword_blocks.hpp"
 #include "cli/csv_cell.hpp"
@@ -17,8 +16,6 @@ namespace pulvis {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 struct Criterion {
   const char* name;
@@ -88,9 +85,9 @@ std::string points_csv(const std::vector<ProbeSurface>& surfaces) {
             "{},{},{:.6f},{},{:.1f},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},"
             "{:.5f},{:.5f},{}\n",
             csv_word(surface.state->path), surface.state->seed, surface.state->density,
-            criterion.name, point.angle * degrees, s[0], s[1], s[2], s[3], point.pressure(),
-            point.deviatoric(), point.plastic[0], point.plastic[1],
-            point.normality ? fmt::format("{:.2f}", *point.normality * degrees) : "");
+            criterion.name, point.angle * degrees_in_radian, s[0], s[1], s[2], s[3],
+            point.pressure(), point.deviatoric(), point.plastic[0], point.plastic[1],
+            point.normality ? fmt::format("{:.2f}", *point.normality * degrees_in_radian) : "");
       }
   return text;
 }
@@ -289,7 +286,7 @@ std::string caps_text(const Probe& probe, const std::vector<ProbeSurface>& surfa
     text += fmt::format(
         "{:<16}{:>8.4f}{:>9.3g}{:>9.3f}{:>7}{:>10.3g}{:>9.1f}{:>7.3f}{:>10.4g}{:>8.3f}{:>10.4g}\n",
         group.path, row.density, row.youngs_modulus * 1e-9, row.poissons_ratio, points,
-        row.d * 1e-6, row.beta * degrees, row.r, row.p_b * 1e-6, row.m, row.p_c * 1e-6);
+        row.d * 1e-6, row.beta * degrees_in_radian, row.r, row.p_b * 1e-6, row.m, row.p_c * 1e-6);
     for (const std::string& open : {row.open_cap, row.open_clay})
       if (!open.empty())
         warnings += fmt::format(

@@ -13,12 +13,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_points = 500;  // per curve
+constexpr std::size_t most_curve_points = 500;  // per curve
 constexpr std::size_t most_curves = 6;
 
 Json thin(const std::vector<double>& values) {
   Json json = Json::array();
-  const std::size_t stride = 1 + values.size() / most_points;
+  const std::size_t stride = 1 + values.size() / most_curve_points;
   for (std::size_t i = 0; i < values.size(); i += stride) json.push_back(values[i]);
   return json;
 }
