@@ -20,12 +20,12 @@ TEST(OnePoint, AllocatesNoColumnsOfOtherFormulations) {
   Experiment plain("compaction/unit-cell.toml", {"element.formulation=four-point"});
   Experiment one("compaction/unit-cell.toml", {one_point});
   World& w = one.simulation.world();
-  EXPECT_FALSE(w.has<DeviatoricStress<TwoD, 4>>());
-  EXPECT_FALSE(w.has<PlasticMetric<TwoD, 4>>());
+  EXPECT_FALSE((w.has<DeviatoricStress<TwoD, 4>>()));
+  EXPECT_FALSE((w.has<PlasticMetric<TwoD, 4>>()));
   EXPECT_FALSE(w.has<PlasticStrain<4>>());
   EXPECT_FALSE(plain.simulation.world().has<HourglassStress>());
   EXPECT_FALSE(plain.simulation.world().has<PlasticHourglass<TwoD>>());
-  EXPECT_FALSE(plain.simulation.world().has<DeviatoricStress<TwoD, 1>>());
+  EXPECT_FALSE((plain.simulation.world().has<DeviatoricStress<TwoD, 1>>()));
 }
 
 TEST(OnePoint, ForcesOfATurnedBodyAreTheTurnedForces) {
