@@ -91,7 +91,7 @@ TEST_F(StateHashOf, SeesEveryBitOfWhatTheNextStepStartsFrom) {
     const int slot = world().resource<Bodies>().slot_of_number[static_cast<std::size_t>(number)];
     EXPECT_EQ(sees_ends<Position<TwoD>>(slot), both);
     EXPECT_EQ(sees_ends<Velocity<TwoD>>(slot), both);
-    EXPECT_EQ(sees_ends<PlasticMetric<TwoD, 1>>(slot), both);
+    EXPECT_EQ((sees_ends<PlasticMetric<TwoD, 1>>(slot)), both);
     EXPECT_EQ(sees_ends<PlasticStrain<1>>(slot), both);
     EXPECT_EQ(sees_ends<PlasticHourglass<TwoD>>(slot), both);
   }
@@ -104,7 +104,7 @@ TEST_F(StateHashOf, SeesEveryBitOfWhatTheNextStepStartsFrom) {
 TEST_F(StateHashOf, DoesNotSeeWhatIsMadeAnewNorEmptyLanes) {
   const Bodies& bodies = world().resource<Bodies>();
   EXPECT_EQ(sees_ends<InternalForce<TwoD>>(bodies.slot_of_number[0]), neither);
-  EXPECT_EQ(sees_ends<DeviatoricStress<TwoD, 1>>(bodies.slot_of_number[0]), neither);
+  EXPECT_EQ((sees_ends<DeviatoricStress<TwoD, 1>>(bodies.slot_of_number[0])), neither);
   EXPECT_FALSE(sees(slip<Contact>(false)));
   const int last = static_cast<int>(bodies.slots.size()) - 1;
   ASSERT_EQ(bodies.slots.back().number, Bodies::empty_slot);
