@@ -13,8 +13,8 @@
 #include "components/contact.hpp"
 #include "components/space/bond.hpp"
 #include "engine/access.hpp"
+#include "scenes/results/parts/visit_particles.hpp"
 #include "scenes/space/results/tool_sheets.hpp"
-#include "scenes/space/results/visit_particles.hpp"
 #include "scenes/space/tools/drives.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
@@ -53,7 +53,7 @@ json particle_surface(const World& world, std::size_t first, int lane, const spa
 json particles_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
                         const World& world) {
   json out = json::array();
-  space::visit_particles<Node>(world, [&](std::size_t first, int lane, const space::Shape& shape) {
+  visit_particles<ThreeD>(world, [&](std::size_t first, int lane, const space::Shape& shape) {
     const space::BodySpec& body = bodies.at(out.size());
     const space::ParticleSpec& spec = class_of_body(*scene.space, body);
     json one = particle_surface(world, first, lane, shape);

@@ -1,12 +1,14 @@
 #include "scenes/results/bond_results.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
 
 #include "components/bond.hpp"
 #include "components/space/shape.hpp"
+#include "scenes/results/observables/result_rows.hpp"
 #include "scenes/space/results/bonded_faces.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "systems/contact/contact_outlines.hpp"
@@ -127,15 +129,24 @@ struct BondLines {
   }
 };
 
+BondLines bond_lines(const World& world) {
+  BondLines bonds;
+  if (world.has<CurveAnchor>()) bonds.add<Contact>(world);
+  if (world.has<ToolAnchor>()) bonds.add<ToolContact>(world);
+  return bonds;
+}
+
 // At their current positions.
 Lines crack_lines(const World& world) {
   Lines lines;
+  if (!world.has<CurvePosition>()) return lines;
   const Outlines outlines = outlines_of(world);
   for (const Crack& crack : world.resource<BondTotals>().cracks)
     lines.add(outlines.edge(crack.slot, crack.edge), crack.point, crack.point);
   return lines;
 }
 
+constexpr const char* mean_damage = "mean of its bonded points, 0 ... 1";
 constexpr const char* other_meaning =
     "number of the other particle; for a tool: -1 - its position in the scene";
 const char* damage_meaning(const Scene& scene) {
@@ -144,151 +155,211 @@ const char* damage_meaning(const Scene& scene) {
 }
 
 // Where the bonds and cracks are: lines in two dimensions; in three one entry per bonded face, and points of the cracks.
-std::vector<FieldInfo> place_fields(const Scene& scene) {
+void add_places_in_space(FrameFields& all) {
+  using space::BondedFaces;
   constexpr auto list = FieldPlace::list;
-  const FieldInfo damage{"bonds/damage", "-", "mean of its bonded points, 0 ... 1", list, 1};
-  if (scene.space)
-    return {
-        {"bonds/ids", "-", std::string("number of the particle whose face it is; ") + other_meaning,
+  all.add(
+      [](const Observation& now) { return space::bonded_faces(now.world); },
+      {{{"bonds/ids", "-", std::string("number of the particle whose face it is; ") + other_meaning,
          list, 2, true},
-        {"bonds/area", "m^2", "as in bonds/area: half of it where the other side is listed as well",
+        &BondedFaces::ids},
+       {{"bonds/area", "m^2", "as in bonds/area: half of it where the other side is listed as well",
          list, 1},
-        damage,
-        {"bonds/position", "m", "mean of its bonded points", list, 3},
-        {"cracks/position", "m", "of every row of /cracks so far: where its point is now", list,
-         3}};
-  return {{"bonds/ids", "-",
-           std::string("number of the particle whose edge it is; ") + other_meaning, list, 2, true},
-          {"bonds/length", "m",
-           "as in bonds/area: half of it where the other side has a line as well", list, 1},
-          damage,
-          {"bonds/start", "m", "of a line along the bonded part of an edge", list, 2},
-          {"bonds/end", "m", "of a line along the bonded part of an edge", list, 2},
-          {"cracks/start", "m",
-           "of every row of /cracks so far: its part of the edge, where it is now", list, 2},
-          {"cracks/end", "m",
-           "of every row of /cracks so far: its part of the edge, where it is now", list, 2}};
+        &BondedFaces::area},
+       {{"bonds/damage", "-", mean_damage, list, 1}, &BondedFaces::damage},
+       {{"bonds/position", "m", "mean of its bonded points", list, 3}, &BondedFaces::position}});
+  all.add(
+      {{{"cracks/position", "m", "of every row of /cracks so far: where its point is now", list, 3},
+        [](const Observation& now) { return space::crack_positions(now.world); }}});
 }
 
-void append_places(const World& world, std::vector<std::vector<double>>& fields) {
-  if (in_space(world)) return space::append_bonded_faces(world, fields);
-  BondLines bonds;
-  if (world.has<CurveAnchor>()) bonds.add<Contact>(world);
-  if (world.has<ToolAnchor>()) bonds.add<ToolContact>(world);
-  Lines cracks;
-  if (world.has<CurvePosition>()) cracks = crack_lines(world);
-  for (std::vector<double>* list : {&bonds.ids, &bonds.length, &bonds.damage, &bonds.lines.start,
-                                    &bonds.lines.end, &cracks.start, &cracks.end})
-    fields.push_back(std::move(*list));
+void add_places_in_the_plane(FrameFields& all) {
+  constexpr auto list = FieldPlace::list;
+  const char* along_edge = "of a line along the bonded part of an edge";
+  const char* of_crack = "of every row of /cracks so far: its part of the edge, where it is now";
+  all.add(
+      [](const Observation& now) { return bond_lines(now.world); },
+      {{{"bonds/ids", "-", std::string("number of the particle whose edge it is; ") + other_meaning,
+         list, 2, true},
+        &BondLines::ids},
+       {{"bonds/length", "m",
+         "as in bonds/area: half of it where the other side has a line as well", list, 1},
+        &BondLines::length},
+       {{"bonds/damage", "-", mean_damage, list, 1}, &BondLines::damage},
+       {{"bonds/start", "m", along_edge, list, 2},
+        [](BondLines&& bonds) { return std::move(bonds.lines.start); }},
+       {{"bonds/end", "m", along_edge, list, 2},
+        [](BondLines&& bonds) { return std::move(bonds.lines.end); }}});
+  all.add([](const Observation& now) { return crack_lines(now.world); },
+          {{{"cracks/start", "m", of_crack, list, 2}, &Lines::start},
+           {{"cracks/end", "m", of_crack, list, 2}, &Lines::end}});
+}
+
+struct BondFigures {
+  double area = 0, crack_size = 0;  // m^2; m, in three dimensions m^2
+  double damage = 0, fragments = 0, largest_share = 0;
+};
+
+BondFigures bond_figures(const Observation& now) {
+  const BondTotals& bonds = now.world.resource<BondTotals>();
+  const std::vector<FragmentSize> fragments = fragments_of(now.world);
+  return {bonds.area, bonds.crack_size, total_damage(now.world.resource<Fragments>()),
+          static_cast<double>(fragments.size()), largest_share(fragments)};
+}
+
+// One entry of each list per fragment.
+struct FragmentLists {
+  std::vector<double> number, particles, size;
+};
+
+FragmentLists fragment_lists(const Observation& now) {
+  FragmentLists lists;
+  for (const FragmentSize& fragment : fragments_of(now.world)) {
+    lists.number.push_back(fragment.number);
+    lists.particles.push_back(fragment.particles);
+    lists.size.push_back(fragment.size);
+  }
+  return lists;
+}
+
+std::vector<double> fragment_of_particles(const Observation& now) {
+  const std::vector<std::int32_t>& of = now.world.resource<Fragments>().of_particle;
+  return {of.begin(), of.end()};
+}
+
+std::vector<double> damage_of_particles(const Observation& now) {
+  const Fragments& found = now.world.resource<Fragments>();
+  std::vector<double> of_particle;
+  for (std::size_t p = 0; p < found.bonded.size(); ++p)
+    of_particle.push_back(damage(found.bonded[p], found.broken[p]));
+  return of_particle;
 }
 
 }  // namespace
 
 // ---- series -------------------------------------------------------------------------------------------
-std::vector<SeriesInfo> bond_series(const Scene& scene) {
-  if (!has_bonds(scene)) return {};
-  std::vector<SeriesInfo> all{{"bonds/area", "m^2", "of the bonded surfaces"}};
-  all.push_back(scene.space ? SeriesInfo{"bonds/crack_area", "m^2", "of all cracks so far"}
-                            : SeriesInfo{"bonds/crack_length", "m", "of all cracks so far"});
-  all.insert(all.end(),
-             {{"bonds/damage", "-", damage_meaning(scene)},
-              {"bonds/fragments", "-", "pieces held together by bonds, including loose particles"},
-              {"bonds/largest_fragment", "-",
-               scene.space ? "volume of the largest fragment / volume of the particles"
-                           : "area of the largest fragment / area of the particles"}});
-  return all;
-}
-
-void append_bond_sample(const World& world, std::vector<double>& row) {
-  if (!world.has<BondTotals>()) return;
-  const BondTotals& bonds = world.resource<BondTotals>();
-  const std::vector<FragmentSize> fragments = fragments_of(world);
-  row.insert(row.end(), {bonds.area, bonds.crack_size, total_damage(world.resource<Fragments>()),
-                         static_cast<double>(fragments.size()), largest_share(fragments)});
+void add_bond_series(const Scene& scene, Observables& all) {
+  if (!has_bonds(scene)) return;
+  const bool space = scene.space != nullptr;
+  all.add(bond_figures,
+          {{"bonds/area", "m^2", "of the bonded surfaces", &BondFigures::area},
+           {space ? "bonds/crack_area" : "bonds/crack_length", space ? "m^2" : "m",
+            "of all cracks so far", &BondFigures::crack_size},
+           {"bonds/damage", "-", damage_meaning(scene), &BondFigures::damage},
+           {"bonds/fragments", "-", "pieces held together by bonds, including loose particles",
+            &BondFigures::fragments},
+           {"bonds/largest_fragment", "-",
+            space ? "volume of the largest fragment / volume of the particles"
+                  : "area of the largest fragment / area of the particles",
+            &BondFigures::largest_share}});
 }
 
 // ---- frames -------------------------------------------------------------------------------------------
-std::vector<FieldInfo> bond_fields(const Scene& scene) {
-  if (!has_bonds(scene)) return {};
-  constexpr auto list = FieldPlace::list;
-  std::vector<FieldInfo> all = place_fields(scene);
-  all.insert(all.end(),
-             {{"fragments/number", "-", "lowest particle number of each fragment", list, 1, true},
-              {"fragments/particles", "-", "number of its particles", list, 1, true}});
-  const char* of_particles = "of its particles, undeformed";
-  all.push_back(scene.space ? FieldInfo{"fragments/volume", "m^3", of_particles, list, 1}
-                            : FieldInfo{"fragments/area", "m^2", of_particles, list, 1});
-  all.insert(all.end(), {{"fragment", "-", "lowest particle number of its fragment",
-                          FieldPlace::particle, 1, true},
-                         {"damage", "-", damage_meaning(scene), FieldPlace::particle, 1}});
-  if (!scene.space)  // no grains there
-    all.push_back({"parent", "-",
-                   "lowest number of the grains of its particle; its own number if it has none",
-                   FieldPlace::particle, 1, true});
-  return all;
-}
-
-void append_bond_frame(const World& world, std::vector<std::vector<double>>& fields) {
-  if (!world.has<BondTotals>()) return;
-  append_places(world, fields);
-  const Fragments& found = world.resource<Fragments>();
-  std::vector<double> number, particles, size;
-  for (const FragmentSize& fragment : fragments_of(world)) {
-    number.push_back(fragment.number);
-    particles.push_back(fragment.particles);
-    size.push_back(fragment.size);
-  }
-  fields.insert(fields.end(), {number, particles, size});
-  fields.emplace_back(found.of_particle.begin(), found.of_particle.end());
-  std::vector<double>& of_particle = fields.emplace_back();
-  for (std::size_t p = 0; p < found.bonded.size(); ++p)
-    of_particle.push_back(damage(found.bonded[p], found.broken[p]));
-  if (in_space(world)) return;
-  fields.push_back(parents_of(world.resource<Bodies>()));
+void add_bond_fields(const Scene& scene, FrameFields& all) {
+  if (!has_bonds(scene)) return;
+  const bool space = scene.space != nullptr;
+  constexpr auto list = FieldPlace::list, particle = FieldPlace::particle;
+  if (space)
+    add_places_in_space(all);
+  else
+    add_places_in_the_plane(all);
+  all.add(fragment_lists,
+          {{{"fragments/number", "-", "lowest particle number of each fragment", list, 1, true},
+            &FragmentLists::number},
+           {{"fragments/particles", "-", "number of its particles", list, 1, true},
+            &FragmentLists::particles},
+           {{space ? "fragments/volume" : "fragments/area", space ? "m^3" : "m^2",
+             "of its particles, undeformed", list, 1},
+            &FragmentLists::size}});
+  all.add({{{"fragment", "-", "lowest particle number of its fragment", particle, 1, true},
+            fragment_of_particles},
+           {{"damage", "-", damage_meaning(scene), particle, 1}, damage_of_particles},
+           {{"parent", "-",
+             "lowest number of the grains of its particle; its own number if it has none", particle,
+             1, true},
+            [](const Observation& now) { return parents_of(now.world.resource<Bodies>()); },
+            !space}});  // no grains there
 }
 
 // ---- cracks -------------------------------------------------------------------------------------------
+namespace {
+
+// A column of /cracks: its description, and its value for a crack.
+struct CrackColumn {
+  SeriesInfo info;
+  std::function<double(const Bodies&, const Crack&)> read;
+  bool exists = true;
+};
+
+double number_in_slot(const Bodies& bodies, int slot) {
+  return slot < 0 ? slot : entry(bodies.slots, slot).number;
+}
+
+bool is_inside_a_particle(const Bodies& bodies, const Crack& crack) {
+  return crack.other >= 0 &&
+         entry(bodies.slots, crack.slot).parent == entry(bodies.slots, crack.other).parent;
+}
+
+// `resumes`: the run starts from a saved state.
+std::vector<CrackColumn> crack_columns(bool space, bool resumes) {
+  const auto value = [](double Crack::*member) {
+    return [member](const Bodies&, const Crack& crack) { return crack.*member; };
+  };
+  const char* place = "where it was then";
+  std::vector<CrackColumn> all{
+      {{"time", "s",
+        resumes ? "when the point broke; <= 0: before the initial state was saved"
+                : "when the point broke"},
+       value(&Crack::time)},
+      {{"x", "m", place}, value(&Crack::x)},
+      {{"y", "m", place}, value(&Crack::y)},
+      {{"z", "m", place}, value(&Crack::z), space},
+      {{"particle", "-",
+        space ? "number of the particle whose face it is on"
+              : "number of the particle whose edge it is on",
+        true},
+       [](const Bodies& bodies, const Crack& crack) { return number_in_slot(bodies, crack.slot); }},
+      {{"other", "-", other_meaning, true},
+       [](const Bodies& bodies, const Crack& crack) {
+         return number_in_slot(bodies, crack.other);
+       }},
+      {{"bond", "-", "position of its [[bond]] in the scene", true},
+       [](const Bodies&, const Crack& crack) { return crack.law - 1.0; }},
+      {{space ? "area" : "length", space ? "m^2" : "m",
+        "half of it where the points of the other side break as well"},
+       value(&Crack::size)},
+      {{"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"}, value(&Crack::shear)},
+      {{"energy", "J", "fracture energy of the bond law in the mode at breakage, times the area"},
+       value(&Crack::energy)},
+      {{"inside", "-", "1 between grains of one particle, otherwise 0", true},
+       [](const Bodies& bodies, const Crack& crack) {
+         return is_inside_a_particle(bodies, crack) ? 1.0 : 0.0;
+       },
+       !space}};
+  std::erase_if(all, [](const CrackColumn& column) { return !column.exists; });
+  return all;
+}
+
+}  // namespace
+
 std::vector<TableInfo> bond_tables(const Scene& scene) {
   if (!has_bonds(scene)) return {};
-  const char* place = "where it was then";
-  const char* half = "half of it where the points of the other side break as well";
-  const char* time = scene.initial_state
-                         ? "when the point broke; <= 0: before the initial state was saved"
-                         : "when the point broke";
-  TableInfo cracks{"cracks", {{"time", "s", time}, {"x", "m", place}, {"y", "m", place}}};
-  const auto add = [&](const SeriesInfo& column) { cracks.columns.push_back(column); };
-  if (scene.space) add({"z", "m", place});
-  add({"particle", "-",
-       scene.space ? "number of the particle whose face it is on"
-                   : "number of the particle whose edge it is on",
-       true});
-  add({"other", "-", other_meaning, true});
-  add({"bond", "-", "position of its [[bond]] in the scene", true});
-  add(scene.space ? SeriesInfo{"area", "m^2", half} : SeriesInfo{"length", "m", half});
-  add({"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"});
-  add({"energy", "J", "fracture energy of the bond law in the mode at breakage, times the area"});
-  if (!scene.space) add({"inside", "-", "1 between grains of one particle, otherwise 0", true});
+  TableInfo cracks{"cracks", {}};
+  for (CrackColumn& column : crack_columns(scene.space != nullptr, scene.initial_state.has_value()))
+    cracks.columns.push_back(std::move(column.info));
   return {cracks};
 }
 
 std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t first) {
   std::vector<std::vector<double>> rows;
   if (!world.has<BondTotals>()) return rows;
-  const Bodies& bodies = world.resource<Bodies>();
-  const auto number = [&](int slot) { return slot < 0 ? slot : entry(bodies.slots, slot).number; };
-  const auto parent = [&](int slot) { return entry(bodies.slots, slot).parent; };
   const std::vector<Crack>& cracks = world.resource<BondTotals>().cracks;
-  const bool space = in_space(world);
+  if (first >= std::ssize(cracks)) return rows;
+  const std::vector<CrackColumn> columns = crack_columns(in_space(world), false);
   for (std::int64_t i = first; i < std::ssize(cracks); ++i) {
-    const Crack& crack = entry(cracks, i);
     std::vector<double>& row = rows.emplace_back();
-    row = {crack.time, crack.x, crack.y};
-    if (space) row.push_back(crack.z);
-    row.insert(row.end(), {1.0 * number(crack.slot), 1.0 * number(crack.other), crack.law - 1.0,
-                           crack.size, crack.shear, crack.energy});
-    if (space) continue;
-    const bool inside = crack.other >= 0 && parent(crack.slot) == parent(crack.other);
-    row.push_back(inside ? 1.0 : 0.0);
+    for (const CrackColumn& column : columns)
+      row.push_back(column.read(world.resource<Bodies>(), entry(cracks, i)));
   }
   return rows;
 }

@@ -1,5 +1,5 @@
-// Results of a run with bonds: series, fields of the frames, a table of the cracks, figures of the summary.
-// Empty for a scene without bonds.
+// Results of a run with bonds: a table of the cracks, figures of the summary. Empty for a scene without bonds. Series and
+// fields: add_bond_series, add_bond_fields.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,6 @@
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
-
-std::vector<SeriesInfo> bond_series(const Scene& scene);
-void append_bond_sample(const World& world, std::vector<double>& row);
-
-std::vector<FieldInfo> bond_fields(const Scene& scene);
-void append_bond_frame(const World& world, std::vector<std::vector<double>>& fields);
 
 // /cracks, one row for every contact point that broke, in order of breaking.
 std::vector<TableInfo> bond_tables(const Scene& scene);

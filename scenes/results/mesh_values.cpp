@@ -23,8 +23,14 @@ void append_all(const World& world, int slot, std::vector<double>& out) {
 
 }  // namespace
 
+std::vector<MeshField> mesh_fields(const World& world) {
+  return world.has<Position<ThreeD>>() ? space::mesh_fields(world) : plane_mesh_fields(world);
+}
+
 std::vector<ParticleValues> mesh_values(const World& world) {
-  return world.has<Position<ThreeD>>() ? space::mesh_values(world) : plane_mesh_values(world);
+  std::vector<ParticleValues> all;
+  for (MeshField& field : mesh_fields(world)) all.push_back(std::move(field.values));
+  return all;
 }
 
 ParticleValues state_values() {

@@ -7,7 +7,8 @@
 
 namespace pulvis {
 
-// Fields of the mesh; they come first in ResultParts::fields, in this order.
+// Fields of the mesh; they come first in Results::fields, in this order.
+std::vector<MeshField> mesh_fields(const World& world);
 std::vector<ParticleValues> mesh_values(const World& world);
 // The initial state of the next step: positions, velocities, plastic state.
 ParticleValues state_values();

@@ -78,29 +78,32 @@ void of_nodes(const World& world, int slot, std::vector<double>& out) {
 }
 
 template <class F>
-std::vector<ParticleValues> values_of(const World& world) {
+std::vector<MeshField> fields_of(const World& world) {
   using Out = std::vector<double>;
-  std::vector<ParticleValues> all{
-      of_nodes<Position<TwoD>>, of_nodes<Velocity<TwoD>>,
-      of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.effective); }),
-      of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.pressure); }),
-      of_stress<F>([](const CellStress& c, Out& out) {
-        out.insert(out.end(), {c.xx, c.yy, c.zz, c.xy});
-      })};
-  if (world.has<PlasticStrain<F::points>>()) all.emplace_back(plastic_strain<F>);
+  std::vector<MeshField> all{
+      {{"position", "m", "of the node", FieldPlace::node, 2}, of_nodes<Position<TwoD>>},
+      {{"velocity", "m/s", "of the node, half a step later", FieldPlace::node, 2},
+       of_nodes<Velocity<TwoD>>},
+      {{"effective_stress", "Pa", "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
+       of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.effective); })},
+      {{"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
+       of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.pressure); })},
+      {{"stress", "Pa", "Cauchy: xx yy zz xy", FieldPlace::cell, 4},
+       of_stress<F>([](const CellStress& c, Out& out) {
+         out.insert(out.end(), {c.xx, c.yy, c.zz, c.xy});
+       })}};
+  if (world.has<PlasticStrain<F::points>>())
+    all.push_back(
+        {{"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1},
+         plastic_strain<F>});
   return all;
 }
 
 }  // namespace
 
-bool is_plastic_plane(const World& world) {
+std::vector<MeshField> plane_mesh_fields(const World& world) {
   return with_formulation(world.resource<Bodies>().formulation,
-                          [&]<class F>(F) { return world.has<PlasticStrain<F::points>>(); });
-}
-
-std::vector<ParticleValues> plane_mesh_values(const World& world) {
-  return with_formulation(world.resource<Bodies>().formulation,
-                          [&]<class F>(F) { return values_of<F>(world); });
+                          [&]<class F>(F) { return fields_of<F>(world); });
 }
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// Nodal and element values in two dimensions.
+// Fields of nodes and elements in two dimensions.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,6 @@
 
 namespace pulvis {
 
-bool is_plastic_plane(const World& world);
-// position, velocity, effective_stress, pressure, stress, and plastic_strain where there is any.
-std::vector<ParticleValues> plane_mesh_values(const World& world);
+std::vector<MeshField> plane_mesh_fields(const World& world);
 
 }  // namespace pulvis

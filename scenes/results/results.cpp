@@ -46,22 +46,29 @@ std::unique_ptr<ResultParts> make_parts(const Scene& scene, const World& world) 
 Results::Results(const Scene& scene, const World& world)
     : world_(world),
       parts_(make_parts(scene, world)),
-      series_(history_series(scene)),
+      observables_(observables(scene)),
+      momentum_(momentum_of(scene)),
+      frame_fields_(frame_fields(scene)),
       tables_(bond_tables(scene)),
-      fields_(parts_->fields()),
-      mesh_values_(mesh_values(world)),
       shear_(scene, world) {
   const double modulus = *std::ranges::max_element(
       world.column<BulkModulus>().values(),
       world.column<BulkModulus>().values() + world.resource<Bodies>().slots.size());
   stiffness_energy_ = modulus * parts_->volume();
-  for (std::size_t i = 0; i < series_.size(); ++i) position_[series_[i].name] = i;
-  const auto append = [&](const std::vector<FieldInfo>& more) {
-    fields_.insert(fields_.end(), more.begin(), more.end());
-  };
-  append(bond_fields(scene));
-  append(ShearResults::fields(scene));
-  append(parts_->tool_fields());
+  for (std::size_t i = 0; i < series().size(); ++i) position_[series()[i].name] = i;
+  if (const auto outlines = parts_->tool_field())
+    frame_fields_.add(
+        {{*outlines, [parts = parts_.get()](const Observation&) { return parts->tool_points(); }}});
+  for (MeshField& field : mesh_fields(world)) {
+    fields_.push_back(std::move(field.info));
+    mesh_values_.push_back(std::move(field.values));
+  }
+  const std::vector<FieldInfo>& beside_mesh = frame_fields_.infos();
+  fields_.insert(fields_.end(), beside_mesh.begin(), beside_mesh.end());
+}
+
+Observation Results::observation() const {
+  return {world_, energies_, shear_, parts_->powder(), min_jacobian()};
 }
 
 void Results::take_energies() {
@@ -142,44 +149,14 @@ double Results::kinetic_ratio() const {
   return worst;
 }
 
-void Results::append_energies(std::vector<double>& row) const {
-  const Energies& e = energies_;
-  row.insert(row.end(), {e.kinetic, e.elastic, e.plastic});
-  row.push_back(e.hourglass);
-  row.insert(row.end(), {e.contact, e.friction, e.damping});
-  if (world_.has<DampingWork>()) row.push_back(e.bulk_damping);
-  if (world_.has<BondTotals>()) row.insert(row.end(), {e.bonds, e.fracture});
-  row.insert(row.end(), {e.external, e.balance});
-}
-
 std::vector<double> Results::sample() {
   take_energies();
   take_peaks();
-  std::vector<double> row;
-  parts_->append_tools(energies_, row);
-  append_energies(row);
-  const Totals& totals = world_.resource<Totals>();
-  row.push_back(static_cast<double>(totals.touching));
-  row.push_back(totals.worst_penetration);
-  parts_->append_contacts(row);
-  append_bond_sample(world_, row);
-  row.push_back(min_jacobian());
-  row.push_back(world_.resource<Clock>().dt);
-  parts_->append_observed(row);
-  shear_.append_sample(energies_.plastic, row);
-  last_ = row;
+  shear_.sample(energies_.plastic);
+  last_ = observables_.read(observation());
   take_kinetic_ratio();
   release_.sample(load(), energies_.elastic, energies_.contact);
-  return row;
-}
-
-std::vector<std::vector<double>> Results::frame_beside_mesh() const {
-  std::vector<std::vector<double>> fields;
-  parts_->append_frame(fields);
-  append_bond_frame(world_, fields);
-  shear_.append_frame(fields);
-  parts_->append_tool_frame(fields);
-  return fields;
+  return last_;
 }
 
 FrameValues Results::frame_values(VisitMesh mesh) const {
@@ -187,7 +164,7 @@ FrameValues Results::frame_values(VisitMesh mesh) const {
           beside = std::vector<std::vector<double>>()](std::size_t field) mutable {
     const std::size_t of_mesh = mesh_values_.size();
     if (field >= of_mesh) {
-      if (field == of_mesh) beside = frame_beside_mesh();
+      if (field == of_mesh) beside = frame_fields_.read(observation());
       return std::move(beside.at(field - of_mesh));
     }
     std::vector<double> values;

@@ -44,7 +44,7 @@ class Results {
  public:
   Results(const Scene& scene, const World& world);
 
-  const std::vector<SeriesInfo>& series() const { return series_; }
+  const std::vector<SeriesInfo>& series() const { return observables_.infos(); }
   const std::vector<FieldInfo>& fields() const { return fields_; }
   const std::vector<TableInfo>& tables() const { return tables_; }
   RunMesh mesh() const { return parts_->mesh(); }
@@ -62,7 +62,7 @@ class Results {
   bool has(const std::string& series) const { return !last_.empty() && position_.contains(series); }
   // Along the axes, and angular about the origin: momentum_series. Internal forces of the powder conserve all three in
   // every step and not only in the limit: positions at t_n, velocities at t_(n-1/2).
-  std::vector<double> momentum() const { return parts_->momentum(); }
+  std::vector<double> momentum() const { return momentum_.read(observation()); }
   const Energies& energies() const { return energies_; }
   const Peaks& peaks() const { return peaks_; }
   // How heavily the powder is loaded. The largest force of a tool, N; in a periodic cell the magnitude of its stress, Pa;
@@ -92,15 +92,15 @@ class Results {
   }
 
  private:
-  std::vector<std::vector<double>> frame_beside_mesh() const;
+  Observation observation() const;
   void take_energies();
   void take_kinetic_ratio();
   void take_peaks();
-  void append_energies(std::vector<double>& row) const;
 
   const World& world_;
   std::unique_ptr<ResultParts> parts_;
-  std::vector<SeriesInfo> series_;
+  Observables observables_, momentum_;
+  FrameFields frame_fields_;  // of the frames beside those of the mesh
   std::vector<TableInfo> tables_;
   std::vector<FieldInfo> fields_;
   std::vector<ParticleValues> mesh_values_;

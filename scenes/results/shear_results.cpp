@@ -9,6 +9,7 @@
 #include "components/servo.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
+#include "scenes/results/observables/result_rows.hpp"
 #include "scenes/tools/die_sides.hpp"
 #include "systems/tools/systems.hpp"
 
@@ -101,44 +102,49 @@ std::optional<ShearSetup> shear_setup(const Scene& scene) {
   return setup;
 }
 
-std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
+void add_shear_series(const Scene& scene, Observables& all) {
   const auto setup = shear_setup(scene);
-  if (!setup) return {};
-  std::vector<SeriesInfo> all{
-      {"shear/distance", "m",
-       "displacement of the target along itself since the first shear stage began"},
-      {"shear/friction", "-", "lateral over normal force on the target; NaN where it carries none"},
-      {"shear/work", "J", "work of the target against friction and grooves"},
-      {"shear/locked", "-", "particles that touch the target and move with it, within 10%"},
-      {"shear/plastic_work", "J", "dissipated by plastic flow since the first shear stage began"},
-      {"shear/ploughing", "-",
-       "shear/plastic_work over the normal force on the target, integrated over the distance: "
-       "contribution of ploughing to the mean coefficient; NaN before the target has moved by 2% "
-       "of the distance planned for its first shear stage"}};
-  if (setup->width > 0) {
-    all.push_back({"shear/normal_stress", "Pa", "on the target: normal force / width x thickness"});
-    all.push_back({"shear/lateral_stress", "Pa", "on the target, against its motion"});
-    if (setup->punch >= 0)
-      all.push_back(
-          {"shear/punch_lateral_stress", "Pa", "on the punch, along the target's motion"});
-  }
-  if (setup->punch >= 0)
-    all.push_back(
-        {"shear/dilation", "m",
-         "displacement of the punch away from the target since the first shear stage began"});
-  if (setup->wall >= 0)
-    all.push_back({"shear/wall_share", "-",
-                   "force on the wall that the powder is dragged against / lateral force on the "
-                   "target; NaN where the latter is zero"});
-  return all;
+  if (!setup) return;
+  const bool width = setup->width > 0, punch = setup->punch >= 0, wall = setup->wall >= 0;
+  all.add(
+      [](const Observation& now) -> const ShearSample& { return now.shear.now(); },
+      {{"shear/distance", "m",
+        "displacement of the target along itself since the first shear stage began",
+        &ShearSample::distance},
+       {"shear/friction", "-", "lateral over normal force on the target; NaN where it carries none",
+        &ShearSample::friction},
+       {"shear/work", "J", "work of the target against friction and grooves", &ShearSample::work},
+       {"shear/locked", "-", "particles that touch the target and move with it, within 10%",
+        &ShearSample::locked},
+       {"shear/plastic_work", "J", "dissipated by plastic flow since the first shear stage began",
+        &ShearSample::plastic_work},
+       {"shear/ploughing", "-",
+        "shear/plastic_work over the normal force on the target, integrated over the distance: "
+        "contribution of ploughing to the mean coefficient; NaN before the target has moved by 2% "
+        "of the distance planned for its first shear stage",
+        &ShearSample::ploughing},
+       {"shear/normal_stress", "Pa", "on the target: normal force / width x thickness",
+        &ShearSample::normal_stress, width},
+       {"shear/lateral_stress", "Pa", "on the target, against its motion",
+        &ShearSample::lateral_stress, width},
+       {"shear/punch_lateral_stress", "Pa", "on the punch, along the target's motion",
+        &ShearSample::punch_lateral_stress, width && punch},
+       {"shear/dilation", "m",
+        "displacement of the punch away from the target since the first shear stage began",
+        &ShearSample::dilation, punch},
+       {"shear/wall_share", "-",
+        "force on the wall that the powder is dragged against / lateral force on the "
+        "target; NaN where the latter is zero",
+        &ShearSample::wall_share, wall}});
 }
 
-std::vector<FieldInfo> ShearResults::fields(const Scene& scene) {
-  if (!shear_setup(scene)) return {};
-  return {{"target_slip", "m",
-           "displacement of the target past the particle while they touch, since the first shear "
-           "stage began, summed up over samples",
-           FieldPlace::particle, 1}};
+void add_shear_fields(const Scene& scene, FrameFields& all) {
+  if (!shear_setup(scene)) return;
+  all.add({{{"target_slip", "m",
+             "displacement of the target past the particle while they touch, since the first "
+             "shear stage began, summed up over samples",
+             FieldPlace::particle, 1},
+            [](const Observation& now) { return now.shear.slip(); }}});
 }
 
 ShearResults::ShearResults(const Scene& scene, const World& world)
@@ -192,54 +198,62 @@ int ShearResults::take_touching(bool sliding) {
   return locked;
 }
 
-void ShearResults::append_sample(double plastic, std::vector<double>& row) {
+void ShearResults::sample(double plastic) {
   if (!setup_) return;
   const double* forces = world_.column<ToolForce>().values();
-  const double* positions = world_.column<ToolPosition>().values();
   const Vec2 force = vector_of(forces, setup_->target);
   const double normal = -force.dot(setup_->up), lateral = -force.dot(setup_->along);
   if (world_.resource<Clock>().time <= stage().begin) travel_at_begin_ = travel_now();
-  const double distance = distance_now();
-  const double face = setup_->width * world_.resource<Bodies>().thickness;
-  const double friction = normal > 0 ? lateral / normal : nothing;
+  now_.distance = distance_now();
+  now_.friction = normal > 0 ? lateral / normal : nothing;
+  take_work(lateral, normal, plastic);
+  now_.locked = take_touching(punch_at_begin_.has_value());
+  if (setup_->width > 0) {
+    const double face = setup_->width * world_.resource<Bodies>().thickness;
+    now_.normal_stress = normal / face;
+    now_.lateral_stress = lateral / face;
+    if (setup_->punch >= 0)
+      now_.punch_lateral_stress = vector_of(forces, setup_->punch).dot(setup_->along) / face;
+  }
+  if (setup_->punch >= 0) take_dilation();
+  if (setup_->wall >= 0)
+    now_.wall_share = lateral > least_shared * normal && lateral > 0
+                          ? vector_of(forces, setup_->wall).dot(setup_->along) / lateral
+                          : nothing;
+  keep_of_stage(lateral, normal);
+}
+
+void ShearResults::take_work(double lateral, double normal, double plastic) {
+  const double distance = now_.distance;
   work_ += 0.5 * (lateral + lateral_before_) * (distance - distance_before_);
   pressed_ += 0.5 * (normal + normal_before_) * std::abs(distance - distance_before_);
   if (distance > 0 && !punch_at_begin_) punch_at_begin_ = punch_before_;
-  const bool begun = punch_at_begin_.has_value();
-  if (!begun) plastic_at_begin_ = plastic;
-  const double flow = plastic - plastic_at_begin_;
+  if (!punch_at_begin_) plastic_at_begin_ = plastic;
+  now_.work = work_;
+  now_.plastic_work = plastic - plastic_at_begin_;
   const double farthest = std::max(distance, samples_.empty() ? 0 : samples_.back().distance);
   const bool ploughs = farthest >= least_ploughed * setup_->planned && pressed_ > 0;
-  row.insert(row.end(), {distance, friction, work_, static_cast<double>(take_touching(begun)), flow,
-                         ploughs ? flow / pressed_ : nothing});
-  if (setup_->width > 0) {
-    row.insert(row.end(), {normal / face, lateral / face});
-    if (setup_->punch >= 0)
-      row.push_back(vector_of(forces, setup_->punch).dot(setup_->along) / face);
-  }
-  double dilation = 0;
-  if (setup_->punch >= 0) {
-    const double at = vector_of(positions, setup_->punch).dot(setup_->up);
-    dilation = begun ? at - *punch_at_begin_ : 0;
-    punch_before_ = at;
-    row.push_back(dilation);
-  }
-  if (setup_->wall >= 0)
-    row.push_back(lateral > least_shared * normal && lateral > 0
-                      ? vector_of(forces, setup_->wall).dot(setup_->along) / lateral
-                      : nothing);
+  now_.ploughing = ploughs ? now_.plastic_work / pressed_ : nothing;
+}
+
+void ShearResults::take_dilation() {
+  const double* positions = world_.column<ToolPosition>().values();
+  const double at = vector_of(positions, setup_->punch).dot(setup_->up);
+  now_.dilation = punch_at_begin_ ? at - *punch_at_begin_ : 0;
+  punch_before_ = at;
+}
+
+// Samples of the shear stage while the target moves on, and what the next sample refers to.
+void ShearResults::keep_of_stage(double lateral, double normal) {
   const Clock& clock = world_.resource<Clock>();
+  const double distance = now_.distance;
   const bool goes_on = distance > (samples_.empty() ? 0 : samples_.back().distance);
   if (goes_on && clock.time <= stage().end + clock.dt_before)
-    samples_.push_back({distance, friction, face > 0 ? normal / face : 0, dilation});
+    samples_.push_back({distance, now_.friction, now_.normal_stress, now_.dilation});
   lateral_before_ = lateral;
   normal_before_ = normal;
   distance_before_ = distance;
   time_before_ = clock.time;
-}
-
-void ShearResults::append_frame(std::vector<std::vector<double>>& fields) const {
-  if (setup_) fields.push_back(slip_);
 }
 
 // Means are over distance, not over time.

@@ -35,18 +35,27 @@ struct ShearFigures {
   std::optional<double> dilation;           // m, at the end of the stage
 };
 
+// At a sample; series of the history. NaN where there is no such value.
+struct ShearSample {
+  double distance = 0, friction = 0;              // m, -
+  double work = 0, plastic_work = 0;              // J
+  double ploughing = 0;                           // -
+  int locked = 0;                                 // particles
+  double normal_stress = 0, lateral_stress = 0;   // Pa, on the target
+  double punch_lateral_stress = 0, dilation = 0;  // Pa, m
+  double wall_share = 0;                          // -
+};
+
 class ShearResults {
  public:
   // `world` has the tools of the scene.
   ShearResults(const Scene& scene, const World& world);
 
-  static std::vector<SeriesInfo> series(const Scene& scene);
-  static std::vector<FieldInfo> fields(const Scene& scene);
-
-  // In the order of series(); from an observed world and its plastic dissipation [J]. Accumulates slip over
-  // samples.
-  void append_sample(double plastic, std::vector<double>& row);
-  void append_frame(std::vector<std::vector<double>>& fields) const;
+  // Of an observed world and its plastic dissipation [J]. Accumulates work and slip over samples.
+  void sample(double plastic);
+  const ShearSample& now() const { return now_; }
+  // m, of every particle past the target.
+  const std::vector<double>& slip() const { return slip_; }
   // Empty before the target has moved.
   std::optional<ShearFigures> figures() const;
 
@@ -69,9 +78,13 @@ class ShearResults {
   double travel_now() const;
   double distance_now() const;
   int take_touching(bool sliding);  // accumulates slip while sliding; returns the number locked
+  void take_work(double lateral, double normal, double plastic);
+  void take_dilation();
+  void keep_of_stage(double lateral, double normal);
 
   std::optional<ShearSetup> setup_;
   const World& world_;
+  ShearSample now_;
   std::optional<double> punch_at_begin_;  // m, along `up`
   double punch_before_ = 0;
   double time_before_ = 0, work_ = 0, lateral_before_ = 0, distance_before_ = 0;

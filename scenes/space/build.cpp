@@ -8,9 +8,7 @@
 #include "scenes/space/layout.hpp"
 #include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
-#include "scenes/space/results/observed_density.hpp"
-#include "scenes/space/results/observed_network.hpp"
-#include "scenes/space/results/observed_stress.hpp"
+#include "scenes/space/results/observe.hpp"
 #include "scenes/space/tools/drives.hpp"
 #include "scenes/space/travel.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -73,9 +71,7 @@ std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   world->emplace<ParticleClasses>(std::move(layout.classes));
   add_tools(*world, scene, bodies);
   add_contact(*world, scene, bodies);
-  add_observed_stress(*world, scene);
-  add_observed_network(*world, scene);
-  add_observed_density(*world, scene);
+  add_observed(*world, scene);
   return world;
 }
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "scenes/checks/process_checks.hpp"
-#include "scenes/space/results/observed_density.hpp"
+#include "scenes/space/results/observe.hpp"
 #include "scenes/space/shape_checks.hpp"
 #include "scenes/space/stl_files.hpp"
 #include "scenes/space/tool_checks.hpp"

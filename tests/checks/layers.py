@@ -57,7 +57,8 @@ ROOMS = {
         "tools": "drawings packing outlines spec language",
         "results/parts": "",
         "solve": "",
-        "results": "results/parts solve space/results space/tools tools spec language",
+        "results/observables": "results/parts space/results space/tools tools spec language",
+        "results": "results/parts results/observables solve space/results space/tools tools spec language",
         "lever/mesh": "spec language",
         "wedge": "solve",
         "lever": "solve wedge lever/mesh spec language",
@@ -92,8 +93,8 @@ ROOMS = {
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
 # Sources of one kind that a header of another name declares.
-PARTS = ("engine/files/hdf5_change", "engine/files/hdf5_checksum", "scenes/keys/declare_", "scenes/space/keys/declare_", "cli/laboratory/declare_", "scenes/meshes/mesh_",
-         "cli/python/module/bind_")
+PARTS = ("engine/files/hdf5_change", "engine/files/hdf5_checksum", "scenes/keys/declare_", "scenes/space/keys/declare_",
+         "cli/laboratory/declare_", "scenes/meshes/mesh_", "scenes/results/observables/", "cli/python/module/bind_")
 MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')

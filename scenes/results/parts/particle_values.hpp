@@ -15,6 +15,11 @@ namespace pulvis {
 
 // Appends the values of the particle in `slot`.
 using ParticleValues = std::function<void(const World& world, int slot, std::vector<double>& out)>;
+// A field of the mesh: its description, and its values particle by particle.
+struct MeshField {
+  FieldInfo info;
+  ParticleValues values;
+};
 using ValueSink = std::function<void(std::span<const double>)>;
 
 // Number of nodes or cells of the particle in `slot`; also of one that this process does not hold.

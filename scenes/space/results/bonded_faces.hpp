@@ -7,7 +7,13 @@
 
 namespace pulvis::space {
 
-// ids, area, damage, position: see bond_fields. One entry for every face and other body. Then the positions of the cracks.
-void append_bonded_faces(const World& world, std::vector<std::vector<double>>& fields);
+// One entry for every face and other body; their meanings are in add_bond_fields.
+struct BondedFaces {
+  std::vector<double> ids, area, damage, position;
+};
+BondedFaces bonded_faces(const World& world);
+
+// m, where the points of all cracks are now.
+std::vector<double> crack_positions(const World& world);
 
 }  // namespace pulvis::space

@@ -69,29 +69,32 @@ void of_nodes(const World& world, int slot, std::vector<double>& out) {
 }
 
 template <class F>
-std::vector<ParticleValues> values_of(const World& world) {
+std::vector<MeshField> fields_of(const World& world) {
   using Out = std::vector<double>;
-  std::vector<ParticleValues> all{
-      of_nodes<Position<ThreeD>>, of_nodes<Velocity<ThreeD>>,
-      of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.effective); }),
-      of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.pressure); }),
-      of_stress<F>([](const ElementStresses& s, Out& out) {
-        out.insert(out.end(), s.stress.begin(), s.stress.end());
-      })};
-  if (world.has<PlasticStrain<F::points>>()) all.emplace_back(plastic_strain<F>);
+  std::vector<MeshField> all{
+      {{"position", "m", "of the node", FieldPlace::node, 3}, of_nodes<Position<ThreeD>>},
+      {{"velocity", "m/s", "of the node, half a step later", FieldPlace::node, 3},
+       of_nodes<Velocity<ThreeD>>},
+      {{"effective_stress", "Pa", "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
+       of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.effective); })},
+      {{"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
+       of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.pressure); })},
+      {{"stress", "Pa", "Cauchy: xx yy zz xy yz zx", FieldPlace::cell, 6},
+       of_stress<F>([](const ElementStresses& s, Out& out) {
+         out.insert(out.end(), s.stress.begin(), s.stress.end());
+       })}};
+  if (world.has<PlasticStrain<F::points>>())
+    all.push_back(
+        {{"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1},
+         plastic_strain<F>});
   return all;
 }
 
 }  // namespace
 
-bool is_plastic(const World& world) {
+std::vector<MeshField> mesh_fields(const World& world) {
   return with_hexahedra(world.resource<Bodies>().formulation,
-                        [&]<class F>(F) { return world.has<PlasticStrain<F::points>>(); });
-}
-
-std::vector<ParticleValues> mesh_values(const World& world) {
-  return with_hexahedra(world.resource<Bodies>().formulation,
-                        [&]<class F>(F) { return values_of<F>(world); });
+                        [&]<class F>(F) { return fields_of<F>(world); });
 }
 
 }  // namespace pulvis::space

@@ -1,4 +1,4 @@
-// Node and element values in three dimensions.
+// Fields of nodes and elements in three dimensions.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,6 @@
 
 namespace pulvis::space {
 
-bool is_plastic(const World& world);
-// position, velocity, effective_stress, pressure, stress, and plastic_strain if it exists.
-std::vector<ParticleValues> mesh_values(const World& world);
+std::vector<MeshField> mesh_fields(const World& world);
 
 }  // namespace pulvis::space
