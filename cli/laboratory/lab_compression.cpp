@@ -1,7 +1,6 @@
 #include "cli/laboratory/lab_compression.hpp"
 
 #include "cli/laboratory/lab_simulation.hpp"
-#include "engine/portable_math.hpp"
 #include "scenes/language/csv_table.hpp"
 #include "scenes/results/density_fit_errors.hpp"
 #include "scenes/solve/lab_fit.hpp"
@@ -75,7 +74,7 @@ void add_contribution(Measured& to, const std::string& source, double error) {
   if (same == to.contributions.end())
     to.contributions.push_back({source, error});
   else
-    same->error = portable::hypot(same->error, error);
+    same->error = std::sqrt(same->error * same->error + error * error);  // infinite stays infinite
 }
 
 std::vector<LawFit> laws_of(const FitRange& range) {
