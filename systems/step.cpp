@@ -78,15 +78,18 @@ void observe_elements(World& w, SystemList& observe) {
   observe.add<kinetic_energy<D>>        ("kinetic_energy");
   if constexpr (in_plane<D>) {
     observe.add<elastic_energy<F>>      ("elastic_energy");
-    observe.add<hourglass_energy>       ("hourglass_energy",  F::stabilised);
-    observe.add<particle_stress<F>>     ("particle_stress",   stresses);
   } else {
     observe.add<space::elastic_energy<F>>("elastic_energy");
     observe.add<space::node_spring_energy>("node_spring_energy", w.has<space::Roughness>());
+  }
+  observe.add<plastic_work<F>>          ("plastic_work",      plastic);
+  if constexpr (in_plane<D>) {
+    observe.add<hourglass_energy>       ("hourglass_energy",  F::stabilised);
+    observe.add<particle_stress<F>>     ("particle_stress",   stresses);
+  } else {
     observe.add<space::hourglass_energy>("hourglass_energy",  F::stabilised);
     observe.add<space::particle_stress<F>>("particle_stress", stresses);
   }
-  observe.add<plastic_work<F>>          ("plastic_work",      plastic);
   // clang-format on
 }
 
