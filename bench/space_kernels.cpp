@@ -87,7 +87,7 @@ std::vector<double> plastic_strains(World& world) {
 
 // Fraction of points in the first chunk that yield, averaged over twenty steps back and forth.
 double flowing_share(World& world, Formulation formulation, const auto& force) {
-  const auto move = open<integrate>(world);
+  const auto move = open<integrate<ThreeD>>(world);
   const auto strains = [&] {
     return with_hexahedra(formulation, [&]<class F>(F) { return plastic_strains<F>(world); });
   };
@@ -113,7 +113,7 @@ void step(benchmark::State& state, Formulation formulation, bool plastic, double
   const int n = static_cast<int>(state.range(0)), chunks = static_cast<int>(state.range(1));
   const auto world = cubes(scene_of(plastic), formulation, n, chunks);
   const auto force = open<ForceSystem>(*world);
-  const auto move = open<integrate>(*world);
+  const auto move = open<integrate<ThreeD>>(*world);
   set_off(*world, speed);
   // Back and forth, so that the mesh does not drift.
   int at = 0;
