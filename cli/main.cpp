@@ -46,7 +46,6 @@
 #include "scenes/materials/library.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
-#include "scenes/space/keys/space_reference.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/constraints.hpp"
 
@@ -79,8 +78,6 @@ ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
     tell("{}", options.reference == "schema"      ? scene_json_schema()
                : options.reference == "materials" ? material_reference()
-               : options.reference == "text-3d"   ? space_scene_reference()
-               : options.reference == "schema-3d" ? space_scene_json_schema()
                                                   : scene_reference());
     return ExitCode::done;
   }
@@ -284,9 +281,9 @@ void add_check(CLI::App& app, Options& options, ExitCode& code) {
   add_scene(*checks, options, false);
   checks
       ->add_option("--reference", options.reference,
-                   "print the reference of the scene language instead: text or schema (3D: text-3d "
-                   "or schema-3d), or materials for the material library")
-      ->check(CLI::IsMember({"text", "schema", "text-3d", "schema-3d", "materials"}));
+          "print the reference of the scene language instead: text or schema, or materials "
+          "for the material library")
+      ->check(CLI::IsMember({"text", "schema", "materials"}));
   checks->add_flag(
       "--print", options.print,
       "print the complete scene instead, with extended files, overrides and defaults filled in");

@@ -35,7 +35,7 @@ std::string packing_summary(const Scene& scene) {
 namespace {
 
 ExitCode pack_in_space(const Scene& scene, const std::filesystem::path& file) {
-  const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
+  const std::vector<BodySpec> bodies = space::place_bodies(scene);
   space::check_overlaps(scene, bodies);
   write_own(file, role::packing, space::packing_text(scene, bodies));
   tell("{}{}: {}\n", space::packing_summary(scene), file.string(),

@@ -183,11 +183,11 @@ void fill_bodies(World& world, const Layout& layout) {
       const Vec2& arm = arms[n];
       Lane* at = x.lanes() + 2 * (first + n);
       Lane* rate = v.lanes() + 2 * (first + n);
-      const Vec2 where = placed ? Vec2(placed->body->position + arm) : arm;
+      const Vec2 where = placed ? Vec2(in_plane(placed->body->position) + arm) : arm;
       at[0][lane] = where.x();
       at[1][lane] = where.y();
       if (!placed) continue;
-      const double omega = placed->body->angular_velocity;
+      const double omega = placed->body->angular_velocity.z();
       rate[0][lane] = placed->body->velocity.x() - omega * arm.y();
       rate[1][lane] = placed->body->velocity.y() + omega * arm.x();
     }

@@ -51,7 +51,7 @@ class DieFiller {
   DieFiller(Table& root, Value die, const Origin& origin, Problems& problems)
       : root_(root), origin_(origin), problems_(problems) {
     const Table nothing;
-    schema::TableReader(nothing, problems, schema::scene_language())
+    schema::TableReader(nothing, problems, schema::scene_language(2))
         .read(schema::die(), die, "die", "", spec_);
   }
 
@@ -96,7 +96,7 @@ class DieFiller {
                                           const std::string& path) {
     const Entry* entry = document::find(table, key);
     if (entry == nullptr) return std::nullopt;
-    const schema::TableView& view = *schema::find_table(declared, schema::scene_language());
+    const schema::TableView& view = *schema::find_table(declared, schema::scene_language(2));
     try {
       return schema::decode(*schema::find_key(view, key), entry->value, {});
     } catch (const schema::Refusal& refusal) {
@@ -211,7 +211,7 @@ class DieFiller {
 // A random packing needs a width, or a die.
 void require_widths(Table& root, Problems& problems) {
   const Array* packings = elements_of(root, "packing");
-  const schema::TableView& view = *schema::find_table("packing", schema::scene_language());
+  const schema::TableView& view = *schema::find_table("packing", schema::scene_language(2));
   for (std::size_t i = 0; packings != nullptr && i < packings->size(); ++i) {
     const Table& packing = (*packings)[i].get<Table>();
     if (is_kind(packing, {"random"}) && document::find(packing, "width") == nullptr)

@@ -22,14 +22,14 @@ class MemoryOrder {
  public:
   explicit MemoryOrder(const std::vector<BodySpec>& bodies) {
     for (const BodySpec& body : bodies) {
-      low_ = low_.cwiseMin(body.position);
-      high_ = high_.cwiseMax(body.position);
+      low_ = low_.cwiseMin(in_plane(body.position));
+      high_ = high_.cwiseMax(in_plane(body.position));
     }
   }
   std::uint64_t operator()(const BodySpec& body) const {
     constexpr int order = 16;  // cells much smaller than particles
     const double size = std::max((high_ - low_).maxCoeff(), std::numeric_limits<double>::min());
-    const Vec2 share = (body.position - low_) / size;
+    const Vec2 share = (in_plane(body.position) - low_) / size;
     const auto cell = [](double s) { return static_cast<std::uint32_t>(s * ((1 << order) - 1)); };
     return hilbert_number(order, cell(share.x()), cell(share.y()));
   }
@@ -98,7 +98,7 @@ std::vector<Vec2> turned_nodes(const Shape& shape, double turn) {
 
 std::vector<Vec2> placed_nodes(const Shape& shape, const Placed& placed) {
   std::vector<Vec2> nodes = turned_nodes(shape, placed.turn);
-  for (Vec2& node : nodes) node = placed.body->position + node;
+  for (Vec2& node : nodes) node = in_plane(placed.body->position) + node;
   return nodes;
 }
 

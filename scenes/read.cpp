@@ -10,7 +10,8 @@
 #include "scenes/checks/state_checks.hpp"
 #include "scenes/fill_die.hpp"
 #include "scenes/grains/grains.hpp"
-#include "scenes/keys/scene_tables.hpp"
+#include "scenes/keys/other_dimension.hpp"
+#include "scenes/keys/scene_reader.hpp"
 #include "scenes/language/extends.hpp"
 #include "scenes/language/override.hpp"
 #include "scenes/language/scene_text.hpp"
@@ -23,10 +24,7 @@
 #include "scenes/scene_files.hpp"
 #include "scenes/space/accuracy.hpp"
 #include "scenes/space/checks.hpp"
-#include "scenes/space/keys/tables.hpp"
 #include "scenes/space/packing/fill_packings.hpp"
-#include "scenes/space/plane_keys.hpp"
-#include "scenes/space/read.hpp"
 #include "scenes/spec/flow_laws.hpp"
 #include "scenes/tools/profile.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -41,111 +39,7 @@
 namespace pulvis {
 namespace {
 
-using document::Array;
 using document::Table;
-using document::Value;
-
-class SceneReader : public SceneTables {
- public:
-  SceneReader(const Table& root, Problems& problems)
-      : SceneTables(root, problems, schema::scene_language()) {}
-
-  Scene read(const std::filesystem::path& file) {
-    Scene scene;
-    scene.file = file;
-    tables_.read(schema::top_level(), Value{root_, {{1, 1}, -1}}, "", "", scene);
-    scene.materials = read_materials();
-    if (scene.afm) {
-      read_afm(*scene.afm);
-      scene.expects = read_all(schema::expect());
-      return scene;
-    }
-    scene.particles = read_particles();
-    scene.bodies = read_all(schema::body());
-    scene.packings = read_packings();
-    scene.tools = read_all(schema::tool());
-    scene.stages = read_stages();
-    scene.frictions = read_all(schema::friction());
-    scene.bonds = read_all(schema::bond());
-    if (const document::Entry* entry = document::find(root_, "cell")) {
-      scene.cell.emplace().mark = entry->origin.mark;
-      tables_.read(schema::cell(), entry->value, "cell", "", *scene.cell);
-    }
-    read_one(schema::contact(), scene.contact);
-    read_one(schema::element(), scene.element);
-    read_one(schema::time(), scene.time);
-    read_one(schema::output(), scene.output);
-    read_one(schema::limits(), scene.limits);
-    scene.expects = read_all(schema::expect());
-    return scene;
-  }
-
- private:
-  void read_afm(AfmScene& afm) {
-    read_one(schema::lever(), afm.lever);
-    read_one(schema::tip(), afm.tip);
-    read_one(schema::laser(), afm.laser);
-    read_one(schema::detector(), afm.detector);
-    if (document::find(root_, "surface") != nullptr)
-      read_one(schema::surface(), afm.target.emplace());
-    afm.actions = read_all(schema::action());
-  }
-
-  std::vector<ParticleSpec> read_particles() {
-    std::vector<ParticleSpec> particles = read_all(schema::particle());
-    const Array& elements = array_at("particle");
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      const Table& table = elements[i].get<Table>();
-      const document::Entry* mesh = document::find(table, "mesh");
-      const std::string* outline = document::find_text(table, "outline");
-      if (mesh != nullptr && outline != nullptr && holds_outline(*outline))
-        tables_.read(schema::mesh(), mesh->value, numbered("particle", i) + ".mesh", *outline,
-                     particles[i]);
-      if (const document::Entry* grains = document::find(table, "grains"))
-        tables_.read(schema::grains(), grains->value, numbered("particle", i) + ".grains", "",
-                     particles[i].grains.emplace());
-    }
-    return particles;
-  }
-
-  // A misspelt outline is reported once; the keys of its mesh cannot be checked then.
-  static bool holds_outline(const std::string& outline) {
-    const schema::KeyInfo& key =
-        *schema::find_key(*schema::find_table("particle", schema::scene_language()), "outline");
-    for (const schema::Choice& choice : key.choices)
-      if (choice.word == outline) return true;
-    return false;
-  }
-
-  std::vector<StageSpec> read_stages() {
-    std::vector<StageSpec> stages = read_all(schema::stage());
-    const Array& elements = array_at("stage");
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-      const Table& table = elements[i].get<Table>();
-      const std::string path = numbered("stage", i);
-      stages[i].moves = read_elements(schema::move(), table, path);
-      stages[i].servos = read_elements(schema::servo(), table, path);
-      if (const document::Entry* entry = document::find(table, "until")) {
-        stages[i].until.emplace().mark = entry->origin.mark;
-        tables_.read(schema::until(), entry->value, path + ".until", "", *stages[i].until);
-      }
-      if (const document::Entry* entry = document::find(table, "cell")) {
-        stages[i].cell.emplace().mark = entry->origin.mark;
-        tables_.read(schema::cell_drive(), entry->value, path + ".cell", "", *stages[i].cell);
-      }
-    }
-    return stages;
-  }
-
-  std::vector<PackingSpec> read_packings() {
-    std::vector<PackingSpec> packings = read_all(schema::packing());
-    const Array& elements = array_at("packing");
-    for (std::size_t i = 0; i < packings.size(); ++i)
-      packings[i].classes =
-          read_elements(schema::mixture_class(), elements[i].get<Table>(), numbered("packing", i));
-    return packings;
-  }
-};
 
 [[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& message) {
   throw SceneError({{file.string(), 1, 1, "", "scene", message}});
@@ -170,7 +64,7 @@ std::uint64_t powder_hash(Table root) {
 void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, bool alone) {
   const schema::Language& language = language_of(root);
   std::erase_if(root, [&](const document::Entry& entry) {
-    return entry.key == "accuracy" || (entry.key == "dimension" && !is_in_space(root)) ||
+    return entry.key == "accuracy" || (entry.key == "dimension" && dimension_of(root) == 2) ||
            (alone && entry.key == "expect");
   });
   loaded.text_in_place = scene_text(root, language);
@@ -210,7 +104,7 @@ void refuse_wrong_dimension(const Table& root, Problems& problems) {
 
 // The language of a scene must be known before its variables are.
 void refuse_dimension_of_variables(const Table& root, bool in_space, Problems& problems) {
-  if (is_in_space(root) && !in_space)
+  if (dimension_of(root) == 3 && !in_space)
     problems.add(document::find(root, "dimension")->origin, "dimension",
                  "is an expression of variables, allowed: 2 or 3");
 }
@@ -220,8 +114,7 @@ struct CompleteTree {
   std::optional<MissingWidth> missing_width;
 };
 
-// The complete tree with all its values. Which files extend which, and which keys name files, is the same in all
-// dimensions; everything else depends on the scene's own language.
+// The complete tree with all its values.
 CompleteTree complete_tree(const std::string& text, const std::filesystem::path& file,
                            const std::vector<std::string>& overrides, Problems& problems,
                            std::vector<ReplacedOverride>& replaced) {
@@ -230,9 +123,8 @@ CompleteTree complete_tree(const std::string& text, const std::filesystem::path&
   refuse_extending(root, problems);
   refuse_wrong_dimension(root, problems);
   problems.throw_if_any();
-  const bool in_space = is_in_space(root);
-  in_space ? space::refuse_keys_of_the_plane(root, problems)
-           : space::refuse_solids_in_the_plane(root, problems);
+  const bool in_space = dimension_of(root) == 3;
+  refuse_keys_of_other_dimension(root, problems);
   problems.throw_if_any();
   apply_let(root, language_of(root), problems);
   refuse_dimension_of_variables(root, in_space, problems);
@@ -250,14 +142,7 @@ CompleteTree complete_tree(const std::string& text, const std::filesystem::path&
 Scene scene_of_tree(const CompleteTree& tree, const std::filesystem::path& file, Problems& problems,
                     schema::Origins& origins) {
   const Table& root = tree.root;
-  Scene scene;
-  if (is_in_space(root)) {
-    scene = space::read_tree(root, file, problems, origins);
-  } else {
-    SceneReader reader(root, problems);
-    scene = reader.read(file);
-    origins = reader.origins();
-  }
+  Scene scene = read_tables(root, file, problems, origins);
   scene.extended = {problems.files().begin() + 1, problems.files().end()};
   problems.throw_if_any();
   if (tree.missing_width)

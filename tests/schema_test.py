@@ -23,7 +23,7 @@ def schema(name):
     return text
 
 
-PLANE, SPACE, REDUCTION = (schema(name) for name in ("scene", "scene-3d", "reduce"))
+SCENE, REDUCTION = (schema(name) for name in ("scene", "reduce"))
 
 
 def tables(path):
@@ -45,21 +45,17 @@ def is_part(path):
     return path.parent == root / "scenes/parts" or path.name.startswith("part-")
 
 
-def language_of(path):
-    return SPACE if whole(path).get("dimension") == 3 else PLANE
-
-
 def faults_of_file(path):
     scene = tables(path)
     if is_part(path):  # an editor would miss in it what is left to the others
         scene.setdefault("extends", "another.toml")
-    return faults(scene, language_of(path))
+    return faults(scene, SCENE)
 
 
 def faults_of_print(path):
     done = subprocess.run([program, "check", path, "--print"], capture_output=True, text=True)
     assert done.returncode == 0, f"{path}: {done.stderr}"
-    return faults(tomllib.loads(done.stdout), language_of(path))
+    return faults(tomllib.loads(done.stdout), SCENE)
 
 
 def shipped():
@@ -107,10 +103,10 @@ def wrong_scenes(scene):
 
 def check_wrong(path, *more):
     """more: (keys, value) or (keys, None), without it."""
-    scene, language = tables(path), language_of(path)
-    assert not faults(scene, language), path
+    scene = tables(path)
+    assert not faults(scene, SCENE), path
     several = [*wrong_scenes(scene), *((f"{at} = {value}", changed(scene, at, value)) for at, value in more)]
-    accepted = [what for what, wrong in several if not faults(wrong, language)]
+    accepted = [what for what, wrong in several if not faults(wrong, SCENE)]
     assert not accepted, f"{path}: not refused: {accepted}"
     return len(several)
 

@@ -30,7 +30,7 @@ void resize(Scene& scene, int rows, int columns) {
 StageSpec stage(const StageSpec& like, double height, double share, double rate) {
   StageSpec stage = like;
   stage.duration = share / rate;
-  stage.moves.at(0).displacement = {0, -share * height};
+  stage.moves.at(0).displacement = {0, -share * height, 0};
   stage.moves[0].ramp = 0;
   return stage;
 }

@@ -178,7 +178,7 @@ json particles_setup(const Scene& scene, const std::vector<BodySpec>& particles,
         {"loops", particle_setup(world, slot, entry(loops, of.shape))},
         {"elements", entry(bodies.shapes, of.shape).elements()}};
     if (body.velocity.norm() > 0) one["velocity"] = {body.velocity.x(), body.velocity.y()};
-    if (body.angular_velocity != 0) one["angular_velocity"] = body.angular_velocity;
+    if (body.angular_velocity.z() != 0) one["angular_velocity"] = body.angular_velocity.z();
     out.push_back(std::move(one));
   }
   return out;

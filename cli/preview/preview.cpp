@@ -46,7 +46,7 @@ json of_powder(const Scene& scene, SceneFindings& findings) {
 }
 
 json of_space(const Scene& scene, SceneFindings& findings) {
-  const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
+  const std::vector<BodySpec> bodies = space::place_bodies(scene);
   space::check_overlaps(scene, bodies);
   const MemoryNeed need = require_memory(scene);
   Simulation simulation(scene);

@@ -52,6 +52,7 @@ std::string memory_line(const MemoryNeed& need) {
 
 std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                                      Simulation* simulation) {
+  if (scene.space) return space::setup_warnings(scene, bodies);
   std::vector<std::string> lines = bending_warnings(scene);
   if (simulation != nullptr && has_bonds(scene))  // bonds are known only after a contact search
     std::ranges::move(bond_warnings(scene, simulation->world()), std::back_inserter(lines));
@@ -62,41 +63,17 @@ std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodyS
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                           const MemoryNeed& need, Simulation* simulation) {
   SceneFindings findings;
-  findings.sizes = packing_summary(scene) + mesh_summary(scene);
+  findings.sizes = scene.space ? space::packing_summary(scene) + space::mesh_summary(scene)
+                               : packing_summary(scene) + mesh_summary(scene);
   findings.warnings = warnings_of(scene, bodies, simulation);
   findings.memory = memory_line(need);
   findings.run = estimate_line(simulation);
   findings.verdict =
       fmt::format("{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
-                  counted(scene.tools.size(), "tool"), counted(scene.stages.size(), "stage"));
+                  counted(scene.space ? scene.space->tools.size() : scene.tools.size(), "tool"),
+                  counted(scene.stages.size(), "stage"));
   return findings;
 }
-
-SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>& bodies,
-                          const MemoryNeed& need, Simulation* simulation) {
-  SceneFindings findings;
-  findings.sizes = space::packing_summary(scene) + space::mesh_summary(scene);
-  findings.warnings = space::setup_warnings(scene, bodies);
-  findings.memory = memory_line(need);
-  findings.run = estimate_line(simulation);
-  findings.verdict = fmt::format(
-      "{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
-      counted(scene.space->tools.size(), "tool"), counted(scene.stages.size(), "stage"));
-  return findings;
-}
-
-namespace {
-
-void check_in_space(const Scene& scene) {
-  const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
-  space::check_overlaps(scene, bodies);
-  const MemoryNeed need = memory_need(scene);
-  std::optional<Simulation> simulation;
-  if (need.total() <= available_memory()) simulation.emplace(scene);
-  tell_findings(findings_of(scene, bodies, need, simulation ? &*simulation : nullptr));
-}
-
-}  // namespace
 
 SceneFindings findings_of(const Scene& scene, const AfmModel& model) {
   std::size_t increments = 0;
@@ -131,12 +108,9 @@ ExitCode check_scene(const Scene& scene) {
     tell_findings(findings_of(scene, build_afm(scene)));
     return ExitCode::done;
   }
-  if (scene.space) {
-    check_in_space(scene);
-    return ExitCode::done;
-  }
-  const std::vector<BodySpec> bodies = place_bodies(scene);
-  check_overlaps(scene, bodies);
+  const std::vector<BodySpec> bodies =
+      scene.space ? space::place_bodies(scene) : place_bodies(scene);
+  scene.space ? space::check_overlaps(scene, bodies) : check_overlaps(scene, bodies);
   const MemoryNeed need = memory_need(scene);
   std::optional<Simulation> simulation;
   if (need.total() <= available_memory()) simulation.emplace(scene);

@@ -27,8 +27,6 @@ struct SceneFindings {
 // Advances the simulation.
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                           const MemoryNeed& need, Simulation* simulation);
-SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>& bodies,
-                          const MemoryNeed& need, Simulation* simulation);
 SceneFindings findings_of(const Scene& scene, const AfmModel& model);
 void tell_findings(const SceneFindings& findings);
 

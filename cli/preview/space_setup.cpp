@@ -28,8 +28,7 @@ constexpr std::array<const char*, 6> shape_names{"sphere",   "ellipsoid",  "supe
                                                  "cylinder", "polyhedron", "STL surface"};
 static_assert(shape_names.size() == std::variant_size_v<space::ParticleShape>);
 
-const space::ParticleSpec& class_of_body(const space::SpaceScene& scene,
-                                         const space::BodySpec& body) {
+const space::ParticleSpec& class_of_body(const space::SpaceScene& scene, const BodySpec& body) {
   const auto& spec = scene.particles[static_cast<std::size_t>(body.particle)];
   return spec.class_of < 0 ? spec : scene.particles[static_cast<std::size_t>(spec.class_of)];
 }
@@ -50,11 +49,11 @@ json particle_surface(const World& world, std::size_t first, int lane, const spa
   return {{"nodes", nodes}, {"faces", faces}};
 }
 
-json particles_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
+json particles_in_space(const Scene& scene, const std::vector<BodySpec>& bodies,
                         const World& world) {
   json out = json::array();
   visit_particles<ThreeD>(world, [&](std::size_t first, int lane, const space::Shape& shape) {
-    const space::BodySpec& body = bodies.at(out.size());
+    const BodySpec& body = bodies.at(out.size());
     const space::ParticleSpec& spec = class_of_body(*scene.space, body);
     json one = particle_surface(world, first, lane, shape);
     one["class"] = spec.name;
@@ -69,7 +68,7 @@ json particles_in_space(const Scene& scene, const std::vector<space::BodySpec>& 
 }
 
 // Diameters are those of spheres of the same volume; cylinders have their own as width.
-json classes_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
+json classes_in_space(const Scene& scene, const std::vector<BodySpec>& bodies,
                       const json& particles) {
   json out = json::array();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -147,40 +146,16 @@ json bonds_in_space(const Scene& scene, const World& world) {
           {"faces", bonded_faces<FaceContact>(world) + bonded_faces<FaceToolContact>(world)}};
 }
 
-json stages_in_space(const Scene& scene) {
-  const space::SpaceScene& space = *scene.space;
-  json stages = stage_setup(scene);  // without moves and servos, which are in `space`
-  for (std::size_t s = 0; s < stages.size(); ++s) {
-    const double duration = scene.stages[s].duration;
-    if (s < space.moves.size())
-      for (const space::MoveSpec& move : space.moves[s]) {
-        json out{{"tool", space.tools[static_cast<std::size_t>(move.tool)].name},
-                 {"displacement", triple(move.displacement)},
-                 {"speed", move.displacement.norm() / (duration * (1 - move.ramp))}};
-        if (move.stiffness) out["stiffness"] = *move.stiffness;
-        stages[s]["moves"].push_back(std::move(out));
-      }
-    if (s < space.servos.size())
-      for (const space::ServoSpec& servo : space.servos[s])
-        stages[s]["servos"].push_back(
-            {{"tool", space.tools[static_cast<std::size_t>(servo.tool)].name},
-             {"direction", triple(space::direction_of(servo, space))},
-             {"force", servo.force}});
-  }
-  return stages;
-}
-
 }  // namespace
 
-json space_setup(const Scene& scene, const std::vector<space::BodySpec>& bodies,
-                 const World& world) {
+json space_setup(const Scene& scene, const std::vector<BodySpec>& bodies, const World& world) {
   json setup{{"family", "particles"},
              {"dimension", 3},
              {"friction", pairs_setup(scene)},
              {"materials", materials_setup(scene)},
              {"particles", particles_in_space(scene, bodies, world)},
              {"count", bodies.size()},
-             {"stages", stages_in_space(scene)},
+             {"stages", stage_setup(scene)},
              {"bonds", bonds_in_space(scene, world)}};
   setup["classes"] = classes_in_space(scene, bodies, setup["particles"]);
   setup["tools"] = tools_in_space(scene, setup["particles"], world);

@@ -11,7 +11,7 @@ namespace pulvis {
 
 // materials, classes (with counts and sizes), particles (nodes of the surface and its faces), tools (pieces of their
 // surfaces), stages.
-nlohmann::json space_setup(const Scene& scene, const std::vector<space::BodySpec>& bodies,
+nlohmann::json space_setup(const Scene& scene, const std::vector<BodySpec>& bodies,
                            const World& world);
 
 }  // namespace pulvis

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/enum_table.hpp"
+#include "scenes/space/tools/drives.hpp"
 #include "scenes/spec/space_scene.hpp"
 #include "scenes/tools/servo_checks.hpp"
 
@@ -14,27 +15,38 @@ using nlohmann::json;
 constexpr EnumTable<StageSpec::Kind> stage_kinds{"settle", "compact", "hold",
                                                  "unload", "eject",   "shear"};
 
-json vector_of(const Vec2& v) { return {v.x(), v.y()}; }
+json vector_of(const Vec3& v, const Scene& scene) {
+  json out{v.x(), v.y()};
+  if (scene.space) out.push_back(v.z());
+  return out;
+}
 
 const std::string& tool_name(const Scene& scene, int tool) {
   if (scene.space) return scene.space->tools[static_cast<std::size_t>(tool)].name;
   return scene.tools[static_cast<std::size_t>(tool)].name;
 }
 
+bool moves_radially(const Scene& scene, int number) {
+  if (scene.space) return false;
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
+  return tool.shape == ToolSpec::Shape::constraint && tool.holds == ToolSpec::Holds::radial;
+}
+
 json move_setup(const Scene& scene, const StageSpec& stage, const MoveSpec& move) {
-  json out{{"tool", tool_name(scene, move.tool)}, {"displacement", vector_of(move.displacement)}};
+  json out{{"tool", tool_name(scene, move.tool)},
+           {"displacement", vector_of(move.displacement, scene)}};
   // The ramps at both ends take their share of the stage.
   out["speed"] = move.displacement.norm() / (stage.duration * (1 - move.ramp));
-  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(move.tool)];
-  if (tool.shape == ToolSpec::Shape::constraint && tool.holds == ToolSpec::Holds::radial)
-    out["radial"] = move.displacement.x();
+  if (moves_radially(scene, move.tool)) out["radial"] = move.displacement.x();
   if (move.stiffness) out["stiffness"] = *move.stiffness;
   return out;
 }
 
 json servo_setup(const Scene& scene, const ServoSpec& servo) {
   return {{"tool", tool_name(scene, servo.tool)},
-          {"direction", vector_of(direction_of(servo, scene))},
+          {"direction",
+           vector_of(scene.space ? space::direction_of(servo, scene) : direction_of(servo, scene),
+                     scene)},
           {"force", servo.force}};
 }
 

@@ -34,12 +34,19 @@ def wrapped(text, indent):
     return f"\n{indent}".join(lines)
 
 
+def text_of(key):
+    unit = f", {key['unit']}" if key["unit"] else ""
+    return f"{key['doc']} (allowed: {key['allowed']}{unit})"
+
+
 def fields_of(table, tables):
-    """Key names and their descriptions."""
+    """Key names and their descriptions. A key declared twice has another meaning in three dimensions."""
     prefix = table["path"] + "." if table["path"] else ""
+    texts = {}
     for key in table["keys"]:
-        unit = f", {key['unit']}" if key["unit"] else ""
-        yield key["name"], f"{key['doc']} (allowed: {key['allowed']}{unit})"
+        texts.setdefault(key["name"], []).append(text_of(key))
+    for name, own in texts.items():
+        yield name, own[0] if len(set(own)) == 1 else f"In two dimensions: {own[0]} In three dimensions: {own[-1]}"
     for child in tables:
         if child["path"].startswith(prefix) and child["path"] and "." not in child["path"][len(prefix):]:
             if child["path"] != table["path"]:

@@ -45,8 +45,8 @@ void check_distance(const Scene& scene, const Placing& placing, const std::vecto
   found.name = placing.particles[static_cast<std::size_t>(worst->particle)].name;
   for (std::size_t i = 0; i < placing.packings.size(); ++i)
     if (placing.packings[i].mark == worst->mark) found.key = fmt::format("packing[{}]", i);
-  for (std::size_t i = 0; i < placing.bodies.size(); ++i)
-    if (placing.bodies[i].mark == worst->mark) found.key = fmt::format("body[{}].position", i);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].mark == worst->mark) found.key = fmt::format("body[{}].position", i);
   refuse_far(scene, found);
 }
 

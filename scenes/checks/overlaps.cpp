@@ -75,7 +75,8 @@ Pose pose(const BodySpec& body) {
 
 // How far a body extends behind the tool's surface.
 double depth_behind(const ToolSpec& tool, const BodySpec& body, const OutlineReach& reach) {
-  return reach.along(body.angle, -tool.normal) - (body.position - tool.point).dot(tool.normal);
+  return reach.along(body.angle, -tool.normal) -
+         (in_plane(body.position) - tool.point).dot(tool.normal);
 }
 
 class OverlapSearch {
@@ -120,8 +121,8 @@ class OverlapSearch {
       const std::vector<Vec2> points(tool.points.rbegin(), tool.points.rend());
       const ToolSurface surface = make_surface(points, 0);
       return all_of_bodies([&](std::size_t i) {
-        return depth_in_tool(surface, bodies_[i].position - points.front(), bodies_[i].angle,
-                             check_polygon(outline(bodies_[i])));
+        return depth_in_tool(surface, in_plane(bodies_[i].position) - points.front(),
+                             bodies_[i].angle, check_polygon(outline(bodies_[i])));
       });
     }
     ToolSpec turned = tool;
@@ -199,7 +200,7 @@ class OverlapSearch {
   void behind_polyline(const ToolSpec& tool) {
     const ToolSurface surface = make_surface(tool.points, tool.rounding);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Vec2 centre = bodies_[i].position - tool.points.front();
+      const Vec2 centre = in_plane(bodies_[i].position) - tool.points.front();
       const auto box = rounded_box(outline(bodies_[i]));
       const double overlap =
           box ? depth_in_tool(surface, centre, bodies_[i].angle, *box)
@@ -328,7 +329,7 @@ std::vector<BodySpec> with_images(const Scene& scene, const std::vector<BodySpec
       for (const BodySpec& body : bodies) {
         if (i == 0 && k == 0) break;
         all.push_back(body);
-        all.back().position += i * first + k * second;
+        all.back().position.head<2>() += i * first + k * second;
       }
   return all;
 }

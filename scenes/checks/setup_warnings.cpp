@@ -29,7 +29,8 @@ double highest_speed(const MoveSpec& move, double duration) {
 
 // A tool that moves away from the powder exerts no pressure.
 bool leaves(const ToolSpec& tool, const MoveSpec& move) {
-  return tool.shape == ToolSpec::Shape::constraint || move.displacement.dot(face_normal(tool)) < 0;
+  return tool.shape == ToolSpec::Shape::constraint ||
+         in_plane(move.displacement).dot(face_normal(tool)) < 0;
 }
 
 }  // namespace

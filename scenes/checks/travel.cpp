@@ -38,7 +38,7 @@ double powder_area(const Scene& scene, const std::vector<BodySpec>& bodies) {
 
 Vec2 travel_of(const StageSpec& stage, int tool) {
   for (const MoveSpec& move : stage.moves)
-    if (move.tool == tool) return move.displacement;
+    if (move.tool == tool) return in_plane(move.displacement);
   return Vec2::Zero();
 }
 
@@ -143,7 +143,7 @@ std::vector<StageMoves<Vec2>> moves_of(const Scene& scene) {
     StageMoves<Vec2> moves;
     moves.decided = is_prescribed(stage) && !stage.until;
     for (const MoveSpec& move : stage.moves)
-      moves.of_tools.emplace_back(move.tool, move.displacement);
+      moves.of_tools.emplace_back(move.tool, in_plane(move.displacement));
     all.push_back(std::move(moves));
   }
   return all;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/language/vec2.hpp"
+#include "scenes/language/vectors.hpp"
 
 namespace pulvis::drawing {
 

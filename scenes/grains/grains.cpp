@@ -202,8 +202,8 @@ std::vector<BodySpec> grains_of(const Scene& scene, const std::vector<BodySpec>&
       const Vec2 arm = rotation(body.angle) * grain.at;
       BodySpec part = body;
       part.particle = static_cast<int>(scene.particles.size()) + grain.grain;
-      part.position += arm;
-      part.velocity += body.angular_velocity * Vec2(-arm.y(), arm.x());
+      part.position.head<2>() += arm;
+      part.velocity.head<2>() += body.angular_velocity.z() * Vec2(-arm.y(), arm.x());
       bodies.push_back(part);
     }
   }

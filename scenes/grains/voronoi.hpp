@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scenes/language/vec2.hpp"
+#include "scenes/language/vectors.hpp"
 
 namespace pulvis {
 

@@ -16,8 +16,9 @@ inline document::Value value_of(const char* text) { return {std::string(text), {
 inline document::Value value_of(double number) { return {number, {}}; }
 inline document::Value value_of(int integer) { return {std::int64_t{integer}, {}}; }
 inline document::Value value_of(bool flag) { return {flag, {}}; }
-inline document::Value pair_of(const char* x, const char* y) {
-  return {document::Array{value_of(x), value_of(y)}, {}};
+// Of a vector: as many components as the scene has dimensions.
+inline document::Value zero_vector(const char* component) {
+  return {document::Array{value_of(component)}, {}};
 }
 
 // Ranges [low, high], (low, high], (low, high).
@@ -41,6 +42,10 @@ auto to(std::string Spec::*member) {
 template <class Spec>
 auto to(Vec2 Spec::*member) {
   return [member](Spec& spec, const Decoded& value) { spec.*member = value.vector; };
+}
+template <class Spec>
+auto to(Vec3 Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.vector3; };
 }
 template <class Spec>
 auto to(std::vector<Vec2> Spec::*member) {

@@ -80,7 +80,8 @@ std::vector<Key<BondSpec>> bond_origin_keys() {
             .fallback = value_of(false),
             .only_for = "initial",
             .doc = "Restrict the bond to grains of the same particle, where it takes precedence "
-                   "over other bonds of these materials."},
+                   "over other bonds of these materials.",
+            .dimension = Dimension::two},
            flag_to(&BondSpec::inside)},
           {{.name = "weibull_modulus",
             .kind = Kind::number,

@@ -35,7 +35,8 @@ const TableDeclaration<CellSpec>& cell() {
        "A periodic cell instead of tools: what leaves on one side re-enters on the "
        "opposite side, so the powder has no walls. Stages deform it (`[stage.cell]`).",
        {"compaction"},
-       true},
+       true,
+       Dimension::two},
       {{{.name = "width",
          .kind = Kind::quantity,
          .unit = "m",
@@ -55,7 +56,7 @@ const TableDeclaration<CellSpec>& cell() {
          .kind = Kind::vector,
          .unit = "m",
          .range = within(-largest_size, largest_size),
-         .fallback = pair_of("0 m", "0 m"),
+         .fallback = zero_vector("0 m"),
          .doc = "Lower left corner, used to draw the cell."},
         to(&CellSpec::corner)},
        {{.name = "angle",
@@ -77,7 +78,7 @@ const TableDeclaration<CellDriveSpec>& cell_drive() {
        "its shape. In a die of four planes with normals along x and y, this table "
        "moves the planes, without shear or rotation and symmetrically on opposite "
        "sides.",
-       compaction_only, true},
+       compaction_only, true, Dimension::two},
       {strain_key("strain_xx",
                   "Logarithmic strain over the stage: the time integral of the rate of "
                   "deformation xx; < 0 in compression.",

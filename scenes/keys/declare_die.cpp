@@ -13,7 +13,7 @@ const TableDeclaration<DieSpec>& die() {
        "if there is one. Values that contradict it are refused. A saved scene holds "
        "the resulting packings and tools. An empty `[die]` puts the tools around the "
        "only packing.",
-       compaction_only, true},
+       compaction_only, true, Dimension::two},
       {{{.name = "width",
          .kind = Kind::quantity,
          .unit = "m",

@@ -18,7 +18,11 @@ std::vector<Key<ExpectSpec>> series_keys() {
                "the origin) of the whole powder; or a value of the whole run: "
                "`energy_balance_error`, "
                "`kinetic_ratio`.",
-        .fallback_doc = "none: the expectation concerns the `outcome`"},
+        .fallback_doc = "none: the expectation concerns the `outcome`",
+        .in_3d = {.doc = "A series of `history.csv`; `momentum/x`, `momentum/y`, `momentum/z`, "
+                         "`momentum/angular_x`, `momentum/angular_y` or `momentum/angular_z` "
+                         "(about the origin) of the whole powder; or a value of the whole run: "
+                         "`energy_balance_error`, `kinetic_ratio`."}},
        to(&ExpectSpec::series)},
       {{.name = "when",
         .kind = Kind::choice,

@@ -12,7 +12,8 @@ const TableDeclaration<GrainsSpec>& grains() {
        "The particle consists of grains: a Voronoi tessellation of its outline. Every "
        "grain is a separate body; grains are held together by a `[[bond]]`.",
        {"compaction"},
-       true},
+       true,
+       Dimension::two},
       {{{.name = "number",
          .kind = Kind::integer,
          .range = within(2, 4096),

@@ -66,7 +66,7 @@ std::vector<Key<PackingSpec>> die_keys() {
             .kind = Kind::vector,
             .unit = "m",
             .range = within(-largest_size, largest_size),
-            .fallback = pair_of("0 m", "0 m"),
+            .fallback = zero_vector("0 m"),
             .only_for = {"square", "hexagonal", "random"},
             .doc = "Lower left corner of the lattice cell of the first particle, or of the die."},
            to(&PackingSpec::corner)},
@@ -116,33 +116,42 @@ TableDeclaration<PackingSpec> declared_packing() {
 }
 
 std::vector<Key<MixtureClass>> share_keys() {
-  return {{{.name = "particle",
-            .kind = Kind::reference,
-            .refers_to = "particle",
-            .required = true,
-            .doc = "Particle class."},
-           index_to(&MixtureClass::particle)},
-          {{.name = "number",
-            .kind = Kind::integer,
-            .range = within(1, 1e5),
-            .doc = "Number of particles. In a mixture either all classes have a number, or all "
-                   "have a fraction of the same kind. A single class needs neither.",
-            .fallback_doc = "from the fractions"},
-           [](MixtureClass& mixed, const Decoded& value) {
-             mixed.number = static_cast<int>(value.integer);
-           }},
-          {{.name = "number_fraction",
-            .kind = Kind::number,
-            .range = above(0, 1),
-            .doc = "Number fraction; the fractions of all classes sum to 1.",
-            .fallback_doc = "none"},
-           [](MixtureClass& mixed, const Decoded& value) { mixed.number_fraction = value.number; }},
-          {{.name = "area_fraction",
-            .kind = Kind::number,
-            .range = above(0, 1),
-            .doc = "Area fraction; the fractions of all classes sum to 1.",
-            .fallback_doc = "none"},
-           [](MixtureClass& mixed, const Decoded& value) { mixed.area_fraction = value.number; }}};
+  return {
+      {{.name = "particle",
+        .kind = Kind::reference,
+        .refers_to = "particle",
+        .required = true,
+        .doc = "Particle class."},
+       index_to(&MixtureClass::particle)},
+      {{.name = "number",
+        .kind = Kind::integer,
+        .range = within(1, 1e5),
+        .doc = "Number of particles. In a mixture either all classes have a number, or all "
+               "have a fraction of the same kind. A single class needs neither.",
+        .fallback_doc = "from the fractions"},
+       [](MixtureClass& mixed, const Decoded& value) {
+         mixed.number = static_cast<int>(value.integer);
+       }},
+      {{.name = "number_fraction",
+        .kind = Kind::number,
+        .range = above(0, 1),
+        .doc = "Number fraction; the fractions of all classes sum to 1.",
+        .fallback_doc = "none"},
+       [](MixtureClass& mixed, const Decoded& value) { mixed.number_fraction = value.number; }},
+      {{.name = "area_fraction",
+        .kind = Kind::number,
+        .range = above(0, 1),
+        .doc = "Area fraction; the fractions of all classes sum to 1.",
+        .fallback_doc = "none",
+        .dimension = Dimension::two},
+       [](MixtureClass& mixed, const Decoded& value) { mixed.content_fraction = value.number; }},
+      {{.name = "volume_fraction",
+        .kind = Kind::number,
+        .range = above(0, 1),
+        .doc = "Volume fraction; the fractions of all classes sum to 1.",
+        .fallback_doc = "none",
+        .dimension = Dimension::three},
+       [](MixtureClass& mixed, const Decoded& value) { mixed.content_fraction = value.number; }}};
 }
 
 Key<MixtureClass> size_key(const char* name, double SizeLaw::*member, Words laws, const char* doc) {
@@ -176,49 +185,56 @@ Key<MixtureClass> distribution_key() {
   return {
       {.name = "distribution",
        .kind = Kind::choice,
-       .choices = words_of<SizeLaw::Kind>({{"mono", "all particles have the size of the class"},
-                                           {"uniform", "uniform from `minimum` to `maximum`"},
-                                           {"normal", "truncated at `minimum` and `maximum`"},
-                                           {"lognormal", "truncated at `minimum` and `maximum`"},
-                                           {"sieve", "sieve curve by area, from a file"}}),
+       .choices =
+           words_of<SizeLaw::Kind>({{"mono", "all particles have the size of the class"},
+                                    {"uniform", "uniform from `minimum` to `maximum`"},
+                                    {"normal", "truncated at `minimum` and `maximum`"},
+                                    {"lognormal", "truncated at `minimum` and `maximum`"},
+                                    {"sieve", "sieve curve by area or volume, from a file"}}),
        .fallback = value_of("mono"),
        .doc = "Size distribution by number of particles; \"sieve\": by area. The size of a "
               "particle is the smallest width of its outline, which determines the sieve it "
               "passes: the diameter of a disc, the shorter side of a rectangle. The outline "
-              "of the class is scaled to it."},
+              "of the class is scaled to it.",
+       .in_3d = {.doc = "Size distribution by number of particles; \"sieve\": by volume. The size "
+                        "of a particle determines the sieve it passes: its smallest width "
+                        "perpendicular to its thinnest direction. This is the diameter of a "
+                        "sphere or flat tablet, and the middle one of the three axes of an "
+                        "ellipsoid. The shape of the class is scaled to it."}},
       [](MixtureClass& mixed, const Decoded& value) {
         mixed.size.kind = value_for<SizeLaw::Kind>(value);
       }};
 }
 
 std::vector<Key<MixtureClass>> size_keys() {
-  return {distribution_key(),
-          size_key("mean", &SizeLaw::mean, {"normal", "lognormal"},
-                   "Mean size by number, before truncation."),
-          size_key("deviation", &SizeLaw::deviation, {"normal", "lognormal"},
-                   "Standard deviation of the size, before truncation."),
-          limit_key("minimum", "least", &SizeLaw::minimum, "Minimum size."),
-          limit_key("maximum", "largest", &SizeLaw::maximum, "Maximum size."),
-          {{.name = "file",
-            .kind = Kind::file,
-            .required = true,
-            .only_for = "sieve",
-            .doc = "Path relative to the folder of the scene. The columns are size (unit in the "
-                   "header, `size [mm]`) and passing: the area fraction of smaller particles, "
-                   "rising from 0 to 1, linearly interpolated."},
-           [](MixtureClass& mixed, const Decoded& value) { mixed.size.file = value.text; }},
-          {{.name = "sizes",
-            .kind = Kind::integer,
-            .range = within(1, 256),
-            .fallback = value_of(8),
-            .only_for = {"uniform", "normal", "lognormal", "sieve"},
-            .doc = "Number of discrete sizes that represent the distribution. Each stands for an "
-                   "equal fraction of it (of the particles; for \"sieve\" of the area) and has "
-                   "the mean area of its fraction. Particles of one size share a mesh and are "
-                   "computed eight at a time, so each size should have many particles."},
-           [](MixtureClass& mixed, const Decoded& value) {
-             mixed.size.sizes = static_cast<int>(value.integer);
-           }}};
+  return {
+      distribution_key(),
+      size_key("mean", &SizeLaw::mean, {"normal", "lognormal"},
+               "Mean size by number, before truncation."),
+      size_key("deviation", &SizeLaw::deviation, {"normal", "lognormal"},
+               "Standard deviation of the size, before truncation."),
+      limit_key("minimum", "least", &SizeLaw::minimum, "Minimum size."),
+      limit_key("maximum", "largest", &SizeLaw::maximum, "Maximum size."),
+      {{.name = "file",
+        .kind = Kind::file,
+        .required = true,
+        .only_for = "sieve",
+        .doc = "Path relative to the folder of the scene. The columns are size (unit in the "
+               "header, `size [mm]`) and passing: the fraction of smaller particles, by area or in "
+               "three dimensions by volume, rising from 0 to 1, linearly interpolated."},
+       [](MixtureClass& mixed, const Decoded& value) { mixed.size.file = value.text; }},
+      {{.name = "sizes",
+        .kind = Kind::integer,
+        .range = within(1, 256),
+        .fallback = value_of(8),
+        .only_for = {"uniform", "normal", "lognormal", "sieve"},
+        .doc = "Number of discrete sizes that represent the distribution. Each stands for an "
+               "equal fraction of it (of the particles; for \"sieve\" of the area or volume) and "
+               "has the mean area or volume of its fraction. Particles of one size share a mesh "
+               "and are computed eight at a time, so each size should have many particles."},
+       [](MixtureClass& mixed, const Decoded& value) {
+         mixed.size.sizes = static_cast<int>(value.integer);
+       }}};
 }
 
 TableDeclaration<MixtureClass> declared_class() {

@@ -32,8 +32,7 @@ const TableDeclaration<Scene>& top_level() {
          .kind = Kind::integer,
          .range = within(2, 3),
          .only_for = compaction_only,
-         .doc = "2: the language described here; 3: three-dimensional scenes, which have their "
-                "own language (docs/scene-3d.md).",
+         .doc = "Number of dimensions: 2 (plane strain) or 3, as a number, not an expression.",
          .fallback_doc = "`2`"},
         nothing<Scene>},
        {{.name = "title",
@@ -57,7 +56,8 @@ const TableDeclaration<Scene>& top_level() {
          .range = within(smallest_size, largest_size),
          .fallback = value_of("1 mm"),
          .only_for = compaction_only,
-         .doc = "Thickness of the plane-strain slice; forces refer to it."},
+         .doc = "Thickness of the plane-strain slice; forces refer to it.",
+         .dimension = Dimension::two},
         to(&Scene::thickness)},
        {{.name = "seed",
          .kind = Kind::integer,
@@ -76,7 +76,8 @@ const TableDeclaration<Scene>& top_level() {
                 "relative to the folder of the scene. The powder in its periodic cell starts "
                 "from it, at time 0 and with the stages of this scene. Accumulated quantities "
                 "(strain, work, energies) continue from it.",
-         .fallback_doc = "the initial packing"},
+         .fallback_doc = "the initial packing",
+         .dimension = Dimension::two},
         [](Scene& scene, const Decoded& value) { scene.initial_state = value.text; }}}};
   return declaration;
 }

@@ -1,48 +1,8 @@
-// Declarations of the process: manual placement, stages, friction, and the settings
+// Declarations of the process: stages, friction, and the settings
 // of a run.
 #include "scenes/keys/declare.hpp"
 
 namespace pulvis::schema {
-
-const TableDeclaration<BodySpec>& body() {
-  static const TableDeclaration<BodySpec> declaration{
-      {"body", true, "", "A particle placed individually."},
-      {{{.name = "particle",
-         .kind = Kind::reference,
-         .refers_to = "particle",
-         .required = true,
-         .doc = "Particle class."},
-        index_to(&BodySpec::particle)},
-       {{.name = "position",
-         .kind = Kind::vector,
-         .unit = "m",
-         .range = within(-largest_size, largest_size),
-         .required = true,
-         .doc = "Centre of the outline."},
-        to(&BodySpec::position)},
-       {{.name = "angle",
-         .kind = Kind::quantity,
-         .unit = "rad",
-         .range = within(-1000, 1000),
-         .fallback = value_of("0 deg"),
-         .doc = "Rotation, counter-clockwise."},
-        to(&BodySpec::angle)},
-       {{.name = "velocity",
-         .kind = Kind::vector,
-         .unit = "m/s",
-         .range = within(-1e5, 1e5),
-         .fallback = pair_of("0 m/s", "0 m/s"),
-         .doc = "Initial velocity of the centre."},
-        to(&BodySpec::velocity)},
-       {{.name = "angular_velocity",
-         .kind = Kind::quantity,
-         .unit = "rad/s",
-         .range = within(-1e12, 1e12),
-         .fallback = value_of("0 rad/s"),
-         .doc = "Initial angular velocity, counter-clockwise."},
-        to(&BodySpec::angular_velocity)}}};
-  return declaration;
-}
 
 const TableDeclaration<StageSpec>& stage() {
   static const TableDeclaration<StageSpec> declaration{
@@ -57,7 +17,9 @@ const TableDeclaration<StageSpec>& stage() {
               {"hold", "tools are fixed and hold the load"},
               {"unload", "tools move back"},
               {"eject", "tools move and push the compact out of the die"},
-              {"shear", "tools move and slide a surface under the powder"}}),
+              {.word = "shear",
+               .doc = "tools move and slide a surface under the powder",
+               .dimension = Dimension::two}}),
          .required = true,
          .doc = "Purpose of the stage."},
         word_to(&StageSpec::kind)},
@@ -72,7 +34,8 @@ const TableDeclaration<StageSpec>& stage() {
          .kind = Kind::flag,
          .fallback = value_of(false),
          .doc = "Save the state at the end of the stage as `state-<name>.h5` in the run "
-                "folder; other scenes can start from it (`initial_state`)."},
+                "folder; other scenes can start from it (`initial_state`).",
+         .dimension = Dimension::two},
         [](StageSpec& spec, const Decoded& value) { spec.keep_state = value.flag; }}}};
   return declaration;
 }
@@ -110,7 +73,13 @@ const TableDeclaration<MoveSpec>& move() {
                 "spring, and the tool follows as a mass on the spring. In the next stage the "
                 "tool keeps its last position unless that stage also drives it through a "
                 "spring.",
-         .fallback_doc = "rigid: the tool follows the displacement exactly"},
+         .fallback_doc = "rigid: the tool follows the displacement exactly",
+         .in_3d = {.doc = "Stiffness of a compliant drive along the displacement. The "
+                          "displacement then applies to the far end of the spring, and the "
+                          "tool follows as a mass on the spring. In the next stage the tool "
+                          "keeps its last position unless that stage also drives it through a "
+                          "spring. If that one has another direction, only the motion along it "
+                          "continues."}},
         to(&MoveSpec::stiffness)},
        {{.name = "mass",
          .kind = Kind::quantity,
@@ -212,7 +181,12 @@ const TableDeclaration<ContactSpec>& contact() {
          .doc = "Contact stiffness, as a multiple of bulk modulus times edge length divided by "
                 "element area. Elastic contacts, relative densities above 0.97 and the elastic "
                 "response of metals (springback, residual stress, moduli) need 10; the run "
-                "reports the resulting errors."},
+                "reports the resulting errors.",
+         .in_3d = {.doc = "Contact stiffness, as a multiple of bulk modulus times face area "
+                          "divided by the volume of the element behind the face. The default is "
+                          "10 if no material yields. The elastic response of metals (springback, "
+                          "residual stress, moduli) needs 10 as well; the run reports the "
+                          "resulting errors."}},
         to(&ContactSpec::stiffness)},
        {{.name = "damping",
          .kind = Kind::number,
@@ -224,31 +198,42 @@ const TableDeclaration<ContactSpec>& contact() {
          .kind = Kind::number,
          .range = within(0.01, 10),
          .fallback = value_of(0.2),
-         .doc = "Skin distance of the contact search, as a fraction of the shortest edge: how "
-                "far surfaces may approach each other before the search is repeated. It "
-                "affects run time, not results."},
+         .doc = "Skin distance of the contact search, as a fraction of the shortest edge, in "
+                "three dimensions of the smallest face: how far surfaces may approach each other "
+                "before the search is repeated. It affects run time, not results."},
         to(&ContactSpec::skin)}}};
   return declaration;
 }
 
 const TableDeclaration<ElementSpec>& element() {
   static const TableDeclaration<ElementSpec> declaration{
-      {"element", false, "", "Finite elements of all particles: quads."},
+      {"element", false, "",
+       "Finite elements of all particles: quads, in three dimensions 8-node hexahedra."},
       {{{.name = "formulation",
          .kind = Kind::choice,
-         .choices = words_of<Formulation>(
-             {{"four-point",
-               "2x2 Gauss points with a single dilatation (mean dilatation); inaccurate in "
-               "bending with few element rows: with one row, errors range from -60% to a "
-               "factor of several (docs/accuracy.md)"},
-              {"one-point",
-               "one Gauss point with hourglass modes stabilised by elastic-plastic bending; "
-               "faster"},
-              {"standard",
-               "2x2 Gauss points, each with its own dilatation; locks, for comparison only"}}),
+         .choices = {{.word = "four-point",
+                      .doc = "2x2 Gauss points with a single dilatation (mean dilatation); "
+                             "inaccurate in bending with few element rows: with one row, errors "
+                             "range from -60% to a factor of several (docs/accuracy.md)",
+                      .dimension = Dimension::two},
+                     {"one-point",
+                      "one Gauss point with hourglass modes stabilised by elastic-plastic "
+                      "bending; faster"},
+                     {.word = "standard",
+                      .doc = "2x2 Gauss points, each with its own dilatation; locks, for "
+                             "comparison only",
+                      .dimension = Dimension::two},
+                     {.word = "eight-point",
+                      .doc = "2x2x2 Gauss points with a single dilatation (mean dilatation): the "
+                             "reference",
+                      .dimension = Dimension::three}},
          .fallback = value_of("one-point"),
          .doc = "Element formulation."},
-        word_to(&ElementSpec::formulation)}}};
+        [](ElementSpec& spec, const Decoded& value) {
+          constexpr std::array in_order{Formulation::four_point, Formulation::one_point,
+                                        Formulation::standard, Formulation::four_point};
+          spec.formulation = in_order.at(static_cast<std::size_t>(value.index));
+        }}}};
   return declaration;
 }
 
@@ -269,7 +254,8 @@ const TableDeclaration<TimeSpec>& time() {
                "from the highest frequency of each whole particle, tracked by power "
                "iteration; up to a quarter longer"}}),
          .fallback = value_of("element"),
-         .doc = "Basis of the stable time step."},
+         .doc = "Basis of the stable time step.",
+         .dimension = Dimension::two},
         word_to(&TimeSpec::estimate)}}};
   return declaration;
 }
@@ -295,13 +281,25 @@ const TableDeclaration<OutputSpec>& output() {
          .doc = "Columns and rows of a grid between the tools in which local relative "
                 "densities are recorded: in every frame, and their minimum, maximum and "
                 "standard deviation over time. Requires a tool on each of the four sides.",
-         .fallback_doc = "no local densities"},
+         .fallback_doc = "no local densities",
+         .dimension = Dimension::two},
         [](OutputSpec& spec, const Decoded& value) { spec.density_cells = value.counts; }},
+       {{.name = "density_cells",
+         .kind = Kind::counts,
+         .range = within(1, 200),
+         .doc = "Number of cells along x, y and z of a grid between the tools in which local "
+                "relative densities are recorded: in every frame, and their minimum, maximum "
+                "and standard deviation over time. Requires an enclosed region: six planes "
+                "along the axes, or a round die along one axis between two planes or punches.",
+         .fallback_doc = "no local densities",
+         .dimension = Dimension::three},
+        [](OutputSpec& spec, const Decoded& value) { spec.density_cells3 = value.counts3; }},
        {{.name = "contacts",
          .kind = Kind::flag,
          .fallback = value_of(false),
-         .doc = "Record the contact network: forces, normals and lengths of all touching pairs "
-                "and force chains in every frame; coordination number, fabric and mean forces "
+         .doc = "Record the contact network: forces, normals and lengths (in three dimensions "
+                "areas) of all touching pairs and force chains in every frame; coordination "
+                "number, fabric and mean forces "
                 "over time."},
         flag_to(&OutputSpec::contacts)},
        {{.name = "particle_stress",

@@ -9,20 +9,20 @@ std::vector<Key<ServoSpec>> aims() {
             .kind = Kind::reference,
             .refers_to = "tool",
             .required = true,
-            .doc = "Force-controlled tool: a plane or a polyline."},
+            .doc = "Force-controlled tool, which has contact."},
            index_to(&ServoSpec::tool)},
           {{.name = "force",
             .kind = Kind::quantity,
             .unit = "N",
             .range = within(0, 1e12),
             .required = true,
-            .doc = "Target force, for the slice of the scene's thickness."},
+            .doc = "Target force; in two dimensions for the slice of the scene's thickness."},
            to(&ServoSpec::force)},
           {{.name = "direction",
             .kind = Kind::direction,
             .doc = "Direction of the force exerted by the tool.",
-            .fallback_doc = "the normal of a plane; required for polylines"},
-           [](ServoSpec& spec, const Decoded& value) { spec.direction = value.vector; }}};
+            .fallback_doc = "the normal of a plane or punch; required for other tools"},
+           [](ServoSpec& spec, const Decoded& value) { spec.direction = value.vector3; }}};
 }
 
 std::vector<Key<ServoSpec>> manners() {
@@ -89,7 +89,8 @@ const TableDeclaration<UntilSpec>& until() {
   static const TableDeclaration<UntilSpec> declaration{
       {"stage.until", false, "",
        "Ends the preceding stage before its duration is over, at a displacement, relative "
-       "density or force. Its tools or strains come to rest as smoothly as they started. At "
+       "density or force. Its tools (or the strains of a periodic cell) come to rest as smoothly "
+       "as they started. At "
        "a displacement or relative density they are then at rest, as they begin to slow "
        "down before it. A force is not known in advance: they begin to slow down where it "
        "is reached, it rises further, and [[stage.servo]] holds one. If the condition is "
@@ -108,7 +109,7 @@ const TableDeclaration<UntilSpec>& until() {
          .range = above(0, 1e12),
          .needs = "tool",
          .doc = "Force of the powder on the tool from which on the stage slows down: against the "
-                "normal of a plane, the magnitude for a polyline.",
+                "normal of a plane or punch, the magnitude for other tools.",
          .fallback_doc = "none"},
         to(&UntilSpec::force)},
        {{.name = "displacement",
@@ -124,7 +125,9 @@ const TableDeclaration<UntilSpec>& until() {
          .range = above(0, 2),
          .doc = "Relative density of the powder in a die of four planes, or in a periodic cell, "
                 "after its tools or strains have come to rest.",
-         .fallback_doc = "none"},
+         .fallback_doc = "none",
+         .in_3d = {.doc = "Relative density of the powder between six planes, or in a round die "
+                          "between two planes or punches, after they have come to rest."}},
         to(&UntilSpec::relative_density)}}};
   return declaration;
 }

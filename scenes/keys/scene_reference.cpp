@@ -19,6 +19,12 @@ are refused with the message `file:line:col: key: what is wrong, allowed: what i
 `"45 deg"`. Any unit of the right dimension is accepted; a number without a unit is refused where a
 unit is required. Ranges below are in SI units. Dimensionless **numbers** are written without quotes: `0.3`.
 
+**Dimensions**: a scene has two dimensions (plane strain, a slice of the given thickness), or three with `dimension = 3` at
+its top. The column *in* says where a key exists; a key that means something else in three dimensions has two rows. A
+vector has as many components as the scene has dimensions: `["0 mm", "1 mm"]` or `["0 mm", "0 mm", "1 mm"]`; a punch
+usually moves along the last axis. A key or word of the other dimension is refused with an explanation.
+Levers (`family = "afm"`) have no `dimension`.
+
 **Variables and expressions**: `[let]` defines named numbers and quantities. Wherever the scene expects a
 number or a quantity, an expression in quotes may be used.
 
@@ -82,6 +88,48 @@ value that is not valid TOML is read as a string.
 --set "material[0].yield_stress=100 MPa"     --set "material.316L.yield_stress=100 MPa"
 --set "stage.press.duration=2 ms"            --set stage.press.move.top.ramp=0.2
 --set 'tool.top.point=["0 m", "101 mm"]'
+```
+
+**A complete scene** in three dimensions, a ball between two plates ([tutorial-3d.md](tutorial-3d.md) leads on from here):
+
+```toml
+family = "compaction"
+dimension = 3
+
+[[material]]
+name = "316L"
+library = "316L"
+
+[[particle]]
+name = "ball"
+material = "316L"
+shape = "sphere"
+diameter = "1 mm"
+
+[[body]]
+particle = "ball"
+position = ["0 mm", "0 mm", "0.5 mm"]
+
+[[tool]]
+name = "bottom"
+shape = "plane"
+point = ["0 mm", "0 mm", "0 mm"]
+normal = [0, 0, 1]
+
+[[tool]]
+name = "top"
+shape = "plane"
+point = ["0 mm", "0 mm", "1 mm"]
+normal = [0, 0, -1]
+
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "50 us"
+
+[[stage.move]]
+tool = "top"
+displacement = ["0 mm", "0 mm", "-0.1 mm"]
 ```
 )md";
 

@@ -1,10 +1,12 @@
 // The tables of a scene, which together form the scene language.
 #pragma once
 
+#include "scenes/language/document.hpp"
 #include "scenes/language/schema.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "scenes/spec/die.hpp"
 #include "scenes/spec/scene.hpp"
+#include "scenes/spec/space_scene.hpp"
 
 namespace pulvis::schema {
 
@@ -42,6 +44,27 @@ const TableDeclaration<DetectorSpec>& detector();
 const TableDeclaration<TargetSpec>& surface();
 const TableDeclaration<ActionSpec>& action();
 
+// Of all scenes: keys say in which dimensions they exist.
 const Language& scene_language();
+// Of scenes with this dimension, 2 or 3.
+const Language& scene_language(int dimension);
 
 }  // namespace pulvis::schema
+
+namespace pulvis {
+
+// 2, or 3 if the scene says `dimension = 3`.
+int dimension_of(const document::Table& root);
+// For a scene: depends on its dimension.
+const schema::Language& language_of(const document::Table& root);
+
+}  // namespace pulvis
+
+namespace pulvis::space::language {
+
+const schema::TableDeclaration<ParticleSpec>& particle();
+const schema::TableDeclaration<ParticleSpec>& mesh();
+const schema::TableDeclaration<PackingSpec>& packing();
+const schema::TableDeclaration<ToolSpec>& tool();
+
+}  // namespace pulvis::space::language

@@ -90,13 +90,20 @@ double quantity(const KeyInfo& key, const Value& value) {
   }
 }
 
-// Two, or one per dimension.
-const document::Array& parts_of(const KeyInfo& key, const Value& value) {
+const document::Array& parts_of(const KeyInfo& key, const Value& value, int number) {
   const auto* array = value.as<document::Array>();
   if (array == nullptr) refuse_type(key, value);
-  if (static_cast<int>(array->size()) != key.dimensions)
+  if (static_cast<int>(array->size()) != number)
     refuse(key, value, fmt::format("an array of length {} is given", array->size()));
   return *array;
+}
+const document::Array& components_of(const KeyInfo& key, const Value& value) {
+  return parts_of(key, value, key.components);
+}
+
+// In the declaration of the key.
+int index_of(const Choice& choice, std::size_t at) {
+  return choice.index < 0 ? static_cast<int>(at) : choice.index;
 }
 
 const std::string& word(const KeyInfo& key, const Value& value) {
@@ -139,7 +146,7 @@ std::int64_t integer(const KeyInfo& key, const Value& value) {
 }
 
 void set_counts(const KeyInfo& key, const Value& value, Decoded& result) {
-  const document::Array& parts = parts_of(key, value);
+  const document::Array& parts = components_of(key, value);
   for (std::size_t i = 0; i < parts.size(); ++i)
     result.counts3[i] = static_cast<int>(integer(key, parts[i]));
   result.counts = {result.counts3[0], result.counts3[1]};
@@ -155,7 +162,7 @@ int choice(const KeyInfo& key, const Value& value) {
   const std::string& given = word(key, value);
   std::vector<std::string> words;
   for (std::size_t i = 0; i < key.choices.size(); ++i) {
-    if (key.choices[i].word == given) return static_cast<int>(i);
+    if (key.choices[i].word == given) return index_of(key.choices[i], i);
     if (!given.empty() && key.choices[i].formerly == given)
       refuse(key, value, fmt::format("'{}' is called '{}' now", given, key.choices[i].word));
     words.push_back(key.choices[i].word);
@@ -179,7 +186,7 @@ int reference(const KeyInfo& key, const Value& value, const Names& names) {
 
 // A vector in the plane, with z = 0.
 Eigen::Vector3d vector(const KeyInfo& key, const Value& value) {
-  const document::Array& parts = parts_of(key, value);
+  const document::Array& parts = components_of(key, value);
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < parts.size(); ++i)
     result[static_cast<Eigen::Index>(i)] = quantity(key, parts[i]);
@@ -195,12 +202,12 @@ void set_vector(const Eigen::Vector3d& vector, Decoded& result) {
 std::optional<int> word_instead(const KeyInfo& key, const Value& value) {
   const auto* text = value.as<std::string>();
   for (std::size_t i = 0; text != nullptr && i < key.choices.size(); ++i)
-    if (key.choices[i].word == *text) return static_cast<int>(i);
+    if (key.choices[i].word == *text) return index_of(key.choices[i], i);
   return std::nullopt;
 }
 
 void vector_or_word(const KeyInfo& key, const Value& value, Decoded& result) {
-  const document::Array& parts = parts_of(key, value);
+  const document::Array& parts = components_of(key, value);
   const std::optional<int> word = word_instead(key, parts.back());
   if (!word) return set_vector(vector(key, value), result);
   result.is_word = true;
@@ -233,7 +240,7 @@ void set_points(const KeyInfo& key, const Value& value, Decoded& result) {
 }
 
 void set_direction(const KeyInfo& key, const Value& value, Decoded& result) {
-  const document::Array& parts = parts_of(key, value);
+  const document::Array& parts = components_of(key, value);
   Eigen::Vector3d given = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < parts.size(); ++i)
     given[static_cast<Eigen::Index>(i)] = bare_number(key, parts[i]);
@@ -242,6 +249,7 @@ void set_direction(const KeyInfo& key, const Value& value, Decoded& result) {
   // Scaled first: the square of 1e200 is infinite.
   result.vector = (given.head<2>() / largest).normalized();
   result.vector3 = (given / largest).normalized();
+  if (key.components == 2) result.vector3.head<2>() = result.vector;
 }
 
 // Tools without contact are refused by the checks, with the reason.
@@ -256,7 +264,7 @@ std::string no_surface(const Value& part, std::vector<std::string> known, const 
 }
 
 std::array<std::string, 2> name_pair(const KeyInfo& key, const Value& value, const Names& names) {
-  const document::Array& parts = parts_of(key, value);
+  const document::Array& parts = parts_of(key, value, 2);
   std::vector<std::string> known;
   for (const char* table : {"material", "tool"}) {
     const auto found = names.find(table);

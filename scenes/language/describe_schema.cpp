@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace pulvis {
 namespace {
@@ -39,8 +40,12 @@ constexpr const char* quantity_pattern =
 
 Json quantity_type() { return {{"type", "string"}, {"pattern", quantity_pattern}}; }
 
+// `count` 0: two or three.
 Json list_of(const Json& item, int count) {
-  return {{"type", "array"}, {"items", item}, {"minItems", count}, {"maxItems", count}};
+  return {{"type", "array"},
+          {"items", item},
+          {"minItems", count == 0 ? 2 : count},
+          {"maxItems", count == 0 ? 3 : count}};
 }
 
 Json words(const std::vector<schema::Choice>& choices) {
@@ -62,7 +67,7 @@ Json in_range(const char* type, const schema::Range& range) {
 }
 
 Json vector_type(const schema::KeyInfo& key) {
-  Json json = list_of(quantity_type(), key.dimensions);
+  Json json = list_of(quantity_type(), key.components);
   if (!key.choices.empty())
     json["items"] = {{"anyOf", Json::array({words(key.choices), quantity_type()})}};
   return json;
@@ -83,7 +88,7 @@ Json type_of(const schema::KeyInfo& key) {
       return vector_type(key);
     case Kind::points:
       return {
-          {"type", "array"}, {"items", list_of(quantity_type(), key.dimensions)}, {"minItems", 2}};
+          {"type", "array"}, {"items", list_of(quantity_type(), key.components)}, {"minItems", 2}};
     case Kind::phase:
       return {{"anyOf", Json::array({Json{{"const", key.word}}, quantity_type()})}};
     case Kind::number:
@@ -91,11 +96,11 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::integer:
       return in_range("integer", key.range);
     case Kind::counts:
-      return list_of(in_range("integer", key.range), key.dimensions);
+      return list_of(in_range("integer", key.range), key.components);
     case Kind::flag:
       return {{"type", "boolean"}};
     case Kind::direction:
-      return list_of({{"type", "number"}}, key.dimensions);
+      return list_of({{"type", "number"}}, key.components);
     case Kind::text:
       return text_type(200);
     case Kind::file:
@@ -125,8 +130,27 @@ Json property(const schema::KeyInfo& key) {
   Json json = type_of(key);
   if (key.multiple_of > 1) json["multipleOf"] = key.multiple_of;
   json["description"] = fmt::format("{} Allowed: {}.", key.doc, schema::allowed(key));
-  if (key.fallback) json["default"] = json_of(*key.fallback);
+  const bool is_complete =
+      key.fallback && (key.kind != schema::Kind::vector || key.components != 0);
+  if (is_complete) json["default"] = json_of(*key.fallback);
   return json;
+}
+
+// Of all keys with one name: two if either dimension has its own.
+Json property(const std::vector<const schema::KeyInfo*>& keys) {
+  Json json = property(*keys.front());
+  if (keys.size() == 1) return json;
+  json = {{"anyOf", Json::array({json})}};
+  for (std::size_t i = 1; i < keys.size(); ++i) json["anyOf"].push_back(property(*keys[i]));
+  return json;
+}
+
+std::vector<const schema::KeyInfo*> keys_called(const std::string& name,
+                                                const schema::TableView& view) {
+  std::vector<const schema::KeyInfo*> keys;
+  for (const schema::KeyInfo& key : view.keys)
+    if (key.name == name) keys.push_back(&key);
+  return keys;
 }
 
 std::vector<const schema::TableView*> children(const std::string& path,
@@ -164,20 +188,22 @@ void require(Json& json, const Json& required, const schema::TableView& view) {
   json["anyOf"] = {Json{{"required", with_library}}, Json{{"required", required}}};
 }
 
-// For one value of the selector: requires its keys, and forbids the keys of other values, in
+// For one value of a selector: requires its keys, and forbids the keys of other values, in
 // the table itself and in its subtables.
-Json branch(const schema::TableView& view, const std::string& selected,
+Json branch(const schema::TableView& view, const std::string& selector, const std::string& selected,
             const schema::Language& language, Extent extent) {
   Json required = Json::array(), properties = Json::object();
   for (const schema::KeyInfo& key : view.keys) {
-    if (key.only_for.empty()) continue;
-    if (!key.only_for.has(selected)) properties[key.name] = false;
+    const auto is_meant = [&](const schema::KeyInfo* one) {
+      return one->only_for.empty() || one->only_for.has(selected);
+    };
+    if (std::ranges::none_of(keys_called(key.name, view), is_meant)) properties[key.name] = false;
     if (key.only_for.has(selected) && schema::is_required(key, selected))
       required.push_back(key.name);
   }
   for (const schema::TableView* child : children(view.info.path, language))
-    if (child->info.selector == view.info.selector)
-      properties[name_of(*child)] = branch(*child, selected, language, extent);
+    if (child->info.selector == selector || child->info.selector_3d == selector)
+      properties[name_of(*child)] = branch(*child, selector, selected, language, extent);
   if (view.info.path.empty()) {
     for (const schema::TableView* child : children("", language))
       if (!schema::belongs(child->info, selected)) properties[name_of(*child)] = false;
@@ -197,13 +223,14 @@ Json selects(const schema::KeyInfo& selector, const std::string& word, Extent ex
   return test;
 }
 
-void add_branches(Json& json, const schema::TableView& view, const schema::Language& language,
-                  Extent extent) {
-  const schema::KeyInfo* selector = schema::find_key(view, view.info.selector);
-  if (selector == nullptr) return;
-  for (const schema::Choice& choice : selector->choices)
-    json["allOf"].push_back({{"if", selects(*selector, choice.word, extent)},
-                             {"then", branch(view, choice.word, language, extent)}});
+void add_branches(Json& json, const schema::TableView& view, const std::string& selector,
+                  const schema::Language& language, Extent extent) {
+  std::set<std::string> done;  // words that both dimensions have
+  for (const schema::KeyInfo* key : keys_called(selector, view))
+    for (const schema::Choice& choice : key->choices)
+      if (done.insert(choice.word).second)
+        json["allOf"].push_back({{"if", selects(*key, choice.word, extent)},
+                                 {"then", branch(view, selector, choice.word, language, extent)}});
 }
 
 // User-defined names, as in [let].
@@ -234,7 +261,7 @@ Json table(const schema::TableView& view, const schema::Language& language, Exte
   Json json{{"type", "object"}, {"description", view.info.doc}, {"additionalProperties", false}};
   Json required = Json::array();
   for (const schema::KeyInfo& key : view.keys) {
-    json["properties"][key.name] = property(key);
+    json["properties"][key.name] = property(keys_called(key.name, view));
     if (key.required && key.only_for.empty()) required.push_back(key.name);
     if (!key.needs.empty() && extent == Extent::whole)
       json["dependentRequired"][key.name] = {key.needs};
@@ -245,8 +272,34 @@ Json table(const schema::TableView& view, const schema::Language& language, Exte
     json["properties"][name_of(*child)] = inner;
   }
   if (extent == Extent::whole) require(json, required, view);
-  add_branches(json, view, language, extent);
+  add_branches(json, view, view.info.selector, language, extent);
+  if (view.info.selector_3d != view.info.selector)
+    add_branches(json, view, view.info.selector_3d, language, extent);
   return json;
+}
+
+Json whole_file(const schema::Language& language, const std::vector<std::string>& required) {
+  Json whole = table(language.front(), language, Extent::whole);
+  for (const std::string& key : required) whole["required"].push_back(key);
+  if (schema::find_table("let", language) != nullptr) allow_expressions(whole);
+  return whole;
+}
+
+// A file that extends no other is complete, in its dimension.
+void add_whole_files(Json& json, const schema::Language& language,
+                     const std::vector<std::string>& required) {
+  json["if"]["not"]["required"] = {"extends"};
+  if (schema::find_key(language.front(), "dimension") == nullptr) {
+    json["then"]["$ref"] = "#/$defs/whole";
+    json["$defs"]["whole"] = whole_file(language, required);
+    return;
+  }
+  const Json three{{"properties", {{"dimension", {{"const", 3}}}}}, {"required", {"dimension"}}};
+  json["then"] = {{"if", three},
+                  {"then", {{"$ref", "#/$defs/three-dimensions"}}},
+                  {"else", {{"$ref", "#/$defs/two-dimensions"}}}};
+  json["$defs"]["two-dimensions"] = whole_file(schema::in_dimension(language, 2), required);
+  json["$defs"]["three-dimensions"] = whole_file(schema::in_dimension(language, 3), required);
 }
 
 }  // namespace
@@ -257,20 +310,14 @@ std::string json_schema_of(const std::string& title, const std::string& declared
   Json json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
             {"title", title},
             {"$comment", "Generated from the declarations in " + declared_in + "."}};
-  Json whole = table(language.front(), language, Extent::whole);
-  for (const std::string& key : required) whole["required"].push_back(key);
-  const bool has_variables = schema::find_table("let", language) != nullptr;
-  if (has_variables) allow_expressions(whole);
   if (schema::find_key(language.front(), "extends") == nullptr) {
-    json.update(whole);
+    json.update(whole_file(language, required));
     return json.dump(2) + "\n";
   }
   Json part = table(language.front(), language, Extent::part);
-  if (has_variables) allow_expressions(part);
+  if (schema::find_table("let", language) != nullptr) allow_expressions(part);
   json.update(part);
-  json["if"]["not"]["required"] = {"extends"};
-  json["then"]["$ref"] = "#/$defs/whole";
-  json["$defs"]["whole"] = whole;
+  add_whole_files(json, language, required);
   return json.dump(2) + "\n";
 }
 

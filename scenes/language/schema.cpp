@@ -32,9 +32,18 @@ std::string integer_text(const KeyInfo& key) {
   return "a whole number" + range_text(key.range) + multiple;
 }
 
-std::string number_word(const KeyInfo& key) { return key.dimensions == 3 ? "three" : "two"; }
-std::string axes(const KeyInfo& key) { return key.dimensions == 3 ? "[x, y, z]" : "[x, y]"; }
-std::string last_axis(const KeyInfo& key) { return key.dimensions == 3 ? "z" : "y"; }
+// For 2, 3, or as many components as the scene has dimensions.
+const char* of_components(const KeyInfo& key, const char* two, const char* three,
+                          const char* both) {
+  return key.components == 3 ? three : key.components == 2 ? two : both;
+}
+std::string number_word(const KeyInfo& key) {
+  return of_components(key, "two", "three", "two or three");
+}
+std::string axes(const KeyInfo& key) {
+  return of_components(key, "[x, y]", "[x, y, z]", "[x, y] or [x, y, z]");
+}
+std::string last_axis(const KeyInfo& key) { return of_components(key, "y", "z", "the last"); }
 
 bool is_child(const TableInfo& info, const std::string& parent) {
   const auto dot = info.path.rfind('.');
@@ -90,7 +99,84 @@ void fill(document::Value& value, const TableView& view, const std::string& pare
   }
 }
 
+// ---- the part of one dimension ---------------------------------------------------------------------
+bool exists_in(Dimension where, int dimension) {
+  return where == Dimension::every || (where == Dimension::three) == (dimension == 3);
+}
+
+bool has_components(Kind kind) {
+  return kind == Kind::vector || kind == Kind::points || kind == Kind::direction ||
+         kind == Kind::counts;
+}
+
+// Words keep the numbers that setters know them by.
+void leave_out_words(std::vector<Choice>& choices, int dimension) {
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (choices[i].index < 0) choices[i].index = static_cast<int>(i);
+  std::erase_if(choices,
+                [&](const Choice& choice) { return !exists_in(choice.dimension, dimension); });
+}
+
+// The default of a vector is declared with one component, which stands for all.
+void repeat_component(std::optional<document::Value>& fallback, int components) {
+  auto* array = fallback ? fallback->as<document::Array>() : nullptr;
+  if (array == nullptr || array->size() != 1) return;
+  const document::Value component = array->front();
+  array->resize(static_cast<std::size_t>(components), component);
+}
+
+void take_what_differs(KeyInfo& key) {
+  if (!key.in_3d.doc.empty()) key.doc = key.in_3d.doc;
+  if (!key.in_3d.fallback_doc.empty()) key.fallback_doc = key.in_3d.fallback_doc;
+  if (key.in_3d.range) key.range = *key.in_3d.range;
+}
+
+// Values of the selector that exist in the other dimension only, and keys that exist only with them.
+void leave_out_selected(TableView& view, const KeyInfo& selector, int dimension) {
+  const auto is_missing = [&](const std::string& word) {
+    const auto choice = std::ranges::find(selector.choices, word, &Choice::word);
+    return choice != selector.choices.end() && !exists_in(choice->dimension, dimension);
+  };
+  std::erase_if(view.keys, [&](KeyInfo& key) {
+    const bool for_some = !key.only_for.empty();
+    std::erase_if(key.only_for.list, is_missing);
+    std::erase_if(key.optional_for.list, is_missing);
+    return for_some && key.only_for.empty();
+  });
+}
+
+KeyInfo key_in(KeyInfo key, int dimension) {
+  if (dimension == 3) take_what_differs(key);
+  leave_out_words(key.choices, dimension);
+  if (has_components(key.kind) && key.components == 0) {
+    key.components = dimension;
+    repeat_component(key.fallback, dimension);
+  }
+  return key;
+}
+
 }  // namespace
+
+TableView in_dimension(TableView view, int dimension) {
+  if (dimension == 3 && !view.info.doc_3d.empty()) view.info.doc = view.info.doc_3d;
+  if (dimension == 3 && !view.info.selector_3d.empty()) view.info.selector = view.info.selector_3d;
+  if (const KeyInfo* selector = find_key(view, view.info.selector))
+    leave_out_selected(view, KeyInfo(*selector), dimension);
+  std::erase_if(view.keys,
+                [&](const KeyInfo& key) { return !exists_in(key.dimension, dimension); });
+  for (KeyInfo& key : view.keys) key = key_in(std::move(key), dimension);
+  return view;
+}
+
+Language in_dimension(const Language& language, int dimension) {
+  Language result;
+  for (const TableView& view : language) {
+    const bool of_lever = view.info.families.list == afm_only.list;  // its scenes have no dimension
+    if (exists_in(view.info.dimension, dimension) && !(of_lever && dimension == 3))
+      result.push_back(in_dimension(view, dimension));
+  }
+  return result;
+}
 
 bool Range::holds(double value) const {
   const bool above_low = without_low ? value > low : value >= low;
@@ -148,7 +234,8 @@ std::string allowed(const KeyInfo& key) {
                   ? ""
                   : fmt::format("; for {} also {}", last_axis(key), quoted_words(key.choices)));
     case Kind::points:
-      return fmt::format("at least two points [{0}, {0}, ...] {1}", axes(key), quantity);
+      return fmt::format("at least two points [{0}, {0}, ...] {1}",
+                         of_components(key, "[x, y]", "[x, y, z]", "[x, y(, z)]"), quantity);
     case Kind::phase:
       return fmt::format("\"{}\" or a quantity {}", key.word, quantity);
     case Kind::number:
@@ -162,7 +249,7 @@ std::string allowed(const KeyInfo& key) {
       return "true or false";
     case Kind::direction:
       return fmt::format("{} numbers {}, not {} 0", number_word(key), axes(key),
-                         key.dimensions == 3 ? "all" : "both");
+                         of_components(key, "both", "all", "all"));
     case Kind::text:
       return "a string of at most 200 characters on one line";
     case Kind::name:

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "scenes/language/document.hpp"
-#include "scenes/language/vec2.hpp"
+#include "scenes/language/vectors.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,10 +49,15 @@ struct Range {
   bool holds(double value) const;  // false for NaN
 };
 
+// The dimensions of the scenes in which a key, a word or a table exists.
+enum class Dimension { every, two, three };
+
 struct Choice {
   std::string word;
   std::string doc;
   std::string formerly = {};  // its keyword in older scenes
+  Dimension dimension = Dimension::every;
+  int index = -1;  // in the declaration, if words of the other dimension have been left out
 };
 
 // Values of a selector: one word, or several in braces.
@@ -71,6 +76,13 @@ struct Words {
 inline const Words compaction_only{"compaction"}, afm_only{"afm"},
     every_family{"compaction", "afm"};
 
+// What a key says of scenes in three dimensions where that differs; what is empty does not.
+struct InThreeDimensions {
+  std::string doc = {};
+  std::string fallback_doc = {};
+  std::optional<Range> range = {};
+};
+
 struct KeyInfo {
   std::string name = {};
   std::string formerly = {};  // its name in older scenes, which is refused with a pointer to the new one
@@ -78,7 +90,7 @@ struct KeyInfo {
   std::string unit = {};  // SI, of quantities
   Range range = {};       // of quantities in the SI unit; for vectors, of each component
   int multiple_of = 1;    // of integers
-  int dimensions = 2;     // of vectors, points, directions and counts
+  int components = 0;     // of vectors, points, directions, counts; 0: one per dimension of the scene
   std::vector<Choice> choices =
       {};                      // of a number, or a vector's last component: keywords allowed instead
   std::string word = {};       // Kind::phase: the keyword allowed instead of a quantity
@@ -90,6 +102,9 @@ struct KeyInfo {
   std::string needs = {};   // another key without which this one has no effect
   std::string doc = {};
   std::string fallback_doc = {};  // what happens without the key, if the default is not a value
+  Dimension dimension = Dimension::every;
+  InThreeDimensions in_3d = {};
+  std::size_t number = 0;  // in its declaration (view_of)
   bool of_lever = false;          // in a table of levers, where lengths are in micrometres (view_of)
 };
 
@@ -103,7 +118,7 @@ struct Decoded {
   std::array<int, 2> counts = {};
   Vec2 vector = Vec2::Zero();
   std::vector<Vec2> points = {};
-  std::array<int, 3> counts3 = {};  // if `dimensions` is 3
+  std::array<int, 3> counts3 = {};  // the same values; z = 0 in two dimensions
   Eigen::Vector3d vector3 = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> points3 = {};
   std::string text = {};
@@ -120,6 +135,8 @@ struct TableInfo {
   std::string doc;
   Words families = {"compaction"};  // families of experiments that have this table
   bool optional = false;  // without it the feature is absent, rather than having default values
+  Dimension dimension = Dimension::every;
+  std::string doc_3d = {}, selector_3d = {};  // in three dimensions, where they differ
 };
 
 template <class Spec>
@@ -148,10 +165,16 @@ TableView view_of(const TableDeclaration<Spec>& declaration) {
   TableView result{declaration.info, {}};
   for (const Key<Spec>& key : declaration.keys) {
     result.keys.push_back(key.info);
+    result.keys.back().number = result.keys.size() - 1;
     result.keys.back().of_lever = declaration.info.families.list == afm_only.list;
   }
   return result;
 }
+
+// A table or language as scenes of this dimension (2 or 3) have it: without the tables, keys and words of the other one,
+// and with the texts, ranges and numbers of components there.
+TableView in_dimension(TableView view, int dimension);
+Language in_dimension(const Language& language, int dimension);
 
 const TableView* find_table(const std::string& path, const Language& language);
 // Whether a table below the top level belongs to the family; for an unknown family, all do.

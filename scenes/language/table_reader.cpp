@@ -127,7 +127,7 @@ std::optional<Decoded> TableReader::value_of(const KeyInfo& key) {
   const std::string path = joined_path(path_, key.name);
   origins_[path] = entry->value.origin;
   try {
-    return decode(*find_key(*view_, key.name), entry->value, names_);
+    return decode(key, entry->value, names_);
   } catch (const Refusal& refusal) {
     const auto* text = entry->value.as<std::string>();
     const bool explained = key.kind == Kind::reference && text != nullptr && explain_;

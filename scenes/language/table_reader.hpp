@@ -21,8 +21,9 @@ class TableReader {
   void read(const TableDeclaration<Spec>& declaration, const document::Value& value,
             const std::string& path, const std::string& parent_selected, Spec& spec) {
     if (!begin(declaration.info, value, path, parent_selected)) return;
-    for (const Key<Spec>& key : declaration.keys)
-      if (const std::optional<Decoded> decoded = value_of(key.info)) key.set(spec, *decoded);
+    for (const KeyInfo& key : view_->keys)
+      if (const std::optional<Decoded> decoded = value_of(key))
+        declaration.keys.at(key.number).set(spec, *decoded);
   }
 
   // The elements of a repeated table; empty, with a problem, if it is written as anything else.

@@ -138,7 +138,7 @@ class RandomPacking {
       const V2 at = turn == 0 ? in_cell : turned * in_cell;
       BodySpec body;
       body.particle = classes_[shape];
-      body.position = packing_.corner + unit_ * Vec2(at.x, at.y);
+      body.position = in_space(packing_.corner + unit_ * Vec2(at.x, at.y));
       body.angle = portable::atan2(pose.turn.s, pose.turn.c) + turn;
       body.mark = packing_.mark;
       packing_.placed.push_back(body);
@@ -176,7 +176,7 @@ void read_file(Scene& scene, PackingSpec& packing) {
   for (const FiledParticle& particle : filed.particles) {
     BodySpec body;
     body.particle = sized_class(scene, particle.particle, particle.scale);
-    body.position = particle.position;
+    body.position = in_space(particle.position);
     body.angle = particle.angle;
     body.mark = packing.mark;
     packing.placed.push_back(body);

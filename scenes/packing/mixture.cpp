@@ -65,7 +65,7 @@ class Mixer {
       refuse("", "a random packing without particles, allowed: at least one [[packing.class]]");
     const std::size_t numbers = classes_with(&MixtureClass::number);
     const std::size_t by_number = classes_with(&MixtureClass::number_fraction);
-    const std::size_t by_share = classes_with(&MixtureClass::area_fraction);
+    const std::size_t by_share = classes_with(&MixtureClass::content_fraction);
     const bool alone = all == 1 && numbers + by_number + by_share == 0;
     const bool alike = (numbers == all) + (by_number == all) + (by_share == all) == 1 &&
                        numbers + by_number + by_share == all;
@@ -75,7 +75,7 @@ class Mixer {
                          "with a number, or every class with a number_fraction, or with {} {}",
                          packing_.dimensions == 3 ? "a" : "an", share_key()));
     if (by_number == all) add_up(&MixtureClass::number_fraction, "number_fraction");
-    if (by_share == all) add_up(&MixtureClass::area_fraction, share_key());
+    if (by_share == all) add_up(&MixtureClass::content_fraction, share_key());
     if (numbers > 0 && packing_.count)
       refuse(
           ".count",
@@ -154,7 +154,7 @@ class Mixer {
     std::vector<double> shares;
     for (std::size_t c = 0; c < laws_.size(); ++c) {
       const MixtureClass& mixed = packing_.classes[c];
-      shares.push_back(mixed.area_fraction ? *mixed.area_fraction / laws_[c].mean_content
+      shares.push_back(mixed.content_fraction ? *mixed.content_fraction / laws_[c].mean_content
                                            : mixed.number_fraction.value_or(1));
     }
     return shares;
@@ -187,7 +187,7 @@ class Mixer {
     const Law& law = laws_[c];
     const MixtureClass& mixed = packing_.classes[c];
     if (number == 0 && !wrong_)
-      refuse(class_key(c, mixed.area_fraction ? share_key() : "number_fraction"),
+      refuse(class_key(c, mixed.content_fraction ? share_key() : "number_fraction"),
              "no whole particle of this class remains, allowed: a larger count or fraction");
     std::vector<double> shares;
     for (const SizeShare& size : law.sizes) shares.push_back(size.share);

@@ -19,7 +19,7 @@ struct TurnedBox {
   Vec2 half, centre;
   Eigen::Matrix2d turn;
   TurnedBox(const BodySpec& body, const RoundedBox& box)
-      : half(box.half), centre(body.position), turn(rotation(body.angle)) {}
+      : half(box.half), centre(in_plane(body.position)), turn(rotation(body.angle)) {}
   std::array<Vec2, 4> corners() const {
     std::array<Vec2, 4> list;
     for (std::size_t i = 0; i < 4; ++i)

@@ -32,10 +32,11 @@ void add_packing(const PackingSpec& packing, std::uint64_t seed, std::vector<Bod
     for (int column = 0; column < packing.columns - fewer; ++column) {
       BodySpec body;
       body.particle = packing.particle;
-      body.position =
+      Vec2 at =
           packing.corner + packing.spacing * Vec2(column + 0.5 + 0.5 * fewer, rise * row + 0.5);
       if (packing.perturbation > 0)
-        body.position += packing.perturbation * packing.spacing * in_circle(random);
+        at += packing.perturbation * packing.spacing * in_circle(random);
+      body.position = in_space(at);
       body.mark = packing.mark;
       bodies.push_back(body);
     }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "scenes/language/vec2.hpp"
+#include "scenes/language/vectors.hpp"
 #include "scenes/outlines/outline.hpp"
 
 namespace pulvis {

@@ -83,13 +83,8 @@ std::string for_elastic_response(const Scene& scene, const ContactFindings& cont
 
 // Free bodies that fly, spin or collide are not quasi-static, nor meant to be.
 bool starts_moving(const Scene& scene) {
-  const auto moves = [](const auto& body) { return body.velocity.norm() > 0; };
-  if (scene.space)
-    return std::ranges::any_of(scene.space->bodies, [&](const space::BodySpec& body) {
-      return moves(body) || body.angular_velocity.norm() > 0;
-    });
-  return std::ranges::any_of(scene.bodies, [&](const BodySpec& body) {
-    return moves(body) || body.angular_velocity != 0;
+  return std::ranges::any_of(scene.bodies, [](const BodySpec& body) {
+    return body.velocity.norm() > 0 || body.angular_velocity.norm() > 0;
   });
 }
 

@@ -68,7 +68,8 @@ std::optional<ShearSetup> target_of(const Scene& scene, const StageSpec& stage) 
     const ToolSpec& tool = scene.tools[static_cast<std::size_t>(move.tool)];
     if (tool.shape == ToolSpec::Shape::constraint) continue;
     const Vec2 up = face_normal(tool);
-    const Vec2 along = move.displacement - move.displacement.dot(up) * up;
+    const Vec2 moved = in_plane(move.displacement);
+    const Vec2 along = moved - moved.dot(up) * up;
     const bool presses_only = along.norm() < 1e-9 * move.displacement.norm();
     if (presses_only || along.norm() <= longest) continue;
     longest = along.norm();

@@ -57,7 +57,7 @@ std::vector<double> elements_of_chunks(const Layout& layout) {
 std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
-  check_travel(scene, bodies);
+  space::check_travel(scene, bodies);
   Layout layout = lay_out(scene, bodies);
   std::unique_ptr<World> world = empty_world(part);
   hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout));

@@ -84,7 +84,7 @@ class SpaceChecks {
   void something_is_there() {
     if (scene_.materials.empty()) refuse_missing("material", "at least one [[material]]");
     if (space_.particles.empty()) refuse_missing("particle", "at least one [[particle]]");
-    if (space_.bodies.empty() && space_.packings.empty())
+    if (scene_.bodies.empty() && space_.packings.empty())
       refuse_missing("body", "at least one [[body]] or [[packing]]");
     if (scene_.stages.empty()) refuse_missing("stage", "at least one [[stage]]");
   }
@@ -117,8 +117,8 @@ class SpaceChecks {
   }
 
   void counts() {
-    std::int64_t particles = static_cast<std::int64_t>(space_.bodies.size()), total = 0;
-    for (const BodySpec& body : space_.bodies) total += hexahedra_of(body.particle);
+    std::int64_t particles = static_cast<std::int64_t>(scene_.bodies.size()), total = 0;
+    for (const BodySpec& body : scene_.bodies) total += hexahedra_of(body.particle);
     for (std::size_t i = 0; i < space_.packings.size(); ++i) {
       const PackingSpec& packing = space_.packings[i];
       if (!is_lattice_kind(packing)) continue;
@@ -171,7 +171,7 @@ class SpaceChecks {
 
   void output() {
     if (scene_.output.contacts && space_.tools.empty() && space_.packings.empty() &&
-        space_.bodies.size() < 2)
+        scene_.bodies.size() < 2)
       refuse("output.contacts",
              "has no effect: nothing can touch the only particle, allowed: with two particles, or "
              "with a tool");
@@ -184,13 +184,14 @@ class SpaceChecks {
 
   void stages() {
     for (std::size_t s = 0; s < scene_.stages.size(); ++s)
-      check_stage_kind(scene_.stages[s], space_.moves[s].size(), space_.servos[s].size(),
-                       "[[stage.move]] or [[stage.servo]]", fmt::format("stage[{}]", s), refusal());
+      check_stage_kind(scene_.stages[s], scene_.stages[s].moves.size(),
+                       scene_.stages[s].servos.size(), "[[stage.move]] or [[stage.servo]]",
+                       fmt::format("stage[{}]", s), refusal());
   }
 
   void everything_is_used() {
     std::set<int> particles, materials;
-    for (const BodySpec& body : space_.bodies) particles.insert(body.particle);
+    for (const BodySpec& body : scene_.bodies) particles.insert(body.particle);
     for (const PackingSpec& packing : space_.packings) {
       if (is_lattice_kind(packing)) particles.insert(packing.particle);
       for (const MixtureClass& mixed : packing.classes) particles.insert(mixed.particle);

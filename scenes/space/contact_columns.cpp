@@ -10,8 +10,8 @@
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
-#include "scenes/space/tools/drives.hpp"
 #include "scenes/space/tools/tool_shapes.hpp"
+#include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
@@ -31,7 +31,7 @@ ContactRules rules_of(const Scene& scene) {
       for (const MaterialSpec& material : scene.materials)
         rules.tool_adhesion.push_back(adhesion_of(scene, tool.name, material.name));
   rules.tool_thickness.assign(scene.space->tools.size(), std::numeric_limits<double>::infinity());
-  rules.servos = has_servos(*scene.space);
+  rules.servos = has_servos(scene);
   return rules;
 }
 

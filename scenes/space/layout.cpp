@@ -80,8 +80,7 @@ void add_class(Layout& layout, const Scene& scene, std::size_t particle,
 
 Layout lay_out(const Scene& scene, const std::vector<BodySpec>& bodies) {
   Layout layout;
-  layout.bodies.formulation =
-      scene.space->full_integration ? Formulation::four_point : Formulation::one_point;
+  layout.bodies.formulation = scene.element.formulation;
   layout.bodies.slot_of_number.assign(bodies.size(), Bodies::empty_slot);
   const auto classes = by_classes(scene, bodies);
   int face = 0;

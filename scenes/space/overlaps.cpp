@@ -224,8 +224,8 @@ class OverlapReport {
     const SpaceScene& space = *scene_.space;
     for (std::size_t i = 0; i < space.packings.size(); ++i)
       if (space.packings[i].mark == body.mark) return fmt::format("packing[{}]", i);
-    for (std::size_t i = 0; i < space.bodies.size(); ++i)
-      if (space.bodies[i].mark == body.mark) return fmt::format("body[{}].position", i);
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
+      if (scene_.bodies[i].mark == body.mark) return fmt::format("body[{}].position", i);
     return "particle";
   }
 

@@ -74,7 +74,7 @@ SpaceMemory memory_of(const Scene& scene) {
   const bool weakening = any_friction(scene, [](const Friction& f) { return !f.only_coulomb(); });
   const bool plastic = any_material_yields(scene),
              damped = std::ranges::any_of(scene.materials, &MaterialSpec::damped);
-  const std::uint64_t element = scene.space->full_integration
+  const std::uint64_t element = scene.element.formulation == Formulation::four_point
                                     ? bytes_of_element<EightPoint>(plastic)
                                     : bytes_of_element<OnePoint>(plastic);
   const std::uint64_t node =

@@ -20,7 +20,7 @@ namespace {
 FastTool fastest_in_space(const Scene& scene) {
   FastTool fast;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
-    for (const MoveSpec& move : scene.space->moves[s]) {
+    for (const MoveSpec& move : scene.stages[s].moves) {
       const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(move.tool)];
       const double speed = move.displacement.norm() / (scene.stages[s].duration * (1 - move.ramp));
       const bool leaves = has_face(tool) && move.displacement.dot(tool.normal) < 0;
@@ -53,9 +53,9 @@ std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<Bo
   std::vector<std::string> lines = coarse_surface_warnings(scene);
   for (std::string& line : contact_overlap_warnings(scene, bodies))
     lines.push_back(std::move(line));
-  for (std::string& line : travel_warnings(scene, bodies)) lines.push_back(std::move(line));
+  for (std::string& line : space::travel_warnings(scene, bodies)) lines.push_back(std::move(line));
   for (std::string& line : space::leaving_warnings(scene)) lines.push_back(std::move(line));
-  for (std::string& line : until_warnings(scene, density_at_start(scene, bodies)))
+  for (std::string& line : until_warnings(scene, space::density_at_start(scene, bodies)))
     lines.push_back(std::move(line));
   for (std::string& line : mouth_warnings(scene, bodies)) lines.push_back(std::move(line));
   for (std::string& line : thin_wall_warnings(scene)) lines.push_back(std::move(line));

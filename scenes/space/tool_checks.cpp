@@ -25,13 +25,13 @@ class ToolsInSpace {
         profile(space_.tools[t], fmt::format("tool[{}].profile", t));
     for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
       const std::string path = fmt::format("stage[{}]", s);
-      moves(space_.moves[s], path);
+      moves(scene_.stages[s].moves, path);
       elastic_moves(s, path);
       servos(s, path);
       if (!scene_.stages[s].until) continue;
       until(*scene_.stages[s].until, path + ".until");
-      check_travel(*scene_.stages[s].until, space_.moves[s], space_.servos[s], path + ".until",
-                   refuse_);
+      check_travel(*scene_.stages[s].until, scene_.stages[s].moves, scene_.stages[s].servos,
+                   path + ".until", refuse_);
     }
   }
 
@@ -75,10 +75,10 @@ class ToolsInSpace {
 
   // For moves with a compliant drive.
   void elastic_moves(std::size_t stage, const std::string& stage_path) {
-    for (std::size_t i = 0; i < space_.moves[stage].size(); ++i) {
-      const MoveSpec& move = space_.moves[stage][i];
+    for (std::size_t i = 0; i < scene_.stages[stage].moves.size(); ++i) {
+      const MoveSpec& move = scene_.stages[stage].moves[i];
       if (move.stiffness &&
-          std::ranges::count(space_.servos[stage], move.tool, &ServoSpec::tool) > 0)
+          std::ranges::count(scene_.stages[stage].servos, move.tool, &ServoSpec::tool) > 0)
         refuse_(fmt::format("{}.move[{}].stiffness", stage_path, i),
                 fmt::format("'{}' has a servo in the same stage, allowed: only one of the two",
                             name_of(move.tool)));
@@ -87,8 +87,8 @@ class ToolsInSpace {
 
   void servos(std::size_t stage, const std::string& stage_path) {
     std::set<int> driven;
-    for (std::size_t i = 0; i < space_.servos[stage].size(); ++i) {
-      const ServoSpec& servo = space_.servos[stage][i];
+    for (std::size_t i = 0; i < scene_.stages[stage].servos.size(); ++i) {
+      const ServoSpec& servo = scene_.stages[stage].servos[i];
       const std::string path = fmt::format("{}.servo[{}]", stage_path, i);
       if (!driven.insert(servo.tool).second)
         refuse_(path + ".tool",
@@ -96,18 +96,15 @@ class ToolsInSpace {
                             name_of(servo.tool)));
       if (servo.rate && given(path + ".rise"))
         refuse_(path + ".rise", "has no effect together with rate, allowed: one of the two");
-      const Vec3 direction = direction_of(servo, *scene_.space);
+      const Vec3 direction = space::direction_of(servo, scene_);
       if (direction.isZero(0))
         refuse_(path + ".direction",
                 "required key is missing: only planes and punches have a normal, allowed: three "
                 "numbers, not all 0");
       const ToolSpec& tool = space_.tools[static_cast<std::size_t>(servo.tool)];
-      if (has_face(tool) && direction.dot(tool.normal) < -1e-9)
-        refuse_(path + ".direction",
-                fmt::format("points away from the powder, which does not stick to '{}', allowed: "
-                            "along its normal, or across it",
-                            tool.name));
-      for (const MoveSpec& move : space_.moves[stage])
+      if (has_face(tool) && pulls_off(scene_, tool.name, direction, tool.normal))
+        refuse_(path + ".direction", fmt::format(pulled_off, tool.name));
+      for (const MoveSpec& move : scene_.stages[stage].moves)
         if (move.tool == servo.tool && !move.stiffness &&
             std::abs(move.displacement.dot(direction)) > 1e-9 * move.displacement.norm())
           refuse_(

@@ -92,8 +92,8 @@ std::vector<StageMoves<Vec3>> moves_of(const Scene& scene) {
   std::vector<StageMoves<Vec3>> all;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     StageMoves<Vec3> moves;
-    moves.decided = scene.space->servos[s].empty() && !scene.stages[s].until;
-    for (const MoveSpec& move : scene.space->moves[s]) {
+    moves.decided = scene.stages[s].servos.empty() && !scene.stages[s].until;
+    for (const MoveSpec& move : scene.stages[s].moves) {
       moves.decided = moves.decided && !move.stiffness;
       moves.of_tools.emplace_back(move.tool, move.displacement);
     }
@@ -103,7 +103,7 @@ std::vector<StageMoves<Vec3>> moves_of(const Scene& scene) {
 }
 
 [[noreturn]] void refuse_meeting(const Scene& scene, const Meeting& meeting) {
-  const auto& moves = scene.space->moves[static_cast<std::size_t>(meeting.stage)];
+  const auto& moves = scene.stages[static_cast<std::size_t>(meeting.stage)].moves;
   const auto move = std::ranges::find(moves, meeting.first, &MoveSpec::tool);
   const auto name = [&](int tool) {
     return scene.space->tools[static_cast<std::size_t>(tool)].name;
@@ -145,10 +145,10 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
   const double volume = powder_volume(scene, bodies);
   Places places = start_of_tools(*scene.space);
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
-    const std::vector<MoveSpec>& moves = scene.space->moves[s];
+    const std::vector<MoveSpec>& moves = scene.stages[s].moves;
     const bool gives =
         std::ranges::any_of(moves, [](const MoveSpec& move) { return move.stiffness.has_value(); });
-    if (gives || !scene.space->servos[s].empty() || scene.stages[s].until) return std::nullopt;
+    if (gives || !scene.stages[s].servos.empty() || scene.stages[s].until) return std::nullopt;
     const Places end = moved(places, moves, 1);
     const double left = room_left(*room, end);
     if (left < volume && left < room_left(*room, places))
@@ -160,12 +160,12 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
 
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (is_to_stop(scene)) return;
-  const auto full = full_density(scene, bodies);
+  const auto full = space::full_density(scene, bodies);
   if (!full && !scene.initial_state)
     if (const auto meeting = first_meeting(faces_of(*scene.space), moves_of(scene)))
       refuse_meeting(scene, *meeting);
   if (!full || full->density < too_dense) return;
-  const std::vector<MoveSpec>& moves = scene.space->moves[static_cast<std::size_t>(full->stage)];
+  const std::vector<MoveSpec>& moves = scene.stages[static_cast<std::size_t>(full->stage)].moves;
   for (std::size_t m = 0; m < moves.size(); ++m) {
     if (moves[m].tool != full->tool) continue;
     throw SceneError(
@@ -181,7 +181,7 @@ std::vector<std::string> leaving_warnings(const Scene& scene) {
   const std::vector<StageMoves<Vec3>> moves = moves_of(scene);
   std::vector<std::string> leaving(scene.stages.size());
   for (std::size_t s = 0; s < leaving.size(); ++s)
-    if (scene.space->servos[s].empty())
+    if (scene.stages[s].servos.empty())
       if (const auto tool = tool_that_leaves(moves[s], faces))
         leaving[s] = scene.space->tools[static_cast<std::size_t>(*tool)].name;
   return pulvis::leaving_warnings(scene, leaving);
@@ -189,7 +189,7 @@ std::vector<std::string> leaving_warnings(const Scene& scene) {
 
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
   constexpr double slightly = 1.02;  // -, what metals bear under a few GPa
-  const auto full = full_density(scene, bodies);
+  const auto full = space::full_density(scene, bodies);
   if (!full || full->density < slightly) return {};
   return {told(scene, *full) + ": beyond it the solid can only be compressed elastically"};
 }

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "scenes/language/source_mark.hpp"
-#include "scenes/language/vec2.hpp"
+#include "scenes/language/vectors.hpp"
 
 namespace pulvis {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "scenes/language/vec2.hpp"
+#include "scenes/language/vectors.hpp"
 
 namespace pulvis {
 

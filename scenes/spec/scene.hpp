@@ -14,10 +14,11 @@
 
 #include "components/formulation.hpp"
 #include "scenes/language/source_mark.hpp"
-#include "scenes/language/vec2.hpp"
+#include "scenes/language/vectors.hpp"
 #include "scenes/spec/cell_spec.hpp"
 #include "scenes/spec/profile_spec.hpp"
 #include "scenes/spec/results_spec.hpp"
+#include "scenes/spec/rotation.hpp"
 
 namespace pulvis {
 
@@ -183,10 +184,11 @@ struct ParticleSpec {  // a class of identical particles
 
 struct BodySpec {                // one particle, placed individually
   int particle = 0;              // index in Scene::particles
-  Vec2 position = Vec2::Zero();  // m, centre of the outline
-  double angle = 0;              // rad, counter-clockwise
-  Vec2 velocity = Vec2::Zero();  // m/s
-  double angular_velocity = 0;   // rad/s
+  Vec3 position = Vec3::Zero();  // m, centre of the outline or of the volume
+  double angle = 0;              // rad, counter-clockwise; in two dimensions
+  Rotation3 rotation = Rotation3::Identity();  // from its local frame to the scene's; in three
+  Vec3 velocity = Vec3::Zero();                // m/s
+  Vec3 angular_velocity = Vec3::Zero();        // rad/s, in the scene's frame
   SourceMark mark;
   int parent = -1;  // of a grain: the particle's number in the order of placement
 };
@@ -207,7 +209,7 @@ struct MixtureClass {
   int particle = 0;                       // index in Scene::particles
   std::optional<int> number;              // one of these three
   std::optional<double> number_fraction;  // -, of all particles
-  std::optional<double> area_fraction;    // -, of their total area
+  std::optional<double> content_fraction;  // -, of their total area or volume
   SizeLaw size;
   SourceMark mark;
 };
@@ -273,7 +275,7 @@ struct ToolSpec {
 
 struct MoveSpec {
   int tool = 0;                      // index in Scene::tools
-  Vec2 displacement = Vec2::Zero();  // m, over the stage
+  Vec3 displacement = Vec3::Zero();  // m, over the stage
   double ramp = 0.1;  // -, fraction of the stage in which the speed rises smoothly, and falls again
   std::optional<double> stiffness, mass;  // N/m, kg: of a compliant drive, moved at its far end
   double damping = 0;                     // -, fraction of the critical damping of both
@@ -282,7 +284,7 @@ struct MoveSpec {
 
 struct ServoSpec {                // a tool under force control during one stage
   int tool = 0;                   // index in Scene::tools
-  std::optional<Vec2> direction;  // unit vector along which it pushes; absent: a plane's normal
+  std::optional<Vec3> direction;  // unit vector along which it pushes; absent: the tool's normal
   double force = 0;               // N
   double rise = 0.2;              // -, fraction of the stage until the full force is prescribed
   std::optional<double> rate;     // N/s, instead of `rise`
@@ -356,6 +358,7 @@ struct TimeSpec {
 };
 
 struct ElementSpec {
+  // four_point: 2x2 points of a quad or 2x2x2 of a hexahedron with a single dilatation.
   Formulation formulation = Formulation::one_point;
 };
 

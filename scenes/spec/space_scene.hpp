@@ -1,5 +1,5 @@
-// The powder, tools and moves of a scene in three dimensions (`dimension = 3`): plain values, SI units. Everything
-// shared with two dimensions (materials, friction, contact, stages, limits, output) is in scenes/spec/scene.hpp.
+// The powder and the tools of a scene in three dimensions (`dimension = 3`): plain values, SI units. Everything shared
+// with two dimensions (materials, friction, contact, stages, limits, output) is in scenes/spec/scene.hpp.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace pulvis::space {
 
-using Vec3 = Eigen::Vector3d;
+using Vec3 = pulvis::Vec3;
 using Rotation = Rotation3;
 
 // ---- shapes, each in its local frame; size: extent along x, y, z, m -------------------------------
@@ -107,15 +107,6 @@ struct ParticleSpec {  // a class of identical particles
   double scale = 1;  // factor on that class's shape
 };
 
-struct BodySpec {  // one particle
-  int particle = 0;
-  Vec3 position = Vec3::Zero();              // m, centre of volume
-  Rotation rotation = Rotation::Identity();  // from its local frame to the scene's
-  Vec3 velocity = Vec3::Zero();              // m/s
-  Vec3 angular_velocity = Vec3::Zero();      // rad/s, in the scene's frame
-  SourceMark mark;
-};
-
 // The container of a packing: a box, or a cylinder along z. Lower corner, or centre of the floor.
 struct ContainerSpec {
   enum class Kind { box, cylinder } kind = Kind::box;
@@ -138,7 +129,7 @@ struct PackingSpec {
   std::optional<double> density;  // -
   Dense dense = Dense::given;
   std::string file;                   // relative to the scene's folder
-  std::vector<MixtureClass> classes;  // area_fraction means a volume fraction here
+  std::vector<MixtureClass> classes;
   SourceMark mark;
   // For random and CSV packings, set once the scene has been read:
   std::vector<BodySpec> placed = {};
@@ -168,37 +159,11 @@ struct ToolSpec {
   SourceMark mark;
 };
 
-struct MoveSpec {
-  int tool = 0;
-  Vec3 displacement = Vec3::Zero();  // m, over the stage
-  double ramp = 0.1;
-  std::optional<double> stiffness, mass;  // N/m, kg: of a compliant drive, moved at its far end
-  double damping = 0;                     // -, fraction of the critical damping of both
-  SourceMark mark;
-};
-
-struct ServoSpec {
-  int tool = 0;
-  std::optional<Vec3>
-      direction;      // unit vector along which it pushes; absent: a plane's or punch's normal
-  double force = 0;   // N
-  double rise = 0.2;  // -, fraction of the stage until the full force is prescribed
-  std::optional<double> rate;  // N/s, instead of `rise`
-  double response = 0.1;
-  double max_speed = 10;
-  double tolerance = 0.05;
-  SourceMark mark;
-};
-
 struct SpaceScene {
   std::vector<ParticleSpec> particles;
   std::vector<BodySpec> bodies;
   std::vector<PackingSpec> packings;
   std::vector<ToolSpec> tools;
-  // [stages] as in Scene::stages, whose own moves and servos are empty.
-  std::vector<std::vector<MoveSpec>> moves;
-  std::vector<std::vector<ServoSpec>> servos;
-  bool full_integration = false;  // element.formulation = "eight-point"
 };
 
 }  // namespace pulvis::space

@@ -22,7 +22,7 @@ Point centre_of_mass(const Scene& scene, const std::vector<BodySpec>& bodies) {
     const ParticleSpec& particle = scene.class_of(body);
     const double m = scene.materials[static_cast<std::size_t>(particle.material)].density *
                      outline_area(particle.outline);
-    sum += m * body.position;
+    sum += m * in_plane(body.position);
     mass += m;
   }
   return {sum.x() / mass, sum.y() / mass};

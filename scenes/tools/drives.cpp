@@ -11,6 +11,7 @@
 #include "components/servo.hpp"
 #include "engine/access.hpp"
 #include "scenes/outlines/outline.hpp"
+#include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/cell.hpp"
 #include "scenes/tools/die_cell.hpp"
 #include "scenes/tools/powder.hpp"
@@ -32,12 +33,8 @@ ToolProgram tool_program(const World& world, const Scene& scene) {
   for (const StageSpec& stage : scene.stages) {
     const int number = static_cast<int>(program.stages.size());
     for (const MoveSpec& move : stage.moves)
-      program.segments.push_back({move.tool,
-                                  begin,
-                                  stage.duration,
-                                  move.ramp,
-                                  {move.displacement.x(), move.displacement.y(), 0},
-                                  number});
+      program.segments.push_back(
+          {move.tool, begin, stage.duration, move.ramp, values_of(move.displacement), number});
     program.stages.push_back({stage.name, begin, begin + stage.duration});
     begin += stage.duration;
   }
@@ -58,27 +55,18 @@ double width_of(const Scene& scene, const std::vector<BodySpec>& bodies, const V
   return high - low;
 }
 
-void add_elastic_drives(const Scene& scene, ToolServos& servos) {
-  for (std::size_t s = 0; s < scene.stages.size(); ++s)
-    for (const MoveSpec& move : scene.stages[s].moves) {
-      if (!move.stiffness) continue;
-      const Vec2 direction = move.displacement.normalized();
-      servos.servos.push_back(
-          elastic_drive(move, static_cast<int>(s), {direction.x(), direction.y(), 0}));
-    }
-}
-
 ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) {
   const Powder powder = powder_of(scene, bodies);
   ToolServos servos;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (const ServoSpec& spec : scene.stages[s].servos) {
-      const Vec2 direction = direction_of(spec, scene);
-      const double wave = powder.impedance * width_of(scene, bodies, direction) * scene.thickness;
+      const Vec3 direction = direction_of(spec, scene);
+      const double wave =
+          powder.impedance * width_of(scene, bodies, in_plane(direction)) * scene.thickness;
       servos.servos.push_back(force_servo(spec, static_cast<int>(s), scene.stages[s].duration,
-                                          {direction.x(), direction.y(), 0}, {powder.mass, wave}));
+                                          values_of(direction), {powder.mass, wave}));
     }
-  add_elastic_drives(scene, servos);
+  add_elastic_drives(scene.stages, servos);
   servos.make_room(scene.tools.size());
   return servos;
 }
@@ -100,14 +88,6 @@ StageEnds stage_ends(const World& world, const Scene& scene, const std::vector<B
                  ends.cell.particle_area,
                  relief_of(world, cell->bottom)};
   return ends;
-}
-
-bool has_servos(const Scene& scene) {
-  return std::ranges::any_of(scene.stages, [](const StageSpec& s) {
-    return !s.servos.empty() || std::ranges::any_of(s.moves, [](const MoveSpec& move) {
-      return move.stiffness.has_value();
-    });
-  });
 }
 
 }  // namespace

@@ -57,11 +57,15 @@ class ServoChecks {
           path, "tool",
           fmt::format("'{}' is a constraint, allowed: a plane or a polyline, which have contact",
                       tool(servo).name));
-    const Vec2 direction = direction_of(servo, scene_);
+    const Vec3 direction = direction_of(servo, scene_);
     if (direction.isZero(0))
       return refuse(path, "direction",
                     "required key is missing: only a plane has a normal, allowed: two numbers, not "
                     "both zero");
+    const Vec3 normal =
+        tool(servo).shape == ToolSpec::Shape::plane ? in_space(tool(servo).normal) : Vec3::Zero();
+    if (pulls_off(scene_, tool(servo).name, direction, normal))
+      refuse(path, "direction", fmt::format(pulled_off, tool(servo).name));
     for (const MoveSpec& move : stage_.moves)
       if (move.tool == servo.tool && !move.stiffness &&
           std::abs(move.displacement.dot(direction)) > 1e-9 * move.displacement.norm())
@@ -115,10 +119,19 @@ class ServoChecks {
 
 }  // namespace
 
-Vec2 direction_of(const ServoSpec& servo, const Scene& scene) {
+Vec3 direction_of(const ServoSpec& servo, const Scene& scene) {
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(servo.tool)];
   if (servo.direction) return *servo.direction;
-  return tool.shape == ToolSpec::Shape::plane ? tool.normal : Vec2::Zero();
+  if (tool.shape != ToolSpec::Shape::plane) return Vec3::Zero();
+  return in_space(tool.normal);
+}
+
+bool pulls_off(const Scene& scene, const std::string& tool, const Vec3& direction,
+               const Vec3& normal) {
+  const auto holds = [&](const BondSpec& bond) {
+    return bond.first == tool || bond.second == tool;
+  };
+  return direction.dot(normal) < -1e-9 && std::ranges::none_of(scene.bonds, holds);
 }
 
 void check_servos(const Scene& scene, const StageSpec& stage, const std::string& path,

@@ -12,16 +12,22 @@
 
 namespace pulvis {
 
-// A move with a compliant drive: the tool follows its far end as a mass on a spring. `move`: has a stiffness. `direction`:
-// unit vector of its displacement.
-template <class Move>
-ToolServos::Servo elastic_drive(const Move& move, int stage, const Point3& direction) {
+inline Point3 values_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+// A move with a compliant drive: the tool follows its far end as a mass on a spring. `move`: has a stiffness.
+inline ToolServos::Servo elastic_drive(const MoveSpec& move, int stage) {
   return {.tool = move.tool,
           .stage = stage,
-          .direction = direction,
+          .direction = values_of(move.displacement.normalized()),
           .mass = *move.mass,
           .damping = 2 * move.damping * std::sqrt(*move.stiffness * *move.mass),
           .stiffness = *move.stiffness};
+}
+
+inline void add_elastic_drives(const std::vector<StageSpec>& stages, ToolServos& servos) {
+  for (std::size_t s = 0; s < stages.size(); ++s)
+    for (const MoveSpec& move : stages[s].moves)
+      if (move.stiffness) servos.servos.push_back(elastic_drive(move, static_cast<int>(s)));
 }
 
 // The powder that a servo pushes against. `wave`: force that a wave into the powder takes from a tool, over its speed.
@@ -29,12 +35,11 @@ struct ServoLoad {
   double mass, wave;  // kg, N s/m
 };
 
-// Spec: ServoSpec of two or three dimensions. `duration`: of the stage, s. `response`: the mass of the tool and of the powder it
+// `duration`: of the stage, s. `response`: the mass of the tool and of the powder it
 // drags, over the powder's. A solid block of the powder's mass, stiffness and cross-section would be critically damped by the
 // latter and the dashpot in series.
-template <class Spec>
-ToolServos::Servo force_servo(const Spec& spec, int stage, double duration, const Point3& direction,
-                              const ServoLoad& powder) {
+inline ToolServos::Servo force_servo(const ServoSpec& spec, int stage, double duration,
+                                     const Point3& direction, const ServoLoad& powder) {
   const double tool = spec.response / (1 + kernels::dragged_mass);
   return {.tool = spec.tool,
           .stage = stage,

@@ -65,11 +65,10 @@ ROOMS = {
         "checks": "lever meshes packing tools results outlines spec language",
         "space/meshes": "meshes spec language",
         "space/packing": "space/meshes packing outlines spec language",
-        "space/keys": "keys materials spec language",
         "space/tools": "space/packing tools spec language",
         "space/results": "space/tools space/meshes results/parts tools spec language",
-        "space": "space/keys space/meshes space/packing space/results space/tools checks keys packing results tools ranks spec language",
-        "": "checks ranks space space/keys space/packing grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
+        "space": "space/meshes space/packing space/results space/tools checks keys packing results tools ranks spec language",
+        "": "checks ranks space space/packing grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
     },
     "cli": {
         "report": "",
@@ -93,7 +92,7 @@ ROOMS = {
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
 # Sources of one kind that a header of another name declares.
-PARTS = ("engine/files/hdf5_change", "engine/files/hdf5_checksum", "scenes/keys/declare_", "scenes/space/keys/declare_",
+PARTS = ("engine/files/hdf5_change", "engine/files/hdf5_checksum", "scenes/keys/declare_",
          "cli/laboratory/declare_", "scenes/meshes/mesh_", "scenes/results/observables/", "cli/python/module/bind_")
 MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}

@@ -80,9 +80,9 @@ std::vector<Value> words_for(const KeyInfo& key) {
   return words;
 }
 
-// As many as the key has dimensions: the last one is another.
+// As many as the key has components: the last one is another.
 Value list_of(const KeyInfo& key, const Value& first, const Value& last) {
-  document::Array array(static_cast<std::size_t>(key.dimensions), first);
+  document::Array array(static_cast<std::size_t>(key.components), first);
   array.back() = last;
   return {std::move(array), {}};
 }

@@ -22,7 +22,6 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
-#include "scenes/space/keys/tables.hpp"
 #include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/afm_scene.hpp"
@@ -78,12 +77,12 @@ std::string fault_of_scene(const std::string& text, const fs::path& folder) {
 }
 
 const Plan& plan() {
-  static const Plan made = plan_or_fault(schema::scene_language(), bases().plane, fault_of_scene);
+  static const Plan made = plan_or_fault(schema::scene_language(2), bases().plane, fault_of_scene);
   return made;
 }
 
 const Plan& plan_in_space() {
-  static const Plan made = plan_or_fault(space::scene_language(), bases().space, fault_of_scene);
+  static const Plan made = plan_or_fault(schema::scene_language(3), bases().space, fault_of_scene);
   return made;
 }
 

@@ -144,7 +144,7 @@ TEST(ContactNetwork, OfAHexagonalPackingHasSixNeighboursInThreeDirections) {
        "output.contacts=true"});
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     if (scene.tools[t].name == "right")
-      scene.stages[0].moves.push_back({static_cast<int>(t), Vec2(-1e-3, 0), 0.1, {}, {}, 0, {}});
+      scene.stages[0].moves.push_back({static_cast<int>(t), Vec3(-1e-3, 0, 0), 0.1, {}, {}, 0, {}});
   Experiment e(std::move(scene));
   e.run(2);
   std::vector<double> pairs(static_cast<std::size_t>(bodies_of(e).particles()));

@@ -30,9 +30,7 @@ document::Table without_expectations(const LoadedScene& scene) {
   return root;
 }
 
-std::string written(const document::Table& root) {
-  return scene_text(root, schema::scene_language());
-}
+std::string written(const document::Table& root) { return scene_text(root, language_of(root)); }
 
 }  // namespace
 

@@ -43,7 +43,7 @@ py::ssize_t array_index(std::size_t i) { return static_cast<py::ssize_t>(i); }
 
 // m, names, and by particle number the quaternion w, x, y, z of the rotation from the body frame.
 py::dict packing_in_space(const Scene& scene) {
-  std::vector<space::BodySpec> bodies;
+  std::vector<BodySpec> bodies;
   {
     py::gil_scoped_release others_may_run;
     bodies = space::place_bodies(scene);

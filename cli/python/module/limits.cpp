@@ -7,14 +7,12 @@
 #include <string_view>
 
 #include "scenes/keys/tables.hpp"
-#include "scenes/space/keys/tables.hpp"
 
 namespace pulvis::python {
 
 const schema::KeyInfo& declared_key(const Scene& scene, const std::string& table,
                                     const std::string& key) {
-  const schema::Language& language =
-      scene.space ? space::scene_language() : schema::scene_language();
+  const schema::Language& language = schema::scene_language(scene.space ? 3 : 2);
   return *schema::find_key(*schema::find_table(table, language), key);
 }
 

@@ -1,34 +1,12 @@
 // Positions of the tools and forces on them.
-#include <algorithm>
-
 #include "components/servo.hpp"
 #include "scenes/results/observables/enclosure.hpp"
 #include "scenes/results/observables/result_rows.hpp"
 #include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/tool_motion.hpp"
 
 namespace pulvis {
 namespace {
-
-bool is_servo_driven(const Scene& scene, int tool) {
-  const auto drives = [tool](const auto& servo) { return servo.tool == tool; };
-  if (scene.space)
-    return std::ranges::any_of(scene.space->servos, [&](const auto& servos) {
-      return std::ranges::any_of(servos, drives);
-    });
-  return std::ranges::any_of(scene.stages, [&](const StageSpec& stage) {
-    return std::ranges::any_of(stage.servos, drives);
-  });
-}
-
-bool is_driven_through_a_spring(const Scene& scene, int tool) {
-  const auto drives = [tool](const auto& move) { return move.tool == tool && move.stiffness; };
-  if (scene.space)
-    return std::ranges::any_of(
-        scene.space->moves, [&](const auto& moves) { return std::ranges::any_of(moves, drives); });
-  return std::ranges::any_of(scene.stages, [&](const StageSpec& stage) {
-    return std::ranges::any_of(stage.moves, drives);
-  });
-}
 
 // What differs between the tools of two and three dimensions.
 struct ToolWords {

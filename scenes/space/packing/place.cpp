@@ -82,7 +82,7 @@ double top_of_packings(const SpaceScene& scene) {
 
 std::vector<BodySpec> place_bodies(const Scene& scene) {
   std::vector<BodySpec> bodies;
-  for (const auto& placing : in_file_order(scene.space->bodies, scene.space->packings)) {
+  for (const auto& placing : in_file_order(scene.bodies, scene.space->packings)) {
     if (placing.body != nullptr) bodies.push_back(*placing.body);
     if (placing.packing == nullptr) continue;
     const PackingSpec& packing = *placing.packing;

@@ -12,12 +12,11 @@
 #include "engine/access.hpp"
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
+#include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/tool_drive.hpp"
 
 namespace pulvis::space {
 namespace {
-
-Point3 values_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 ToolProgram programme_of(const Scene& scene) {
   ToolProgram program;
@@ -28,7 +27,7 @@ ToolProgram programme_of(const Scene& scene) {
   double begin = 0;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     const StageSpec& stage = scene.stages[s];
-    for (const MoveSpec& move : scene.space->moves[s])
+    for (const MoveSpec& move : stage.moves)
       program.segments.push_back({move.tool, begin, stage.duration, move.ramp,
                                   values_of(move.displacement), static_cast<int>(s)});
     program.stages.push_back({stage.name, begin, begin + stage.duration});
@@ -37,25 +36,17 @@ ToolProgram programme_of(const Scene& scene) {
   return program;
 }
 
-void add_elastic_drives(const SpaceScene& scene, ToolServos& servos) {
-  for (std::size_t s = 0; s < scene.moves.size(); ++s)
-    for (const MoveSpec& move : scene.moves[s])
-      if (move.stiffness)
-        servos.servos.push_back(
-            elastic_drive(move, static_cast<int>(s), values_of(move.displacement.normalized())));
-}
-
 ToolServos servos_of(const World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   const Powder powder = powder_of(world, scene);
   ToolServos servos;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
-    for (const ServoSpec& spec : scene.space->servos[s]) {
-      const Vec3 direction = direction_of(spec, *scene.space);
+    for (const ServoSpec& spec : scene.stages[s].servos) {
+      const Vec3 direction = space::direction_of(spec, scene);
       const double wave = powder.impedance * section_across(world, bodies, direction);
       servos.servos.push_back(force_servo(spec, static_cast<int>(s), scene.stages[s].duration,
                                           values_of(direction), {powder.mass, wave}));
     }
-  add_elastic_drives(*scene.space, servos);
+  add_elastic_drives(scene.stages, servos);
   servos.make_room(scene.space->tools.size());
   return servos;
 }
@@ -87,17 +78,10 @@ void add_columns_of_tools(World& world, const SpaceScene& scene) {
 
 }  // namespace
 
-Vec3 direction_of(const ServoSpec& servo, const SpaceScene& scene) {
-  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(servo.tool)];
+Vec3 direction_of(const ServoSpec& servo, const Scene& scene) {
+  const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(servo.tool)];
   if (servo.direction) return *servo.direction;
   return has_face(tool) ? tool.normal : Vec3::Zero();
-}
-
-bool has_servos(const SpaceScene& scene) {
-  const auto gives = [](const MoveSpec& move) { return move.stiffness.has_value(); };
-  return std::ranges::any_of(scene.servos, [](const auto& servos) { return !servos.empty(); }) ||
-         std::ranges::any_of(scene.moves,
-                             [&](const auto& moves) { return std::ranges::any_of(moves, gives); });
 }
 
 void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
@@ -105,7 +89,7 @@ void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bo
   if (space.tools.empty()) return;
   add_columns_of_tools(world, space);
   world.emplace<ToolProgram>(programme_of(scene));
-  if (has_servos(space)) {
+  if (has_servos(scene)) {
     world.add<ServoTravel>();
     world.add<ServoVelocity>();
     world.add<ServoMass>();

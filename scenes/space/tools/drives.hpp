@@ -7,10 +7,7 @@
 namespace pulvis::space {
 
 // The direction in which a servo pushes; zero if unspecified.
-Vec3 direction_of(const ServoSpec& servo, const SpaceScene& scene);
-
-// Whether in any stage a tool is force-controlled, or is moved by a compliant drive.
-bool has_servos(const SpaceScene& scene);
+Vec3 direction_of(const ServoSpec& servo, const Scene& scene);
 
 // The world must have its bodies with their shapes.
 void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies);

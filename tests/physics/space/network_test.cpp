@@ -88,8 +88,6 @@ TEST(NetworkInSpace, IsInEquilibriumAtRest) {
   Scene scene = body_centred({"contact.damping=0.5", "contact.friction=0.3"});
   scene.stages.front().duration = 0.4e-3;
   scene.stages.emplace_back().duration = 0.6e-3;
-  scene.space->moves.emplace_back();
-  scene.space->servos.emplace_back();
   Experiment e(std::move(scene));
   e.run(2);
   const double mean = e.value("network/mean_force");

@@ -168,7 +168,7 @@ TEST(Grains, AreTheSameForTheSameSeedOnly) {
 
 TEST(Grains, AreBodiesWithTheirParticlesNumberAndMotion) {
   Scene scene = of_grains(disc, "size = \"2 mm\"");
-  scene.bodies[0].angular_velocity = 10;
+  scene.bodies[0].angular_velocity.z() = 10;
   scene.bodies.push_back(scene.bodies[0]);
   scene.bodies[1].position.x() += 20e-3;
   const std::vector<BodySpec> bodies = grains_of(scene, place_bodies(scene));
@@ -176,7 +176,7 @@ TEST(Grains, AreBodiesWithTheirParticlesNumberAndMotion) {
   EXPECT_EQ(bodies[24].parent, 0);
   EXPECT_EQ(bodies[25].parent, 1);
   for (const BodySpec& body : bodies) {
-    const Vec2 arm = body.position - scene.bodies[static_cast<std::size_t>(body.parent)].position;
+    const Vec3 arm = body.position - scene.bodies[static_cast<std::size_t>(body.parent)].position;
     EXPECT_NEAR(body.velocity.x(), -10 * arm.y(), 1e-12);
     EXPECT_NEAR(body.velocity.y(), 10 * arm.x(), 1e-12);
   }

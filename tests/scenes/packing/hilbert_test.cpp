@@ -38,7 +38,7 @@ TEST(MemoryOrder, NeighboursAreNearWhateverTheOrderOfTheScene) {
   scene.packings.clear();
   for (int i = 0; i < 256; ++i) {
     BodySpec body;
-    body.position = packing.spacing * Vec2(i % 16 + 0.5, i / 16 + 0.5);
+    body.position = packing.spacing * Vec3(i % 16 + 0.5, i / 16 + 0.5, 0);
     scene.bodies.push_back(body);
   }
   std::mt19937_64 random(1);

@@ -56,7 +56,7 @@ ParticleSpec ring() {
 BodySpec at(double x, double y, int particle = 0, double angle = 0) {
   BodySpec body;
   body.particle = particle;
-  body.position = Vec2(x, y);
+  body.position = Vec3(x, y, 0);
   body.angle = angle;
   return body;
 }
@@ -113,9 +113,9 @@ TEST(PerturbedLattice, MovesCentresWithinTheirCircles) {
   const std::vector<BodySpec> other = place_bodies(scene);
   const double radius = 0.04 * packing.spacing;
   double squares = 0;
-  Vec2 sum = Vec2::Zero();
+  Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < regular.size(); ++i) {
-    const Vec2 way = (moved[i].position - regular[i].position) / radius;
+    const Vec3 way = (moved[i].position - regular[i].position) / radius;
     EXPECT_LE(way.norm(), 1);
     EXPECT_EQ(moved[i].position, again[i].position);
     EXPECT_NE(moved[i].position, other[i].position);
@@ -129,9 +129,9 @@ TEST(PerturbedLattice, MovesCentresWithinTheirCircles) {
 TEST(PlaceBodies, APackingIsFilledRowByRowFromTheBottom) {
   const auto bodies = place_bodies(die(2, 3, Vec2(1, 2)));
   ASSERT_EQ(bodies.size(), 6U);
-  EXPECT_TRUE(bodies[0].position.isApprox(Vec2(1.005, 2.005), 1e-15));
-  EXPECT_TRUE(bodies[1].position.isApprox(Vec2(1.015, 2.005), 1e-15));
-  EXPECT_TRUE(bodies[3].position.isApprox(Vec2(1.005, 2.015), 1e-15));
+  EXPECT_TRUE(bodies[0].position.isApprox(Vec3(1.005, 2.005, 0), 1e-15));
+  EXPECT_TRUE(bodies[1].position.isApprox(Vec3(1.015, 2.005, 0), 1e-15));
+  EXPECT_TRUE(bodies[3].position.isApprox(Vec3(1.005, 2.015, 0), 1e-15));
   EXPECT_EQ(bodies[5].mark.line, 7);
 }
 
@@ -147,7 +147,7 @@ TEST(PlaceBodies, HexagonalRowsLieInTheGapsOfThoseBelow) {
   const Vec2 corner(1, 2);
   const auto bodies = place_bodies(hexagonal(4, 3, corner));
   ASSERT_EQ(bodies.size(), 10U);  // 3 + 2 + 3 + 2
-  const auto position = [&](std::size_t i) { return Vec2((bodies[i].position - corner) / size); };
+  const auto position = [&](std::size_t i) { return Vec2((in_plane(bodies[i].position) - corner) / size); };
   const double rise = std::sqrt(0.75);
   EXPECT_TRUE(position(0).isApprox(Vec2(0.5, 0.5), 1e-12));
   EXPECT_TRUE(position(3).isApprox(Vec2(1, 0.5 + rise), 1e-12));
@@ -159,7 +159,7 @@ TEST(PlaceBodies, AHexagonalPackingIsItsOwnMirrorImageBetweenTheWalls) {
   const int columns = 7;
   const auto bodies = place_bodies(hexagonal(5, columns, Vec2::Zero()));
   for (const BodySpec& body : bodies) {
-    const Vec2 mirrored(columns * size - body.position.x(), body.position.y());
+    const Vec3 mirrored(columns * size - body.position.x(), body.position.y(), 0);
     EXPECT_TRUE(std::ranges::any_of(
         bodies, [&](const BodySpec& b) { return (b.position - mirrored).norm() < 1e-12; }));
   }
@@ -210,9 +210,9 @@ TEST(PlaceBodies, BodiesAndPackingsKeepTheOrderOfTheFile) {
   scene.packings = {packing};
   const auto bodies = place_bodies(scene);
   ASSERT_EQ(bodies.size(), 3U);
-  EXPECT_EQ(bodies[0].position, Vec2(1, 1));
+  EXPECT_EQ(bodies[0].position, Vec3(1, 1, 0));
   EXPECT_EQ(bodies[1].mark.line, 15);
-  EXPECT_EQ(bodies[2].position, Vec2(2, 2));
+  EXPECT_EQ(bodies[2].position, Vec3(2, 2, 0));
 }
 
 TEST(PlaceBodies, TheTextOfASceneKeepsThatOrder) {

@@ -52,7 +52,7 @@ const Outline& outline_of(const Scene& scene, const BodySpec& body) {
 std::vector<Vec2> points_of(const Scene& scene, const BodySpec& body) {
   std::vector<Vec2> points;
   for (const Vec2& p : outline_polygon(outline_of(scene, body), 2e-6))
-    points.push_back(body.position + Eigen::Rotation2Dd(body.angle) * p);
+    points.push_back(in_plane(body.position) + Eigen::Rotation2Dd(body.angle) * p);
   return points;
 }
 

@@ -72,10 +72,10 @@ TEST(Read, ValuesReferencesAndMarks) {
   EXPECT_EQ(scene.materials.at(0).youngs_modulus, 200e9);
   EXPECT_EQ(std::get<RectangleOutline>(scene.particles.at(0).outline).width, 0.02);
   EXPECT_EQ(std::get<RectangleMesh>(scene.particles.at(0).mesh).columns, 16);
-  EXPECT_EQ(scene.bodies.at(0).position, Vec2(0.01, 0.005));
+  EXPECT_EQ(scene.bodies.at(0).position, Vec3(0.01, 0.005, 0));
   EXPECT_EQ(scene.tools.at(2).name, "pusher");
   EXPECT_EQ(scene.stages.at(1).moves.at(0).tool, 2);
-  EXPECT_EQ(scene.stages.at(1).moves.at(0).displacement, Vec2(1e-4, 0));
+  EXPECT_EQ(scene.stages.at(1).moves.at(0).displacement, Vec3(1e-4, 0, 0));
   EXPECT_EQ(scene.stages.at(1).kind, StageSpec::Kind::compact);
   EXPECT_EQ(scene.frictions.at(0).first, "steel");
   EXPECT_EQ(scene.frictions.at(0).second, "floor");

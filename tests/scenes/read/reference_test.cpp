@@ -47,15 +47,38 @@ TEST(Reference, TheSchemaForbidsKeysOfTheOtherOutline) {
   EXPECT_EQ(disc["if"]["properties"]["outline"]["const"], "disc");
   EXPECT_EQ(disc["then"]["properties"]["width"], false);
   EXPECT_EQ(disc["then"]["properties"]["mesh"]["properties"]["columns"], false);
-  const auto& whole = json["$defs"]["whole"]["properties"]["particle"]["items"];
+  const auto& whole = json["$defs"]["two-dimensions"]["properties"]["particle"]["items"];
   EXPECT_EQ(whole["allOf"][0]["then"]["required"], nlohmann::json::array({"diameter"}));
+}
+
+TEST(Reference, TheSchemaKeepsTheDimensionsApart) {
+  const auto json = nlohmann::json::parse(scene_json_schema());
+  const auto position = [](const nlohmann::json& scene) {
+    const auto& body = scene["properties"]["body"]["items"]["properties"]["position"];
+    return std::pair(body["minItems"], body["maxItems"]);
+  };
+  EXPECT_EQ(position(json), std::pair(nlohmann::json(2), nlohmann::json(3)));
+  EXPECT_EQ(position(json["$defs"]["two-dimensions"]),
+            std::pair(nlohmann::json(2), nlohmann::json(2)));
+  EXPECT_EQ(position(json["$defs"]["three-dimensions"]),
+            std::pair(nlohmann::json(3), nlohmann::json(3)));
+  EXPECT_FALSE(json["$defs"]["three-dimensions"]["properties"].contains("cell"));
+}
+
+TEST(Reference, TheReferenceSaysWhereAKeyExists) {
+  const std::string markdown = scene_reference();
+  for (const char* row : {"| `thickness` | 2D |", "| `seed` | 2D, 3D |", "| `axis` | 3D |",
+                          "| `angle` | 2D |", "| `angle` | 3D |"})
+    EXPECT_NE(markdown.find(row), std::string::npos) << row;
 }
 
 TEST(Reference, TheSchemaRequiresKeysWhereNothingIsExtended) {
   const auto json = nlohmann::json::parse(scene_json_schema());
   EXPECT_EQ(json["if"]["not"]["required"], nlohmann::json::array({"extends"}));
-  EXPECT_EQ(json["then"]["$ref"], "#/$defs/whole");
-  EXPECT_EQ(json["$defs"]["whole"]["required"], nlohmann::json::array({"family", "material"}));
+  EXPECT_EQ(json["then"]["else"]["$ref"], "#/$defs/two-dimensions");
+  EXPECT_EQ(json["then"]["then"]["$ref"], "#/$defs/three-dimensions");
+  for (const char* whole : {"two-dimensions", "three-dimensions"})
+    EXPECT_EQ(json["$defs"][whole]["required"], nlohmann::json::array({"family", "material"}));
   EXPECT_FALSE(json.contains("required"));
   EXPECT_FALSE(json["properties"]["particle"]["items"].contains("required"));
 }

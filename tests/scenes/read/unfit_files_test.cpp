@@ -7,7 +7,6 @@
 #include "scenes/language/named_files.hpp"
 #include "scenes/language/scene_text.hpp"
 #include "scenes/read.hpp"
-#include "scenes/space/keys/tables.hpp"
 #include "tests/helpers/program.hpp"
 #include "tests/helpers/wrong.hpp"
 

@@ -28,8 +28,8 @@ Scene placed(const std::vector<ParticleShape>& shapes, const std::vector<Place>&
     body.particle = place.particle;
     body.position = mm * place.at;
     body.rotation = place.rotation;
-    body.mark = {10 + static_cast<int>(scene.space->bodies.size()), 1};
-    scene.space->bodies.push_back(body);
+    body.mark = {10 + static_cast<int>(scene.bodies.size()), 1};
+    scene.bodies.push_back(body);
   }
   return scene;
 }

@@ -21,7 +21,7 @@ Scene two_discs(double distance, double angle, double friction = 0) {
   scene.materials = {steel()};
   scene.particles = {{"disc", 0, DiscOutline{10e-3}, DiscMesh{40, 1, 1}, false, 0, {}}};
   BodySpec left, right;
-  right.position = distance * Vec2(std::cos(angle), std::sin(angle));
+  right.position = distance * Vec3(std::cos(angle), std::sin(angle), 0);
   scene.bodies = {left, right};
   scene.stages.emplace_back().duration = 1e-3;
   scene.contact.friction = friction;
@@ -178,7 +178,7 @@ class BentBar {
     scene.particles = {
         {"bar", 0, RectangleOutline{length, 4e-3}, RectangleMesh{40, 4}, false, 0, {}}};
     BodySpec bar, far;
-    far.position = Vec2(0, 0.2);
+    far.position = Vec3(0, 0.2, 0);
     scene.bodies = {bar, far};
     scene.stages.emplace_back().duration = 1e-3;
     scene.contact.friction = 0.3;
@@ -246,7 +246,7 @@ class Drop {
     scene.particles = {
         {"strip", 0, RectangleOutline{length, thickness}, RectangleMesh{80, 1}, false, 0, {}}};
     BodySpec strip, far;
-    far.position = Vec2(0, 0.2);
+    far.position = Vec3(0, 0.2, 0);
     scene.bodies = {strip, far};
     scene.stages.emplace_back().duration = 1e-3;
     scene.contact.skin = 4;
@@ -303,7 +303,7 @@ TEST(SelfContact, TheFarSideOfAThinPartIsNotTouched) {
   scene.particles = {
       {"strip", 0, RectangleOutline{10e-3, 0.1e-3}, RectangleMesh{20, 1}, false, 0, {}}};
   BodySpec one, other;
-  other.position = Vec2(0, 1e-3);
+  other.position = Vec3(0, 1e-3, 0);
   scene.bodies = {one, other};
   scene.stages.emplace_back().duration = 1e-3;
   const auto world = build_world(scene);

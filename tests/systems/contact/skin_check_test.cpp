@@ -131,11 +131,11 @@ TEST(SkinCheck, NoContactIsMissedOnAPolyline) {
 Scene flight(double apart) {
   Scene scene = read_scene(paths::source_dir() + "/scenes/basic/oblique-impact.toml");
   for (BodySpec& body : scene.bodies) {
-    body.velocity = Vec2(100, -50);
-    body.angular_velocity = 0;
+    body.velocity = Vec3(100, -50, 0);
+    body.angular_velocity = Vec3::Zero();
   }
-  scene.bodies[0].position = Vec2::Zero();
-  scene.bodies[1].position = Vec2(apart, 0);
+  scene.bodies[0].position = Vec3::Zero();
+  scene.bodies[1].position = Vec3(apart, 0, 0);
   return scene;
 }
 

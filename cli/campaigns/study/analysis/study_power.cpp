@@ -6,7 +6,6 @@
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/let/dimension.hpp"
-#include "scenes/space/keys/tables.hpp"
 
 namespace pulvis {
 namespace {
@@ -140,10 +139,8 @@ const schema::KeyInfo* key_at(const std::string& path, const schema::Language& l
 
 }  // namespace
 
-// A key that exists in two and three dimensions has the same unit in both.
 std::string unit_of_key(const std::string& path) {
   const schema::KeyInfo* found = key_at(path, schema::scene_language());
-  if (found == nullptr) found = key_at(path, space::scene_language());
   return found == nullptr || found->unit.empty() ? "-" : found->unit;
 }
 

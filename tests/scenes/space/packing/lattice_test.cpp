@@ -101,7 +101,7 @@ TEST(PlaceBodies, FollowTheOrderOfTheFile) {
   before.mark = {5, 1};
   behind.position = {4, 5, 6};
   behind.mark = {20, 1};
-  scene.space->bodies = {behind, before};
+  scene.bodies = {behind, before};
   const std::vector<BodySpec> bodies = place_bodies(scene);
   ASSERT_EQ(bodies.size(), 10u);
   EXPECT_EQ(bodies.front().position, before.position);

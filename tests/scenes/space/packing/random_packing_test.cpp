@@ -255,7 +255,7 @@ TEST(RandomPackingInSpace, VolumeFractionsAreOfTheVolume) {
   packing.count = 180;
   for (MixtureClass& mixed : packing.classes) {
     mixed.number.reset();
-    mixed.area_fraction = 0.5;
+    mixed.content_fraction = 0.5;
   }
   Scene scene = scene_of({ball, SphereShape{5e-3}}, packing);
   const std::vector<BodySpec> bodies = filled(scene).placed;

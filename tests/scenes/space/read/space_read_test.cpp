@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 
 #include "scenes/keys/tables.hpp"
-#include "scenes/space/keys/space_reference.hpp"
-#include "scenes/space/keys/tables.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/space_scene.hpp"
 #include "tests/helpers/elastic_ball.hpp"
@@ -11,9 +9,7 @@
 #include "tests/helpers/right_scene.hpp"
 #include "tests/helpers/right_space_scene.hpp"
 
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 namespace pulvis {
 namespace {
@@ -36,18 +32,18 @@ TEST(SpaceScene, HasWhatItsFileSays) {
   ASSERT_EQ(in_space.tools.size(), 2U);
   EXPECT_EQ(in_space.tools[1].normal, space::Vec3(0, 0, -1));
   EXPECT_EQ(in_space.tools[1].point, space::Vec3(0, 0, 20e-3));
-  ASSERT_EQ(in_space.moves.size(), 1U);
-  EXPECT_EQ(in_space.moves[0][0].displacement, space::Vec3(0, 0, -1e-3));
+  ASSERT_EQ(scene.stages.size(), 1U);
+  EXPECT_EQ(scene.stages[0].moves.at(0).displacement, Vec3(0, 0, -1e-3));
   EXPECT_EQ(scene.frictions[0].coefficient, 0.3);
   EXPECT_EQ(space::place_bodies(scene).size(), 5U);
 }
 
 // A turn of 30 degrees about z takes the x axis to (cos 30, sin 30, 0).
 TEST(SpaceScene, TurnsBodiesAboutTheirAxis) {
-  const space::Vec3 turned = loaded().scene.space->bodies[0].rotation * space::Vec3::UnitX();
+  const space::Vec3 turned = loaded().scene.bodies[0].rotation * space::Vec3::UnitX();
   EXPECT_NEAR(turned.x(), std::numbers::sqrt3 / 2, 1e-15);
   EXPECT_NEAR(turned.y(), 0.5, 1e-15);
-  const auto about_x = loaded({"body[0].axis=[2, 0, 0]"}).scene.space->bodies[0].rotation;
+  const auto about_x = loaded({"body[0].axis=[2, 0, 0]"}).scene.bodies[0].rotation;
   EXPECT_NEAR((about_x * space::Vec3::UnitY()).z(), 0.5, 1e-15);
 }
 
@@ -117,45 +113,38 @@ TEST(SpaceScene, VariablesStandForComponents) {
   EXPECT_EQ(scene.space->tools[1].point.z(), 20e-3);
 }
 
-// Extending and copying files go by the language of two dimensions, before the dimension is known.
-TEST(SpaceLanguage, NamesFilesAndElementsWhereTwoDimensionsDo) {
-  for (const schema::TableView& view : space::scene_language()) {
-    const schema::TableView* plane = schema::find_table(view.info.path, schema::scene_language());
+// Extending and copying files, and sorting the tables of a scene, do not depend on its dimension.
+TEST(SceneLanguage, NamesFilesAndElementsAlikeInBothDimensions) {
+  for (const schema::TableView& view : schema::scene_language(3)) {
+    const schema::TableView* plane = schema::find_table(view.info.path, schema::scene_language(2));
     ASSERT_NE(plane, nullptr) << view.info.path;
-    EXPECT_EQ(plane->info.repeated, view.info.repeated) << view.info.path;
-    for (const char* matched : {"name", "tool"})
-      EXPECT_EQ(schema::find_key(*plane, matched) != nullptr,
-                schema::find_key(view, matched) != nullptr)
-          << view.info.path;
     for (const schema::KeyInfo& key : view.keys) {
-      if (key.kind != schema::Kind::file && key.kind != schema::Kind::scene) continue;
       const schema::KeyInfo* same = schema::find_key(*plane, key.name);
-      ASSERT_NE(same, nullptr) << view.info.path << "." << key.name;
-      EXPECT_EQ(same->kind, key.kind) << view.info.path << "." << key.name;
+      const auto is_path = [](const schema::KeyInfo& k) {
+        return k.kind == schema::Kind::file || k.kind == schema::Kind::scene;
+      };
+      if (same == nullptr) continue;
+      EXPECT_EQ(is_path(*same), is_path(key)) << view.info.path << "." << key.name;
     }
   }
 }
 
-std::string text_of_doc(const std::string& name) {
-  std::ostringstream text;
-  text << std::ifstream(paths::source_dir() + "/docs/" + name).rdbuf();
-  return text.str();
-}
-
-TEST(SpaceLanguage, ItsDescriptionsAreCurrent) {
-  EXPECT_EQ(text_of_doc("scene-3d.md"), space_scene_reference())
-      << "pulvis check --reference text-3d > docs/scene-3d.md";
-  EXPECT_EQ(text_of_doc("scene-3d.schema.json"), space_scene_json_schema())
-      << "pulvis check --reference schema-3d > docs/scene-3d.schema.json";
-}
-
-TEST(SpaceLanguage, EveryKeyIsDescribed) {
-  const std::string markdown = space_scene_reference();
-  for (const schema::TableView& view : space::scene_language())
-    for (const schema::KeyInfo& key : view.keys) {
-      EXPECT_THAT(markdown, HasSubstr("| `" + key.name + "` |"));
-      EXPECT_FALSE(key.doc.empty()) << key.name;
-    }
+// Values are passed to the setter that was declared with their key, whatever was left out before it.
+TEST(SceneLanguage, HasWholeVectorsAndNoWordsOfTheOtherDimension) {
+  for (const int dimension : {2, 3})
+    for (const schema::TableView& view : schema::scene_language(dimension))
+      for (const schema::KeyInfo& key : view.keys) {
+        const std::string name = view.info.path + "." + key.name;
+        if (key.kind == schema::Kind::vector || key.kind == schema::Kind::direction) {
+          EXPECT_EQ(key.components, dimension) << name;
+        }
+        for (const schema::Choice& choice : key.choices)
+          EXPECT_FALSE(choice.dimension ==
+                       (dimension == 2 ? schema::Dimension::three : schema::Dimension::two))
+              << name << " = " << choice.word;
+      }
+  EXPECT_EQ(loaded({"element.formulation=eight-point"}).scene.element.formulation,
+            Formulation::four_point);
 }
 
 }  // namespace

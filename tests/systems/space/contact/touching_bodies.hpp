@@ -40,8 +40,6 @@ class TouchingBodies {
     scene.space = std::make_shared<SpaceScene>();
     scene.materials = {{"steel", 7850, 200e9, 0.3, {}, 0, {}, {}}};
     if (change) change(scene);
-    scene.space->moves.resize(scene.stages.size());
-    scene.space->servos.resize(scene.stages.size());
     lay_out(shapes);
     world.emplace<Shapes>().list = std::move(shapes);
     add_tools();

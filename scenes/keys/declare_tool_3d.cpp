@@ -1,5 +1,5 @@
 // Declaration of the tools: planes, round dies, punches, closed surfaces from a file.
-#include "scenes/space/keys/declare.hpp"
+#include "scenes/keys/declare_3d.hpp"
 
 namespace pulvis::space::language {
 namespace {
@@ -26,7 +26,6 @@ std::vector<Key<ToolSpec>> keys_of_place() {
         .kind = Kind::vector,
         .unit = "m",
         .range = within(-largest_size, largest_size),
-        .dimensions = 3,
         .choices =
             {{"packing top",
               "the height at which the foremost part of a punch face, or the lowest part of an "
@@ -40,7 +39,6 @@ std::vector<Key<ToolSpec>> keys_of_place() {
        }},
       {{.name = "normal",
         .kind = Kind::direction,
-        .dimensions = 3,
         .required = true,
         .only_for = {"plane", "punch", "die"},
         .optional_for = "die",
@@ -82,6 +80,7 @@ std::vector<Key<ToolSpec>> keys_of_form() {
             .kind = Kind::points,
             .unit = "m",
             .range = within(-largest_size, largest_size),
+            .components = 2,
             .only_for = "punch",
             .doc = "Profile of the face: distance from the axis and height along the normal, from "
                    "[0, ..] outwards, linearly interpolated.",

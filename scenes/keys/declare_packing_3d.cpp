@@ -1,6 +1,6 @@
 // Declarations of packings: lattices, random mixtures in a box or cylinder, positions from a file.
 #include "scenes/keys/packing_keys.hpp"
-#include "scenes/space/keys/declare.hpp"
+#include "scenes/keys/declare_3d.hpp"
 
 namespace pulvis::space::language {
 namespace {
@@ -34,7 +34,6 @@ std::vector<Key<PackingSpec>> keys_of_lattices() {
           {{.name = "cells",
             .kind = Kind::counts,
             .range = within(1, 1000),
-            .dimensions = 3,
             .required = true,
             .only_for = space_lattices,
             .doc = "Number of cells of the lattice along x, y and z; hexagonal: particles per "
@@ -78,8 +77,7 @@ std::vector<Key<PackingSpec>> container_keys() {
             .kind = Kind::vector,
             .unit = "m",
             .range = within(-largest_size, largest_size),
-            .dimensions = 3,
-            .fallback = triple_of("0 m", "0 m", "0 m"),
+            .fallback = zero_vector("0 m"),
             .only_for = {"cubic", "body-centred", "face-centred", "hexagonal", "random"},
             .doc = "Corner with the smallest x, y and z of the first lattice cell or of the box; "
                    "for a cylinder, the centre of its floor."},
@@ -133,35 +131,6 @@ TableDeclaration<PackingSpec> declared_packing_in_space() {
 
 const TableDeclaration<PackingSpec>& packing() {
   static const TableDeclaration<PackingSpec> declaration = declared_packing_in_space();
-  return declaration;
-}
-
-// As in two dimensions, with volumes instead of areas.
-const TableDeclaration<MixtureClass>& mixture_class() {
-  static const TableDeclaration<MixtureClass> declaration = [] {
-    TableDeclaration<MixtureClass> table = schema::mixture_class();
-    schema::KeyInfo& share = key_of(table, "area_fraction").info;
-    share.name = "volume_fraction";
-    share.doc = "Volume fraction; the fractions of all classes sum to 1.";
-    schema::KeyInfo& law = key_of(table, "distribution").info;
-    law.choices.back().doc = "sieve curve by volume, from a file";
-    law.doc =
-        "Size distribution by number of particles; \"sieve\": by volume. The size of a "
-        "particle determines the sieve it passes: its smallest width perpendicular to "
-        "its thinnest direction. This is the diameter of a sphere or flat tablet, and "
-        "the middle one of the three axes of an ellipsoid. The shape of the class is "
-        "scaled to it.";
-    key_of(table, "file").info.doc =
-        "Path relative to the folder of the scene. The columns are size (unit in the "
-        "header, `size [mm]`) and passing: the volume fraction of smaller particles, "
-        "rising from 0 to 1, linearly interpolated.";
-    key_of(table, "sizes").info.doc =
-        "Number of discrete sizes that represent the distribution. Each stands for an "
-        "equal fraction of it (of the particles; for \"sieve\" of the volume) and has "
-        "the mean volume of its fraction. Particles of one size share a mesh and are "
-        "computed eight at a time, so each size should have many particles.";
-    return table;
-  }();
   return declaration;
 }
 

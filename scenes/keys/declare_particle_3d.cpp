@@ -2,7 +2,7 @@
 #include <array>
 #include <concepts>
 
-#include "scenes/space/keys/declare.hpp"
+#include "scenes/keys/declare_3d.hpp"
 
 namespace pulvis::space::language {
 namespace {
@@ -103,7 +103,6 @@ std::vector<Key<ParticleSpec>> size_keys_of_shapes() {
             .kind = Kind::vector,
             .unit = "m",
             .range = within(smallest_size, largest_size),
-            .dimensions = 3,
             .required = true,
             .only_for = {"ellipsoid", "superquadric"},
             .doc = "Overall size along the particle's own x, y and z axes."},
@@ -133,7 +132,6 @@ std::vector<Key<ParticleSpec>> form_keys() {
         .kind = Kind::points,
         .unit = "m",
         .range = within(-largest_size, largest_size),
-        .dimensions = 3,
         .required = true,
         .only_for = "polyhedron",
         .doc = "At least four points that do not lie in one plane, in any order. The centre "
