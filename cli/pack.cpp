@@ -11,7 +11,6 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/packing_file.hpp"
-#include "scenes/space/packing/place.hpp"
 #include "scenes/space/space_summary.hpp"
 
 namespace pulvis {
@@ -25,8 +24,8 @@ std::string packing_summary(const Scene& scene) {
         "packing[{}]: {}, relative density {:.4f}, die {:.6g} m x {:.6g} "
         "m, mean gap to the three nearest neighbours {:.3g} diameters, mean contacts per particle "
         "{:.3g}\n",
-        i, counted(packing.placed.size(), "particle"), packing.reached.density, packing.width,
-        packing.top - packing.corner.y(), packing.reached.mean_gap,
+        i, counted(packing.placed.size(), "particle"), packing.reached.density, packing.container.width,
+        packing.top - packing.container.corner.y(), packing.reached.mean_gap,
         2.0 * packing.reached.touches / static_cast<double>(packing.placed.size()));
   }
   return text;
@@ -35,7 +34,7 @@ std::string packing_summary(const Scene& scene) {
 namespace {
 
 ExitCode pack_in_space(const Scene& scene, const std::filesystem::path& file) {
-  const std::vector<BodySpec> bodies = space::place_bodies(scene);
+  const std::vector<BodySpec> bodies = place_bodies(scene);
   space::check_overlaps(scene, bodies);
   write_own(file, role::packing, space::packing_text(scene, bodies));
   tell("{}{}: {}\n", space::packing_summary(scene), file.string(),
@@ -51,7 +50,7 @@ ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file) {
                        "an AFM scene has no particles, allowed: a scene with particles to pack"}});
   require_another(scene.file, file);
   require_own_or_none(file, role::packing);
-  if (scene.space) return pack_in_space(scene, file);
+  if (scene.in_space()) return pack_in_space(scene, file);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   write_own(file, role::packing, packing_text(scene, bodies));

@@ -14,7 +14,7 @@
 #include "engine/files/own_files.hpp"
 #include "engine/instruction_set.hpp"
 #include "scenes/results/bond_results.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "scenes/tools/surface.hpp"
 #include "systems/laws/flow_law.hpp"
 
@@ -23,21 +23,33 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json vector_json(const Scene& scene, const double* v) {
+  Json json{v[0], v[1]};
+  if (scene.in_space()) json.push_back(v[2]);
+  return json;
+}
+
+// `at`: its position, m.
+void add_geometry(const Scene& scene, const ToolSpec& tool, const double* at, Json& json) {
+  using Shape = ToolSpec::Shape;
+  const bool drawn = tool.shape == Shape::polyline;
+  if (!drawn && tool.shape != Shape::constraint) json["point"] = vector_json(scene, at);
+  if (!drawn && tool.shape != Shape::constraint && tool.shape != Shape::stl)
+    json["normal"] = vector_json(scene, tool.normal.data());
+  if (drawn)
+    for (const Vec2& p : drawn_points(make_surface(tool.points, tool.rounding)))
+      json["points"].push_back({at[0] + p.x(), at[1] + p.y()});
+  if (tool.diameter > 0) json["diameter"] = tool.diameter;
+  for (const Vec2& p : tool.profile) json["profile"].push_back({p.x(), p.y()});
+}
+
 Json tools_json(const Scene& scene, const World& world) {
   Json tools = Json::array();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    const double* at = world.column<ToolPosition>().values() + tool_axes * t;
-    const double* f = world.column<ToolForce>().values() + tool_axes * t;
     const ToolSpec& spec = scene.tools[t];
-    Json tool{{"name", spec.name}};
-    if (spec.shape == ToolSpec::Shape::plane) {
-      tool["point"] = {at[0], at[1]};
-      tool["normal"] = {spec.normal.x(), spec.normal.y()};
-    }
-    if (spec.shape == ToolSpec::Shape::polyline)
-      for (const Vec2& p : drawn_points(make_surface(spec.points, spec.rounding)))
-        tool["points"].push_back({at[0] + p.x(), at[1] + p.y()});
-    tool["force"] = {f[0], f[1]};
+    Json tool{{"name", spec.name}, {"shape", tool_shape_names[spec.shape]}};
+    add_geometry(scene, spec, world.column<ToolPosition>().values() + tool_axes * t, tool);
+    tool["force"] = vector_json(scene, world.column<ToolForce>().values() + tool_axes * t);
     tools.push_back(tool);
   }
   return tools;
@@ -63,25 +75,6 @@ Json materials_json(const Scene& scene) {
     materials.push_back(entry);
   }
   return materials;
-}
-
-Json direction_json(const space::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-Json space_tools_json(const space::SpaceScene& scene, const World& world) {
-  static constexpr EnumTable<space::ToolSpec::Shape> shapes{"plane", "die", "punch", "stl"};
-  Json tools = Json::array();
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    const space::ToolSpec& spec = scene.tools[t];
-    const double* at = world.column<ToolPosition>().values() + tool_axes * t;
-    const double* f = world.column<ToolForce>().values() + tool_axes * t;
-    Json tool{{"name", spec.name}, {"shape", shapes[spec.shape]}, {"point", {at[0], at[1], at[2]}}};
-    if (spec.shape != space::ToolSpec::Shape::stl) tool["normal"] = direction_json(spec.normal);
-    if (spec.diameter > 0) tool["diameter"] = spec.diameter;
-    for (const Vec2& p : spec.profile) tool["profile"].push_back({p.x(), p.y()});
-    tool["force"] = {f[0], f[1], f[2]};
-    tools.push_back(tool);
-  }
-  return tools;
 }
 
 std::int64_t peak_memory() {
@@ -245,14 +238,14 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"element_updates_per_second", cost.wall_seconds > 0 ? updates / cost.wall_seconds : 0},
             {"peak_memory_bytes", peak_memory()}};
   if (!cost.rank_memory.empty()) json["ranks"] = ranks_json(cost);
-  if (scene.space)
+  if (scene.in_space())
     json["dimension"] = 3;
   else
     json["thickness"] = scene.thickness;
   add_figures(json, results);
   add_quality(json, world, quality);
   json["limits"] = limits_json(scene.limits);
-  json["tools"] = scene.space ? space_tools_json(*scene.space, world) : tools_json(scene, world);
+  json["tools"] = tools_json(scene, world);
   json["materials"] = materials_json(scene);
   add_stages(json, world);
   add_shear(json, results);

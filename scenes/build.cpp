@@ -231,7 +231,7 @@ Vec2 start_of(const ToolSpec& tool) {
   if (tool.shape == ToolSpec::Shape::polyline) return tool.points.front();
   if (is_constraint(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
     return (tool.low + tool.high) / 2;
-  return tool.point;
+  return in_plane(tool.point);
 }
 
 ToolShapes tool_shapes(const Scene& scene) {
@@ -302,7 +302,7 @@ void add_clock(World& world, const Scene& scene) {
 }
 
 std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
-  if (scene.space) return space::build_world(scene, part);
+  if (scene.in_space()) return space::build_world(scene, part);
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);
   check_travel(scene, particles);

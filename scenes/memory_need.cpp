@@ -84,7 +84,7 @@ MemoryNeed of_ranks(MemoryNeed need, int count, int all) {
 }  // namespace
 
 MemoryNeed memory_need(const Scene& scene) {
-  if (scene.space) {
+  if (scene.in_space()) {
     const space::SpaceMemory of = space::memory_of(scene);
     return {of.columns, of.contacts, of.results, program_bytes};
   }

@@ -159,7 +159,7 @@ void check_family(Scene& scene, const schema::Origins& origins, Problems& proble
     load_meshed_tip(scene, origins, problems);
     problems.throw_if_any();
     check_afm(scene, origins, problems);
-  } else if (scene.space) {
+  } else if (scene.in_space()) {
     space::complete_and_check(scene, origins, problems);
   } else {
     complete_and_check(scene, origins, problems);
@@ -169,7 +169,7 @@ void check_family(Scene& scene, const schema::Origins& origins, Problems& proble
 
 // Packings, grains and profiles.
 void make_powder(Scene& scene, const schema::Origins& origins, Problems& problems) {
-  if (scene.space) return space::fill_packings(scene, origins, problems);
+  if (scene.in_space()) return space::fill_packings(scene, origins, problems);
   fill_packings(scene, origins, problems);
   problems.throw_if_any();
   make_grains(scene, origins, problems);

@@ -19,8 +19,8 @@ constexpr int settling_steps = 600;
 
 void resize(Scene& scene, int rows, int columns) {
   auto& packing = scene.packings.at(0);
-  packing.rows = rows;
-  packing.columns = columns;
+  packing.cells[1] = rows;
+  packing.cells[0] = columns;
   for (ToolSpec& tool : scene.tools) {
     if (tool.normal.x() < 0) tool.point.x() = columns * packing.spacing;
     if (tool.normal.y() < 0) tool.point.y() = rows * packing.spacing;

@@ -18,7 +18,6 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/space/overlaps.hpp"
-#include "scenes/space/packing/place.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis {
@@ -46,7 +45,7 @@ json of_powder(const Scene& scene, SceneFindings& findings) {
 }
 
 json of_space(const Scene& scene, SceneFindings& findings) {
-  const std::vector<BodySpec> bodies = space::place_bodies(scene);
+  const std::vector<BodySpec> bodies = place_bodies(scene);
   space::check_overlaps(scene, bodies);
   const MemoryNeed need = require_memory(scene);
   Simulation simulation(scene);
@@ -80,7 +79,7 @@ ExitCode draw_preview(const PreviewOptions& options) {
   require_own_or_none(options.output, role::figure);
   SceneFindings findings;
   json setup = scene.afm     ? of_lever(scene, findings)
-               : scene.space ? of_space(scene, findings)
+               : scene.in_space() ? of_space(scene, findings)
                              : of_powder(scene, findings);
   tell_findings(findings);
   setup["title"] = scene.title;

@@ -23,9 +23,7 @@
 #include "scenes/lever/afm_size.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/space/overlaps.hpp"
-#include "scenes/space/packing/place.hpp"
 #include "scenes/space/space_summary.hpp"
-#include "scenes/space/space_warnings.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "scenes/tools/bond_rules.hpp"
 
@@ -52,9 +50,9 @@ std::string memory_line(const MemoryNeed& need) {
 
 std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                                      Simulation* simulation) {
-  if (scene.space) return space::setup_warnings(scene, bodies);
-  std::vector<std::string> lines = bending_warnings(scene);
-  if (simulation != nullptr && has_bonds(scene))  // bonds are known only after a contact search
+  std::vector<std::string> lines;
+  if (!scene.in_space()) lines = bending_warnings(scene);
+  if (simulation != nullptr && !scene.in_space() && has_bonds(scene))  // bonds are known only after a contact search
     std::ranges::move(bond_warnings(scene, simulation->world()), std::back_inserter(lines));
   std::ranges::move(setup_warnings(scene, bodies), std::back_inserter(lines));
   return lines;
@@ -63,14 +61,14 @@ std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodyS
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                           const MemoryNeed& need, Simulation* simulation) {
   SceneFindings findings;
-  findings.sizes = scene.space ? space::packing_summary(scene) + space::mesh_summary(scene)
+  findings.sizes = scene.in_space() ? space::packing_summary(scene) + space::mesh_summary(scene)
                                : packing_summary(scene) + mesh_summary(scene);
   findings.warnings = warnings_of(scene, bodies, simulation);
   findings.memory = memory_line(need);
   findings.run = estimate_line(simulation);
   findings.verdict =
       fmt::format("{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
-                  counted(scene.space ? scene.space->tools.size() : scene.tools.size(), "tool"),
+                  counted(scene.tools.size(), "tool"),
                   counted(scene.stages.size(), "stage"));
   return findings;
 }
@@ -109,8 +107,8 @@ ExitCode check_scene(const Scene& scene) {
     return ExitCode::done;
   }
   const std::vector<BodySpec> bodies =
-      scene.space ? space::place_bodies(scene) : place_bodies(scene);
-  scene.space ? space::check_overlaps(scene, bodies) : check_overlaps(scene, bodies);
+      place_bodies(scene);
+  scene.in_space() ? space::check_overlaps(scene, bodies) : check_overlaps(scene, bodies);
   const MemoryNeed need = memory_need(scene);
   std::optional<Simulation> simulation;
   if (need.total() <= available_memory()) simulation.emplace(scene);

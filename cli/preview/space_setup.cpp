@@ -22,13 +22,13 @@ namespace pulvis {
 namespace {
 
 using nlohmann::json;
-using space::Vec3;
+using Vec3;
 
 constexpr std::array<const char*, 6> shape_names{"sphere",   "ellipsoid",  "superquadric",
                                                  "cylinder", "polyhedron", "STL surface"};
-static_assert(shape_names.size() == std::variant_size_v<space::ParticleShape>);
+static_assert(shape_names.size() == std::variant_size_v<ParticleShape>);
 
-const space::ParticleSpec& class_of_body(const space::SpaceScene& scene, const BodySpec& body) {
+const ParticleSpec& class_of_body(const Scene& scene, const BodySpec& body) {
   const auto& spec = scene.particles[static_cast<std::size_t>(body.particle)];
   return spec.class_of < 0 ? spec : scene.particles[static_cast<std::size_t>(spec.class_of)];
 }
@@ -54,7 +54,7 @@ json particles_in_space(const Scene& scene, const std::vector<BodySpec>& bodies,
   json out = json::array();
   visit_particles<ThreeD>(world, [&](std::size_t first, int lane, const space::Shape& shape) {
     const BodySpec& body = bodies.at(out.size());
-    const space::ParticleSpec& spec = class_of_body(*scene.space, body);
+    const ParticleSpec& spec = class_of_body(scene, body);
     json one = particle_surface(world, first, lane, shape);
     one["class"] = spec.name;
     one["material"] = scene.materials[static_cast<std::size_t>(spec.material)].name;
@@ -72,7 +72,7 @@ json classes_in_space(const Scene& scene, const std::vector<BodySpec>& bodies,
                       const json& particles) {
   json out = json::array();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const space::ParticleSpec& spec = class_of_body(*scene.space, bodies[i]);
+    const ParticleSpec& spec = class_of_body(scene, bodies[i]);
     const double diameter = std::cbrt(6 / std::numbers::pi * particles[i]["volume"].get<double>());
     auto one = std::ranges::find_if(out, [&](const json& c) { return c["name"] == spec.name; });
     if (one == out.end()) {
@@ -84,8 +84,8 @@ json classes_in_space(const Scene& scene, const std::vector<BodySpec>& bodies,
     }
     (*one)["count"] = (*one)["count"].get<int>() + 1;
     widen((*one)["diameter"], diameter);
-    const auto& sized = scene.space->particles[static_cast<std::size_t>(bodies[i].particle)].shape;
-    if (const auto* cylinder = std::get_if<space::CylinderShape>(&sized)) {
+    const auto& sized = scene.particles[static_cast<std::size_t>(bodies[i].particle)].shape;
+    if (const auto* cylinder = std::get_if<CylinderShape>(&sized)) {
       widen((*one)["width"], cylinder->diameter);
       widen((*one)["height"], cylinder->height);
     }
@@ -103,20 +103,19 @@ Eigen::AlignedBox3d box_of(const json& particles) {
 }
 
 json tools_in_space(const Scene& scene, const json& particles, const World& world) {
-  const space::SpaceScene& space = *scene.space;
-  if (space.tools.empty()) return json::array();
-  const space::ToolSheets sheets(space, box_of(particles));
+  if (scene.tools.empty()) return json::array();
+  const space::ToolSheets sheets(scene, box_of(particles));
   const ToolFaces& faces = sheets.faces();
   const std::vector<double> xyz =
-      sheets.points({world.column<ToolPosition>().values(), tool_axes * space.tools.size()});
+      sheets.points({world.column<ToolPosition>().values(), tool_axes * scene.tools.size()});
   json out = json::array();
-  for (std::size_t t = 0; t < space.tools.size(); ++t) {
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     json friction = json::object();
     for (const MaterialSpec& m : scene.materials)
-      friction[m.name] = friction_of(scene, m.name, space.tools[t].name).coefficient;
-    out.push_back({{"name", space.tools[t].name},
+      friction[m.name] = friction_of(scene, m.name, scene.tools[t].name).coefficient;
+    out.push_back({{"name", scene.tools[t].name},
                    {"shape", faces.kinds[t]},
-                   {"normal", triple(space.tools[t].normal)},
+                   {"normal", triple(scene.tools[t].normal)},
                    {"friction", friction},
                    {"pieces", json::array()}});
   }

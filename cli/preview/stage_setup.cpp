@@ -4,7 +4,7 @@
 
 #include "engine/enum_table.hpp"
 #include "scenes/space/tools/drives.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "scenes/tools/servo_checks.hpp"
 
 namespace pulvis {
@@ -17,17 +17,15 @@ constexpr EnumTable<StageSpec::Kind> stage_kinds{"settle", "compact", "hold",
 
 json vector_of(const Vec3& v, const Scene& scene) {
   json out{v.x(), v.y()};
-  if (scene.space) out.push_back(v.z());
+  if (scene.in_space()) out.push_back(v.z());
   return out;
 }
 
 const std::string& tool_name(const Scene& scene, int tool) {
-  if (scene.space) return scene.space->tools[static_cast<std::size_t>(tool)].name;
   return scene.tools[static_cast<std::size_t>(tool)].name;
 }
 
 bool moves_radially(const Scene& scene, int number) {
-  if (scene.space) return false;
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
   return tool.shape == ToolSpec::Shape::constraint && tool.holds == ToolSpec::Holds::radial;
 }
@@ -45,8 +43,7 @@ json move_setup(const Scene& scene, const StageSpec& stage, const MoveSpec& move
 json servo_setup(const Scene& scene, const ServoSpec& servo) {
   return {{"tool", tool_name(scene, servo.tool)},
           {"direction",
-           vector_of(scene.space ? space::direction_of(servo, scene) : direction_of(servo, scene),
-                     scene)},
+           vector_of(direction_of(servo, scene), scene)},
           {"force", servo.force}};
 }
 

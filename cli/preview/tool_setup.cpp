@@ -53,7 +53,7 @@ json constraint_setup(const ToolSpec& tool, const World& world, int number) {
            {"holds", directions[tool.holds]},
            {"nodes", held_nodes(world, number)}};
   if (tool.radius) {
-    out["point"] = point_of(tool.point);
+    out["point"] = point_of(in_plane(tool.point));
     out["radius"] = *tool.radius;
   } else {
     out["low"] = point_of(tool.low);
@@ -66,7 +66,7 @@ json touching_setup(const Scene& scene, const ToolSpec& tool, const Vec2& positi
   json out{{"normal", point_of(face_normal(tool))},
            {"point", point_of(position)},
            {"friction", friction_setup(scene, tool)}};
-  out["shape"] = tool.shape == ToolSpec::Shape::plane ? "plane" : "polyline";
+  out["shape"] = tool_shape_names[tool.shape];
   if (tool.shape == ToolSpec::Shape::plane) return out;
   out["points"] = json::array();
   for (const Vec2& point : drawn_points(make_surface(tool.points, tool.rounding)))

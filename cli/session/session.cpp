@@ -18,8 +18,6 @@
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/bond_results.hpp"
-#include "scenes/space/packing/place.hpp"
-#include "scenes/space/space_warnings.hpp"
 
 namespace pulvis {
 namespace {
@@ -56,7 +54,6 @@ void check_limits(const Scene& scene, const Results& results, const World& world
 }
 
 std::vector<std::string> warnings_at_start(const Scene& scene) {
-  if (scene.space) return space::setup_warnings(scene, space::place_bodies(scene));
   return setup_warnings(scene, place_bodies(scene));
 }
 

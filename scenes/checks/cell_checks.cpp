@@ -50,11 +50,11 @@ class CellChecks {
       refuse("cell", "height is missing, allowed: a quantity in m, or a random packing");
     if (!fills) return;
     const PackingSpec& packing = scene_.packings[0];
-    if (packing.width != cell.width)
+    if (packing.container.width != cell.width)
       refuse("packing[0].width",
              fmt::format("the packing fills the cell, allowed: {:g} m, the width of the cell",
                          cell.width));
-    if (packing.corner != cell.corner)
+    if (in_plane(packing.container.corner) != cell.corner)
       refuse("packing[0].corner", "the packing fills the cell, allowed: the corner of the cell");
   }
 

@@ -280,7 +280,7 @@ class Checks {
         refuse(path + ".class[0]",
                "has no effect with this kind, allowed: classes of kind = \"random\"");
       if (!is_lattice(packing)) continue;
-      if (packing.kind == PackingSpec::Kind::hexagonal && packing.columns == 1)
+      if (packing.kind == PackingSpec::Kind::hexagonal && packing.cells[0] == 1)
         refuse(path + ".columns",
                "every second row would be empty, allowed: >= 2 with kind = \"hexagonal\"");
       if (origins_.count(path + ".spacing") != 0) continue;
@@ -300,22 +300,6 @@ class Checks {
       const std::string path = fmt::format("stage[{}]", i);
       check_stage_kind(stage, stage.moves.size(), stage.servos.size() + (stage.cell ? 1U : 0U),
                        "[[stage.move]] or [[stage.servo]], a [stage.cell]", path, refusal());
-      moves(stage, path);
-    }
-  }
-
-  void moves(const StageSpec& stage, const std::string& stage_path) {
-    std::set<int> moved;
-    for (std::size_t i = 0; i < stage.moves.size(); ++i) {
-      const MoveSpec& move = stage.moves[i];
-      const std::string path = fmt::format("{}.move[{}]", stage_path, i);
-      if (!moved.insert(move.tool).second)
-        refuse(path + ".tool",
-               fmt::format("'{}' is moved twice in this stage, allowed: one move for each tool",
-                           scene_.tools[static_cast<std::size_t>(move.tool)].name));
-      if (move.displacement.isZero(0))
-        refuse(path + ".displacement",
-               "a move by zero has no effect, allowed: a displacement that is not 0");
     }
   }
 

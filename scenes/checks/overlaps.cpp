@@ -75,8 +75,8 @@ Pose pose(const BodySpec& body) {
 
 // How far a body extends behind the tool's surface.
 double depth_behind(const ToolSpec& tool, const BodySpec& body, const OutlineReach& reach) {
-  return reach.along(body.angle, -tool.normal) -
-         (in_plane(body.position) - tool.point).dot(tool.normal);
+  return reach.along(body.angle, -in_plane(tool.normal)) -
+         (body.position - tool.point).dot(tool.normal);
 }
 
 class OverlapSearch {
@@ -152,8 +152,8 @@ class OverlapSearch {
 
  private:
   static Object half_space(const ToolSpec& tool) {
-    const fcl::Vector3d normal(tool.normal.x(), tool.normal.y(), 0);
-    return Object(std::make_shared<fcl::Halfspace<double>>(normal, tool.normal.dot(tool.point)));
+    return Object(
+        std::make_shared<fcl::Halfspace<double>>(tool.normal, tool.normal.dot(tool.point)));
   }
 
   // std::less orders any two pointers, even those into different arrays.

@@ -9,6 +9,7 @@
 #include "engine/portable_math.hpp"
 #include "scenes/checks/travel.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/space/space_warnings.hpp"
 #include "scenes/spec/elastic_response.hpp"
 #include "scenes/tools/die_sides.hpp"
 
@@ -29,8 +30,10 @@ double highest_speed(const MoveSpec& move, double duration) {
 
 // A tool that moves away from the powder exerts no pressure.
 bool leaves(const ToolSpec& tool, const MoveSpec& move) {
-  return tool.shape == ToolSpec::Shape::constraint ||
-         in_plane(move.displacement).dot(face_normal(tool)) < 0;
+  if (tool.shape == ToolSpec::Shape::constraint) return true;
+  if (tool.shape == ToolSpec::Shape::polyline)
+    return in_plane(move.displacement).dot(face_normal(tool)) < 0;
+  return has_face(tool) && move.displacement.dot(tool.normal) < 0;
 }
 
 }  // namespace
@@ -56,10 +59,10 @@ struct Extent {
 
 // The room that packings are generated for: for a lattice, its cells.
 std::optional<Extent> room_of(const PackingSpec& packing) {
-  double width = packing.width;
-  if (is_lattice(packing)) width = packing.columns * packing.spacing;
+  double width = packing.container.width;
+  if (is_lattice(packing)) width = packing.cells[0] * packing.spacing;
   if (packing.kind == PackingSpec::Kind::csv || !(width > 0)) return std::nullopt;
-  return Extent{packing.corner.x(), packing.corner.x() + width};
+  return Extent{packing.container.corner.x(), packing.container.corner.x() + width};
 }
 
 // A wall that is not at the boundary of the packing's room: behind it, or in front of it.
@@ -136,12 +139,12 @@ std::vector<std::string> steep_ring_warnings(const Scene& scene) {
 }  // namespace
 
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  std::vector<std::string> lines = travel_warnings(scene, bodies);
-  for (std::string& line : leaving_warnings(scene)) lines.push_back(std::move(line));
-  for (std::string& line : until_warnings(scene, density_at_start(scene, bodies)))
-    lines.push_back(std::move(line));
-  for (std::string& line : soft_contact_warnings(scene)) lines.push_back(std::move(line));
-  for (std::string& line : steep_ring_warnings(scene)) lines.push_back(std::move(line));
+  std::vector<std::string> lines;
+  for (auto&& more :
+       {scene.in_space() ? space::solid_warnings(scene, bodies) : steep_ring_warnings(scene),
+        travel_warnings(scene, bodies), leaving_warnings(scene),
+        until_warnings(scene, density_at_start(scene, bodies)), soft_contact_warnings(scene)})
+    lines.insert(lines.end(), more.begin(), more.end());
   const FastTool fast = fastest_tool(scene);
   const std::string tool =
       fast.speed > 0 ? scene.tools[static_cast<std::size_t>(fast.tool)].name : "";

@@ -3,98 +3,126 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <limits>
 #include <map>
 
 #include "scenes/checks/faces.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/outlines/outline.hpp"
+#include "scenes/space/packing/rigid_shape.hpp"
+#include "scenes/space/tools/die_room.hpp"
 #include "scenes/tools/die_sides.hpp"
 
 namespace pulvis {
 namespace {
 
-constexpr double densest = 1.5;  // -, denser scenes are refused; soft elastic solids withstand less
+constexpr double too_dense =
+    1.5;  // -, denser scenes are refused; soft elastic solids withstand less
 
-// For the sides left, right, bottom, top: their x or y.
-using Sides = std::array<double, 4>;
+using Places = std::vector<Vec3>;  // m, of the tools
+// m^2 or m^3 that the tools enclose; 0 if nothing is left.
+using Enclosed = std::function<double(const Places&)>;
 
-double area_of(const Sides& sides) {
-  const double width = sides[1] - sides[0], height = sides[3] - sides[2];
-  return width > 0 && height > 0 ? width * height : 0;
+std::optional<Enclosed> enclosed_area(const Scene& scene) {
+  if (scene.cell) return std::nullopt;
+  for (const ToolSpec& tool : scene.tools)
+    if (tool.shape != ToolSpec::Shape::plane && tool.shape != ToolSpec::Shape::constraint)
+      return std::nullopt;
+  const auto sides = die_sides(scene);
+  if (!sides) return std::nullopt;
+  return [sides](const Places& places) {
+    const auto at = [&](std::size_t side) { return places[static_cast<std::size_t>((*sides)[side])]; };
+    const double width = at(1).x() - at(0).x(), height = at(3).y() - at(2).y();
+    return width > 0 && height > 0 ? width * height : 0.0;
+  };
 }
 
-double powder_area(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  std::map<int, double> areas;  // of the classes
-  double area = 0;
+std::optional<Enclosed> enclosed_volume(const Scene& scene) {
+  const auto room = space::die_room(scene);
+  if (!room) return std::nullopt;
+  return [room](const Places& places) {
+    const auto at = [&](int tool, int k) { return places[static_cast<std::size_t>(tool)][k]; };
+    const bool box = room->kind == DieRoom::Kind::box;
+    if (!(room->height(at) > 0) || (box && !(room->width(at) > 0 && room->depth(at) > 0)))
+      return 0.0;
+    return std::max(room->volume(at), 0.0);
+  };
+}
+
+// None if something else than flat walls, or another run, decides what is enclosed.
+std::optional<Enclosed> enclosed(const Scene& scene) {
+  if (scene.initial_state) return std::nullopt;
+  return scene.in_space() ? enclosed_volume(scene) : enclosed_area(scene);
+}
+
+double content_of(const Scene& scene, const BodySpec& body) {
+  const ParticleSpec& particle = scene.class_of(body);
+  return scene.in_space() ? space::volume_of(particle.shape) : outline_area(particle.outline);
+}
+
+// m^2 or m^3, of all particles.
+double content_of_powder(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  std::map<int, double> contents;  // of the classes
+  double content = 0;
   for (const BodySpec& body : bodies) {
-    const auto [of_class, fresh] = areas.try_emplace(body.particle, 0);
-    if (fresh) of_class->second = outline_area(scene.class_of(body).outline);
-    area += of_class->second;
+    const auto [of_class, fresh] = contents.try_emplace(body.particle, 0);
+    if (fresh) of_class->second = content_of(scene, body);
+    content += of_class->second;
   }
-  return area;
+  return content;
 }
 
-Vec2 travel_of(const StageSpec& stage, int tool) {
-  for (const MoveSpec& move : stage.moves)
-    if (move.tool == tool) return in_plane(move.displacement);
-  return Vec2::Zero();
+Places start_of_tools(const Scene& scene) {
+  Places places;
+  for (const ToolSpec& tool : scene.tools) places.push_back(tool.point);
+  return places;
+}
+
+Places moved(Places places, const std::vector<MoveSpec>& moves, double share) {
+  for (const MoveSpec& move : moves)
+    places[static_cast<std::size_t>(move.tool)] += share * move.displacement;
+  return places;
 }
 
 bool is_prescribed(const StageSpec& stage) {
-  return stage.servos.empty() && !stage.cell &&
+  return stage.servos.empty() && !stage.cell && !stage.until &&
          std::ranges::none_of(stage.moves,
                               [](const MoveSpec& m) { return m.stiffness.has_value(); });
 }
 
-// Four planes around the whole powder, one on each side.
-std::optional<DieSides> flat_die(const Scene& scene) {
-  if (scene.initial_state || scene.cell) return std::nullopt;
-  for (const ToolSpec& tool : scene.tools)
-    if (tool.shape != ToolSpec::Shape::plane && tool.shape != ToolSpec::Shape::constraint)
-      return std::nullopt;
-  return die_sides(scene);
-}
-
-Sides start_of(const Scene& scene, const DieSides& die) {
-  Sides sides{};
-  for (std::size_t s = 0; s < 4; ++s)
-    sides[s] = scene.tools[static_cast<std::size_t>(die[s])].point[s < 2 ? 0 : 1];
-  return sides;
-}
-
-Sides moved(const Sides& sides, const DieSides& die, const StageSpec& stage, double share) {
-  Sides result = sides;
-  for (std::size_t s = 0; s < 4; ++s) result[s] += share * travel_of(stage, die[s])[s < 2 ? 0 : 1];
-  return result;
-}
-
-// -, fraction of the stage at which the die's area equals the powder's.
-double share_until(double area, const Sides& sides, const DieSides& die, const StageSpec& stage) {
+// -, fraction of the stage at which the powder fills what is enclosed.
+double share_until_full(double powder, const Enclosed& left, const Places& places,
+                        const std::vector<MoveSpec>& moves) {
   double low = 0, high = 1;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
-    (area_of(moved(sides, die, stage, middle)) > area ? low : high) = middle;
+    (left(moved(places, moves, middle)) > powder ? low : high) = middle;
   }
   return high;
 }
 
-FullDensity reached_in(const Scene& scene, const Sides& sides, const DieSides& die, int number,
-                       double area) {
-  const StageSpec& stage = scene.stages[static_cast<std::size_t>(number)];
+FullDensity reached_in(const Scene& scene, int stage, const Enclosed& enclosed,
+                       const Places& places, double powder) {
+  const std::vector<MoveSpec>& moves = scene.stages[static_cast<std::size_t>(stage)].moves;
+  const std::vector<Face> faces = faces_of(scene);
   FullDensity full;
-  full.stage = number;
-  for (std::size_t s = 0; s < 4; ++s) {
-    const double inwards = travel_of(stage, die[s])[s < 2 ? 0 : 1] * (s % 2 == 0 ? 1 : -1);
+  full.stage = stage;
+  for (const MoveSpec& move : moves) {
+    const auto face = std::ranges::find(faces, move.tool, &Face::tool);
+    const double inwards = face == faces.end() ? 0 : move.displacement.dot(face->normal);
     if (inwards <= full.travel) continue;
-    full.tool = die[s];
+    full.tool = move.tool;
     full.travel = inwards;
   }
-  full.until_full = share_until(area, sides, die, stage) * full.travel;
-  const double left = area_of(moved(sides, die, stage, 1));
-  full.density = left > 0 ? area / left : std::numeric_limits<double>::infinity();
+  full.until_full = share_until_full(powder, enclosed, places, moves) * full.travel;
+  const double left = enclosed(moved(places, moves, 1));
+  full.density = left > 0 ? powder / left : std::numeric_limits<double>::infinity();
   return full;
+}
+
+const std::string& name_of(const Scene& scene, int tool) {
+  return scene.tools[static_cast<std::size_t>(tool)].name;
 }
 
 std::string described(const Scene& scene, const FullDensity& full) {
@@ -104,8 +132,8 @@ std::string described(const Scene& scene, const FullDensity& full) {
   return fmt::format(
       "stage '{}': tool '{}' travels {:.4g} m, beyond full density, which is reached after {:.4g} "
       "m ({} at the end)",
-      scene.stages[static_cast<std::size_t>(full.stage)].name,
-      scene.tools[static_cast<std::size_t>(full.tool)].name, full.travel, full.until_full, density);
+      scene.stages[static_cast<std::size_t>(full.stage)].name, name_of(scene, full.tool),
+      full.travel, full.until_full, density);
 }
 
 // Pa, yield stress of the softest particles; infinite for elastic ones.
@@ -123,40 +151,23 @@ double bulk_modulus(const Scene& scene) {
   return bulk;
 }
 
-std::vector<Face<Vec2>> faces_of(const Scene& scene) {
-  std::vector<Face<Vec2>> all;
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    const ToolSpec& tool = scene.tools[t];
-    if (tool.shape == ToolSpec::Shape::constraint) continue;
-    Face<Vec2> face{static_cast<int>(t), tool.point, face_normal(tool)};
-    for (const Vec2& corner : tool.points)
-      if (&corner == &tool.points.front() || (corner - face.point).dot(face.normal) < 0)
-        face.point = corner;
-    all.push_back(face);
-  }
-  return all;
-}
-
-std::vector<StageMoves<Vec2>> moves_of(const Scene& scene) {
-  std::vector<StageMoves<Vec2>> all;
-  for (const StageSpec& stage : scene.stages) {
-    StageMoves<Vec2> moves;
-    moves.decided = is_prescribed(stage) && !stage.until;
-    for (const MoveSpec& move : stage.moves)
-      moves.of_tools.emplace_back(move.tool, in_plane(move.displacement));
-    all.push_back(std::move(moves));
-  }
-  return all;
-}
-
-[[noreturn]] void refuse_meeting(const Scene& scene, const Meeting& meeting) {
-  const auto& moves = scene.stages[static_cast<std::size_t>(meeting.stage)].moves;
-  const auto move = std::ranges::find(moves, meeting.first, &MoveSpec::tool);
-  const auto name = [&](int tool) { return scene.tools[static_cast<std::size_t>(tool)].name; };
+// The move of the tool in the stage.
+[[noreturn]] void refuse_move(const Scene& scene, int stage, int tool, const std::string& message) {
+  const auto& moves = scene.stages[static_cast<std::size_t>(stage)].moves;
+  const auto move = std::ranges::find(moves, tool, &MoveSpec::tool);
   throw SceneError(
       {{scene.file_of(move->mark).string(), move->mark.line, move->mark.column, "",
-        fmt::format("stage[{}].move[{}].displacement", meeting.stage, move - moves.begin()),
-        told_meeting(meeting, scene, name(meeting.first), name(meeting.second))}});
+        fmt::format("stage[{}].move[{}].displacement", stage, move - moves.begin()), message}});
+}
+
+void refuse_meeting(const Scene& scene, const Meeting& meeting) {
+  refuse_move(scene, meeting.stage, meeting.first,
+              fmt::format("stage '{}': tools '{}' and '{}' approach each other by {:.4g} m, but "
+                          "are {:.4g} m apart at its start: no room is left for the powder, "
+                          "allowed: less than {:.4g} m",
+                          scene.stages[static_cast<std::size_t>(meeting.stage)].name,
+                          name_of(scene, meeting.first), name_of(scene, meeting.second),
+                          meeting.closing, meeting.apart, meeting.apart));
 }
 
 // For scenes that demonstrate what a health check detects.
@@ -167,24 +178,23 @@ bool is_to_stop(const Scene& scene) {
 }  // namespace
 
 std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  const auto die = flat_die(scene);
-  const double area = die ? area_of(start_of(scene, *die)) : 0;
-  return area > 0 ? std::optional(powder_area(scene, bodies) / area) : std::nullopt;
+  const auto left = enclosed(scene);
+  const double content = left ? (*left)(start_of_tools(scene)) : 0;
+  return content > 0 ? std::optional(content_of_powder(scene, bodies) / content) : std::nullopt;
 }
 
 std::optional<FullDensity> full_density(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  const auto die = flat_die(scene);
-  if (!die) return std::nullopt;
-  const double area = powder_area(scene, bodies);
-  Sides sides = start_of(scene, *die);
-  for (std::size_t i = 0; i < scene.stages.size(); ++i) {
-    const StageSpec& stage = scene.stages[i];
-    if (!is_prescribed(stage)) return std::nullopt;
-    const Sides end = moved(sides, *die, stage, 1);
-    if (area_of(end) < area && area_of(end) < area_of(sides) && !stage.until)
-      return reached_in(scene, sides, *die, static_cast<int>(i), area);
-    if (stage.until) return std::nullopt;
-    sides = end;
+  const auto left = enclosed(scene);
+  if (!left) return std::nullopt;
+  const double powder = content_of_powder(scene, bodies);
+  Places places = start_of_tools(scene);
+  for (std::size_t s = 0; s < scene.stages.size(); ++s) {
+    if (!is_prescribed(scene.stages[s])) return std::nullopt;
+    const Places end = moved(places, scene.stages[s].moves, 1);
+    const double content = (*left)(end);
+    if (content < powder && content < (*left)(places))
+      return reached_in(scene, static_cast<int>(s), *left, places, powder);
+    places = end;
   }
   return std::nullopt;
 }
@@ -195,16 +205,10 @@ void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (!full && !scene.initial_state)
     if (const auto meeting = first_meeting(faces_of(scene), moves_of(scene)))
       refuse_meeting(scene, *meeting);
-  if (!full || full->density < densest) return;
-  const StageSpec& stage = scene.stages[static_cast<std::size_t>(full->stage)];
-  for (std::size_t m = 0; m < stage.moves.size(); ++m) {
-    const MoveSpec& move = stage.moves[m];
-    if (move.tool != full->tool) continue;
-    throw SceneError({{scene.file_of(move.mark).string(), move.mark.line, move.mark.column, "",
-                       fmt::format("stage[{}].move[{}].displacement", full->stage, m),
-                       fmt::format("{}, allowed: a travel of up to about {:.4g} m",
-                                   described(scene, *full), full->until_full)}});
-  }
+  if (!full || full->density < too_dense) return;
+  refuse_move(scene, full->stage, full->tool,
+              fmt::format("{}, allowed: a travel of up to about {:.4g} m", described(scene, *full),
+                          full->until_full));
 }
 
 std::vector<std::string> until_warnings(const Scene& scene, const std::optional<double>& density) {
@@ -219,14 +223,19 @@ std::vector<std::string> until_warnings(const Scene& scene, const std::optional<
 }
 
 std::vector<std::string> leaving_warnings(const Scene& scene) {
-  const std::vector<Face<Vec2>> faces = faces_of(scene);
-  const std::vector<StageMoves<Vec2>> moves = moves_of(scene);
-  std::vector<std::string> leaving(scene.stages.size());
-  for (std::size_t s = 0; s < leaving.size(); ++s)
-    if (scene.stages[s].servos.empty() && !scene.stages[s].cell)
-      if (const auto tool = tool_that_leaves(moves[s], faces))
-        leaving[s] = scene.tools[static_cast<std::size_t>(*tool)].name;
-  return leaving_warnings(scene, leaving);
+  const std::vector<Face> faces = faces_of(scene);
+  const std::vector<StageMoves> moves = moves_of(scene);
+  std::vector<std::string> lines;
+  for (std::size_t s = 0; s < scene.stages.size(); ++s) {
+    const StageSpec& stage = scene.stages[s];
+    if (stage.kind != StageSpec::Kind::compact || !stage.servos.empty() || stage.cell) continue;
+    if (const auto tool = tool_that_leaves(moves[s], faces))
+      lines.push_back(fmt::format(
+          "stage '{}': tool '{}' moves away from the powder, and no tool moves towards it: a stage "
+          "of kind = \"compact\" that loads nothing (wrong sign of the displacement?)",
+          stage.name, name_of(scene, *tool)));
+  }
+  return lines;
 }
 
 std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {

@@ -1,7 +1,8 @@
 // How far the walls of a die travel, compared with the room that the solid itself takes up.
 //
-// A die of four planes encloses a known area at every instant. Where it falls below the area of the particles, the
-// relative density exceeds 1: no pores are left, and only the solid's elastic compression can yield room.
+// A die of four planes encloses a known area at every instant, one of six planes or a round one a volume. Where it falls
+// below that of the particles, the relative density exceeds 1: no pores are left, and only the solid's elastic compression
+// can yield room.
 #pragma once
 
 #include <optional>
@@ -22,11 +23,11 @@ struct FullDensity {
   double volume_strain() const { return 1 - 1 / density; }  // elastic, of the solid
 };
 
-// None if the die is not a rectangle of planes, or if forces, compliant drives, an `until` or an initial state
+// None if there is no such die, or if forces, compliant drives, an `until` or an initial state
 // decide how far a tool gets before full density.
 std::optional<FullDensity> full_density(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// -, of a die of four planes at its start; none for other scenes.
+// -, of such a die at its start; none for other scenes.
 std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 // If a stage of kind "compact" moves tools away from the powder only.

@@ -41,7 +41,7 @@ std::vector<Key<BodySpec>> turn_keys() {
             .dimension = Dimension::three},
            [](BodySpec& spec, const Decoded& value) {
              const double half = value.number / 2;
-             spec.rotation = Rotation3(portable::cos(half), 0, 0, portable::sin(half));
+             spec.rotation = Rotation(portable::cos(half), 0, 0, portable::sin(half));
            }},
           {{.name = "axis",
             .kind = Kind::direction,
@@ -52,7 +52,7 @@ std::vector<Key<BodySpec>> turn_keys() {
            // The preceding key has set the angle, about z.
            [](BodySpec& spec, const Decoded& value) {
              const Vec3 part = spec.rotation.z() * value.vector3.normalized();
-             spec.rotation = Rotation3(spec.rotation.w(), part.x(), part.y(), part.z());
+             spec.rotation = Rotation(spec.rotation.w(), part.x(), part.y(), part.z());
            }}};
 }
 

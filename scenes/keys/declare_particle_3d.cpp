@@ -195,7 +195,7 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
                    "most 100,000 elements.",
             .fallback_doc = "set by `accuracy`; 4 if `rings` is given"},
            [](ParticleSpec& spec, const Decoded& value) {
-             spec.mesh.divisions = static_cast<int>(value.integer);
+             spec.hex_mesh.divisions = static_cast<int>(value.integer);
            }},
           {{.name = "rings",
             .kind = Kind::integer,
@@ -204,7 +204,7 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
                    "elements as the surface has faces.",
             .fallback_doc = "set by `accuracy`; 4 if `divisions` is given"},
            [](ParticleSpec& spec, const Decoded& value) {
-             spec.mesh.rings = static_cast<int>(value.integer);
+             spec.hex_mesh.rings = static_cast<int>(value.integer);
            }},
           {{.name = "axial_divisions",
             .kind = Kind::integer,
@@ -213,11 +213,11 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
                    "keep the elements close to equal-sided.",
             .fallback_doc = "divisions"},
            [](ParticleSpec& spec, const Decoded& value) {
-             spec.mesh.axial_divisions = static_cast<int>(value.integer);
+             spec.hex_mesh.axial_divisions = static_cast<int>(value.integer);
            }},
           {{.name = "grid",
             .kind = Kind::choice,
-            .choices = words_of<MeshSpec::Grid>(
+            .choices = words_of<HexMeshSpec::Grid>(
                 {{"cube", "a cube at the centre, with layers around it"},
                  {"extruded",
                   "a disc mesh, a square at the centre with rings around it, extruded along z in "
@@ -228,7 +228,7 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
             .only_for = "cylinder",
             .doc = "Topology of the mesh."},
            [](ParticleSpec& spec, const Decoded& value) {
-             spec.mesh.grid = value_for<MeshSpec::Grid>(value);
+             spec.hex_mesh.grid = value_for<HexMeshSpec::Grid>(value);
            }},
           {{.name = "phase",
             .kind = Kind::choice,

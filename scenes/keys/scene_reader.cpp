@@ -50,10 +50,15 @@ class SceneReader {
 
  private:
   void read_powder(Scene& scene) {
-    if (dimension_of(root_) == 3)
-      read_space(*(scene.space = std::make_shared<space::SpaceScene>()));
-    else
-      read_plane(scene);
+    scene.dimension = dimension_of(root_);
+    if (scene.in_space()) {
+      scene.particles = read_particles(space::language::particle(), space::language::mesh());
+    } else {
+      scene.particles = read_particles(schema::particle(), schema::mesh());
+      read_grains(scene.particles);
+    }
+    scene.packings = read_packings();
+    scene.tools = read_all(schema::tool());
     scene.bodies = read_all(schema::body());
     scene.stages = read_stages();
     scene.frictions = read_all(schema::friction());
@@ -67,19 +72,6 @@ class SceneReader {
     read_one(schema::time(), scene.time);
     read_one(schema::output(), scene.output);
     read_one(schema::limits(), scene.limits);
-  }
-
-  void read_plane(Scene& scene) {
-    scene.particles = read_particles(schema::particle(), schema::mesh());
-    read_grains(scene.particles);
-    scene.packings = read_packings(schema::packing());
-    scene.tools = read_all(schema::tool());
-  }
-
-  void read_space(space::SpaceScene& space) {
-    space.particles = read_particles(space::language::particle(), space::language::mesh());
-    space.packings = read_packings(space::language::packing());
-    space.tools = read_all(space::language::tool());
   }
 
   void read_afm(AfmScene& afm) {
@@ -118,10 +110,10 @@ class SceneReader {
     return law;
   }
 
-  template <class Spec>
-  std::vector<Spec> read_particles(const schema::TableDeclaration<Spec>& declaration,
-                                   const schema::TableDeclaration<Spec>& mesh_declaration) {
-    std::vector<Spec> particles = read_all(declaration);
+  std::vector<ParticleSpec> read_particles(
+      const schema::TableDeclaration<ParticleSpec>& declaration,
+      const schema::TableDeclaration<ParticleSpec>& mesh_declaration) {
+    std::vector<ParticleSpec> particles = read_all(declaration);
     const Array& elements = array_at("particle");
     for (std::size_t i = 0; i < particles.size(); ++i) {
       const Table& table = elements[i].get<Table>();
@@ -171,9 +163,8 @@ class SceneReader {
     return stages;
   }
 
-  template <class Spec>
-  std::vector<Spec> read_packings(const schema::TableDeclaration<Spec>& declaration) {
-    std::vector<Spec> packings = read_all(declaration);
+  std::vector<PackingSpec> read_packings() {
+    std::vector<PackingSpec> packings = read_all(schema::packing());
     const Array& elements = array_at("packing");
     for (std::size_t i = 0; i < packings.size(); ++i)
       packings[i].classes =

@@ -6,7 +6,7 @@
 #include "scenes/spec/afm_scene.hpp"
 #include "scenes/spec/die.hpp"
 #include "scenes/spec/scene.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::schema {
 
@@ -64,7 +64,5 @@ namespace pulvis::space::language {
 
 const schema::TableDeclaration<ParticleSpec>& particle();
 const schema::TableDeclaration<ParticleSpec>& mesh();
-const schema::TableDeclaration<PackingSpec>& packing();
-const schema::TableDeclaration<ToolSpec>& tool();
 
 }  // namespace pulvis::space::language

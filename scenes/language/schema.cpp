@@ -129,6 +129,7 @@ void take_what_differs(KeyInfo& key) {
   if (!key.in_3d.doc.empty()) key.doc = key.in_3d.doc;
   if (!key.in_3d.fallback_doc.empty()) key.fallback_doc = key.in_3d.fallback_doc;
   if (key.in_3d.range) key.range = *key.in_3d.range;
+  if (key.in_3d.required) key.required = true;
 }
 
 // Values of the selector that exist in the other dimension only, and keys that exist only with them.

@@ -81,6 +81,7 @@ struct InThreeDimensions {
   std::string doc = {};
   std::string fallback_doc = {};
   std::optional<Range> range = {};
+  bool required = false;  // there only
 };
 
 struct KeyInfo {

@@ -55,16 +55,16 @@ class RandomPacking {
   void run() {
     const Mixture mixture = mixture_of(
         {packing_.classes, packing_.count, packing_.density, packing_.height,
-         packing_.dense != PackingSpec::Dense::given, packing_.width, 2, scene_.file.parent_path(),
+         packing_.dense != PackingSpec::Dense::given, packing_.container.width, 2, scene_.file.parent_path(),
          [&](const MixtureClass& mixed) { return measure_of(scene_, mixed); }},
         path_, origins_, problems_);
     if (mixture.count == 0) return;
     unit_ = 2 * std::sqrt(mixture.content / mixture.count / std::numbers::pi);
     for (const MixtureSize& size : mixture.sizes) add(size);
-    order_.width = packing_.width / unit_;
+    order_.width = packing_.container.width / unit_;
     order_.periodic = scene_.cell.has_value();
     if (!everything_fits()) return;
-    const double full = mixture.content / packing_.width;  // height at a density of 1
+    const double full = mixture.content / packing_.container.width;  // height at a density of 1
     if (packing_.density) order_.min_height = full / *packing_.density / unit_;
     if (packing_.height) order_.min_height = *packing_.height / unit_;
     order_.time_to_shake = packing_.dense == PackingSpec::Dense::touching ? 0 : 1;
@@ -75,7 +75,7 @@ class RandomPacking {
     place(die);
     packing_.reached = {full / (die.height * unit_), die.mean_gap, die.min_gap * unit_,
                         die.touches};
-    packing_.top = packing_.corner.y() + die.height * unit_;
+    packing_.top = packing_.container.corner.y() + die.height * unit_;
     if (scene_.cell) scene_.cell->height = die.height * unit_;
   }
 
@@ -138,7 +138,7 @@ class RandomPacking {
       const V2 at = turn == 0 ? in_cell : turned * in_cell;
       BodySpec body;
       body.particle = classes_[shape];
-      body.position = in_space(packing_.corner + unit_ * Vec2(at.x, at.y));
+      body.position = packing_.container.corner + unit_ * Vec3(at.x, at.y, 0);
       body.angle = portable::atan2(pose.turn.s, pose.turn.c) + turn;
       body.mark = packing_.mark;
       packing_.placed.push_back(body);

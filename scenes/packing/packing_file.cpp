@@ -17,8 +17,8 @@ std::string header(const Scene& scene) {
     text += fmt::format(
         "# random: {} particles, relative density {:.6f}, mean gap {:.4f} "
         "diameters, smallest gap {:.3g} m, die {:.9g} m x {:.9g} m\n",
-        packing.placed.size(), r.density, r.mean_gap, r.min_gap, packing.width,
-        packing.top - packing.corner.y());
+        packing.placed.size(), r.density, r.mean_gap, r.min_gap, packing.container.width,
+        packing.top - packing.container.corner.y());
   }
   if (!scene.packings.empty()) text += fmt::format("# top: {} m\n", top_of_packings(scene));
   return text;

@@ -1,4 +1,12 @@
-// Individual particles from packings and bodies.
+// Individual particles from packings and bodies, in both dimensions.
+//
+// Rows in the plane stand in their square cells. Lattices in space stand between flat walls as a whole: the outermost
+// particles are half a neighbour distance t from the corner.
+//   cubic         t = spacing, one particle in each cell
+//   body-centred  t = sqrt(3)/2 spacing, two: (0,0,0) and (1,1,1)/2 of a cell
+//   face-centred  t = spacing/sqrt(2), four: (0,0,0), (1,1,0)/2, (1,0,1)/2, (0,1,1)/2
+//   hexagonal     t = spacing: rows along x, sqrt(3)/2 apart, every second one shifted by half of it; layers sqrt(2/3)
+//                 apart, every second one shifted into the hollows (ABAB)
 #pragma once
 
 #include "scenes/spec/scene.hpp"
@@ -11,7 +19,7 @@ namespace pulvis {
 // exactly on purpose, as in a square packing.
 inline constexpr double touching_tolerance = 1e-9;
 
-// Rows are numbered from the bottom, from 0.
+// Of a lattice in the plane: rows are numbered from the bottom, from 0.
 int particles_in_row(const PackingSpec& packing, int row);
 std::int64_t particle_count(const PackingSpec& packing);
 bool is_lattice(const PackingSpec& packing);  // not random, not from a file
@@ -20,8 +28,8 @@ bool is_lattice(const PackingSpec& packing);  // not random, not from a file
 double top_of_lattice(const PackingSpec& packing);
 double top_of_packings(const Scene& scene);
 
-// Every particle of the scene. Bodies and packings are in file order; a packing row by
-// row from the bottom, each row from the left; random and CSV packings as they were filled. The position in the list is the particle's number.
+// Every particle of the scene. Bodies and packings are in file order; a lattice along x, then y, then z, cell by cell;
+// random and CSV packings as they were filled. The position in the list is the particle's number.
 std::vector<BodySpec> place_bodies(const Scene& scene);
 
 }  // namespace pulvis

@@ -15,7 +15,7 @@
 #include "components/space/tools.hpp"
 #include "engine/state_bytes.hpp"
 #include "scenes/language/problem.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "systems/ranks/restore.hpp"
 
 namespace pulvis {
@@ -41,9 +41,8 @@ bool looks_at_motion(const Scene& scene) {
   return shears(scene) || scene.output.density() || !scene.expects.empty();
 }
 bool has_round_die(const Scene& scene) {
-  return scene.space && std::ranges::any_of(scene.space->tools, [](const space::ToolSpec& tool) {
-           return tool.shape == space::ToolSpec::Shape::die;
-         });
+  return std::ranges::find(scene.tools, ToolSpec::Shape::die, &ToolSpec::shape) !=
+         scene.tools.end();
 }
 
 }  // namespace

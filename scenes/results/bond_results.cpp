@@ -150,7 +150,7 @@ constexpr const char* mean_damage = "mean of its bonded points, 0 ... 1";
 constexpr const char* other_meaning =
     "number of the other particle; for a tool: -1 - its position in the scene";
 const char* damage_meaning(const Scene& scene) {
-  return scene.space ? "broken share of the area bonded at the start; NaN if nothing was bonded"
+  return scene.in_space() ? "broken share of the area bonded at the start; NaN if nothing was bonded"
                      : "broken share of the length bonded at the start; NaN if nothing was bonded";
 }
 
@@ -240,7 +240,7 @@ std::vector<double> damage_of_particles(const Observation& now) {
 // ---- series -------------------------------------------------------------------------------------------
 void add_bond_series(const Scene& scene, Observables& all) {
   if (!has_bonds(scene)) return;
-  const bool space = scene.space != nullptr;
+  const bool space = scene.in_space();
   all.add(bond_figures,
           {{"bonds/area", "m^2", "of the bonded surfaces", &BondFigures::area},
            {space ? "bonds/crack_area" : "bonds/crack_length", space ? "m^2" : "m",
@@ -257,7 +257,7 @@ void add_bond_series(const Scene& scene, Observables& all) {
 // ---- frames -------------------------------------------------------------------------------------------
 void add_bond_fields(const Scene& scene, FrameFields& all) {
   if (!has_bonds(scene)) return;
-  const bool space = scene.space != nullptr;
+  const bool space = scene.in_space();
   constexpr auto list = FieldPlace::list, particle = FieldPlace::particle;
   if (space)
     add_places_in_space(all);
@@ -345,7 +345,7 @@ std::vector<CrackColumn> crack_columns(bool space, bool resumes) {
 std::vector<TableInfo> bond_tables(const Scene& scene) {
   if (!has_bonds(scene)) return {};
   TableInfo cracks{"cracks", {}};
-  for (CrackColumn& column : crack_columns(scene.space != nullptr, scene.initial_state.has_value()))
+  for (CrackColumn& column : crack_columns(scene.in_space(), scene.initial_state.has_value()))
     cracks.columns.push_back(std::move(column.info));
   return {cracks};
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scenes/space/tools/die_room.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis {
@@ -21,7 +21,7 @@ struct Walls {
 
 // The tools at the sides of the die; empty where there is no die.
 std::vector<std::string> names_of_walls(const Scene& scene) {
-  if (!scene.space) {
+  if (!scene.in_space()) {
     const auto cell = die_cell(scene);
     if (!cell) return {};
     return {scene.tools[static_cast<std::size_t>(cell->left)].name,
@@ -31,7 +31,7 @@ std::vector<std::string> names_of_walls(const Scene& scene) {
   std::vector<std::string> names;
   if (!room) return names;
   const auto add = [&](int tool) {
-    names.push_back(scene.space->tools[static_cast<std::size_t>(tool)].name);
+    names.push_back(scene.tools[static_cast<std::size_t>(tool)].name);
   };
   if (room->kind == DieRoom::Kind::round)
     add(room->die);
@@ -114,12 +114,12 @@ std::optional<double> wall_friction(const Scene& scene) {
 
 CompactionCurve::CompactionCurve(const Scene& scene)
     : cell_(die_cell(scene)), thickness_(scene.thickness) {
-  if (scene.space) {
+  if (scene.in_space()) {
     room_ = space::die_room(scene);
     thickness_ = 1;
     if (!room_) return;
-    bottom_ = scene.space->tools[static_cast<std::size_t>(room_->tool[DieRoom::bottom])].name;
-    top_ = scene.space->tools[static_cast<std::size_t>(room_->tool[DieRoom::top])].name;
+    bottom_ = scene.tools[static_cast<std::size_t>(room_->tool[DieRoom::bottom])].name;
+    top_ = scene.tools[static_cast<std::size_t>(room_->tool[DieRoom::top])].name;
   }
   if (!cell_) return;
   const auto name = [&](int tool) { return scene.tools[static_cast<std::size_t>(tool)].name; };

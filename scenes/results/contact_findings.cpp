@@ -23,7 +23,7 @@ double value_at(const std::vector<double>& xs, const std::vector<double>& ys, do
 }  // namespace
 
 ContactLoading::ContactLoading(const Scene& scene)
-    : in_space_(scene.space != nullptr), stiffness_(scene.contact.stiffness) {
+    : in_space_(scene.in_space()), stiffness_(scene.contact.stiffness) {
   using Kind = StageSpec::Kind;
   bool loads = true;
   for (const StageSpec& stage : scene.stages) {

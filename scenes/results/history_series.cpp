@@ -56,7 +56,7 @@ void add_energy_series(const Scene& scene, Observables& all) {
 }
 
 void add_contact_series(const Scene& scene, Observables& all) {
-  const bool space = scene.space != nullptr;
+  const bool space = scene.in_space();
   all.add({{"contacts", "-",
             space ? "faces in contact with another particle or a tool"
                   : "boundary edges in contact with another particle or a tool",

@@ -37,7 +37,7 @@ double largest_tool_force(const World& world) {
 }
 
 std::unique_ptr<ResultParts> make_parts(const Scene& scene, const World& world) {
-  if (scene.space) return space::result_parts(scene, world);
+  if (scene.in_space()) return space::result_parts(scene, world);
   return std::make_unique<PlaneParts>(scene, world);
 }
 

@@ -9,7 +9,7 @@
 #include "components/contact.hpp"
 #include "components/servo.hpp"
 #include "scenes/spec/elastic_response.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "scenes/spec/yield.hpp"
 
 namespace pulvis {
@@ -48,14 +48,14 @@ std::string of_hourglass(const Scene& scene) {
 
 std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
   if (contacts.stiffness_to_do() <= scene.contact.stiffness)
-    return scene.space ? "use smaller faces (particle.mesh.divisions): the contacts are already as "
+    return scene.in_space() ? "use smaller faces (particle.mesh.divisions): the contacts are already as "
                          "stiff as possible"
                        : "use shorter boundary edges (boundary_edges): the contacts are already as "
                          "stiff as possible";
   // For powders: soft springs offset the extra force due to coarse faces (docs/accuracy.md).
   return fmt::format(
       "use contact.stiffness = {:g}{}", contacts.stiffness_to_do(),
-      scene.space && any_material_yields(scene)
+      scene.in_space() && any_material_yields(scene)
           ? ", with smaller faces (particle.mesh.divisions): coarse ones carry too much force"
           : "");
 }
@@ -66,7 +66,7 @@ std::string short_number(double value) {
 }
 
 std::string finer(const Scene& scene, const ContactFindings& contacts) {
-  const bool space = scene.space != nullptr;
+  const bool space = scene.in_space();
   return fmt::format(
       "the mesh is too coarse for them, they are {} {} wide on average: use {} of {}{} um{}",
       short_number(contacts.narrow_edges), space ? "faces" : "boundary edges",
@@ -141,7 +141,7 @@ void add_contacts(Figures& figures, const Scene& scene, const ContactFindings& c
   figures.add("Narrow contacts",
               fmt::format("share of the largest contact force carried by contacts narrower than "
                           "two {}",
-                          scene.space ? "faces" : "boundary edges"),
+                          scene.in_space() ? "faces" : "boundary edges"),
               *contacts.narrow_share, ContactFindings::most_narrow, finer(scene, contacts));
 }
 
@@ -201,6 +201,7 @@ void add_contacts_in_space(Figures& figures, const Scene& scene, const Totals& t
 }  // namespace
 
 std::string refining_keys(const Scene& scene) {
+  if (scene.in_space()) return "divisions and rings of [particle.mesh]";
   bool counts = false, rows = false, size = false, grains = false;
   for (const ParticleSpec& particle : scene.particles) {
     const bool in_rows = std::holds_alternative<RectangleMesh>(particle.mesh);
@@ -239,15 +240,15 @@ std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
   add_release(figures, scene, results, contacts);
   // Hexahedra have no limit: at contacts of a few faces none of their meshes meets that of quads (docs/accuracy.md).
   const std::optional<double> hourglass_limit =
-      scene.space ? std::nullopt : std::optional(most_hourglass);
+      scene.in_space() ? std::nullopt : std::optional(most_hourglass);
   if (const double internal = std::max(peaks.elastic, peaks.plastic); internal > 0)
     figures.add(
         "Hourglass energy",
         "largest hourglass energy, including plastic work, relative to the largest internal energy",
         peaks.hourglass / internal, hourglass_limit, of_hourglass(scene));
-  if (scene.space && world.has<ContactRules>())
+  if (scene.in_space() && world.has<ContactRules>())
     add_contacts_in_space(figures, scene, totals, peaks, contacts);
-  if (scene.space || !world.has<ContactQuality>()) return figures.all;
+  if (scene.in_space() || !world.has<ContactQuality>()) return figures.all;
   figures.add("Penetration",
               "deepest overlap of two surfaces, relative to the length of a boundary edge",
               peaks.penetration, limits.penetration, stiffer(scene, contacts));

@@ -34,7 +34,7 @@ Vec2 vector_of(const double* values, int tool) {
 int plane_facing(const Scene& scene, const Vec2& direction) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     if (scene.tools[t].shape == ToolSpec::Shape::plane &&
-        scene.tools[t].normal.dot(direction) > straight)
+        in_plane(scene.tools[t].normal).dot(direction) > straight)
       return static_cast<int>(t);
   return -1;
 }
@@ -97,8 +97,8 @@ std::optional<ShearSetup> shear_setup(const Scene& scene) {
   setup.wall = plane_facing(scene, -setup.along);
   const int other = plane_facing(scene, setup.along);
   if (setup.wall >= 0 && other >= 0)
-    setup.width = (scene.tools[static_cast<std::size_t>(setup.wall)].point -
-                   scene.tools[static_cast<std::size_t>(other)].point)
+    setup.width = in_plane(scene.tools[static_cast<std::size_t>(setup.wall)].point -
+                           scene.tools[static_cast<std::size_t>(other)].point)
                       .dot(setup.along);
   return setup;
 }

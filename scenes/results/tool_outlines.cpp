@@ -38,7 +38,7 @@ ToolOutlines::ToolOutlines(const Scene& scene, const World& world, const std::ve
   const double far = (box_.high - box_.low).norm();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {  // distant ones do not lengthen the others
     if (scene.tools[t].shape != ToolSpec::Shape::plane) continue;
-    const Vec2 n = scene.tools[t].normal;
+    const Vec2 n = in_plane(scene.tools[t].normal);
     const Vec2 foot = middle + n.dot(place_of(world, t) - middle) * n;
     if ((foot - middle).norm() < far) take_in(foot);
   }

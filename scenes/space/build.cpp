@@ -5,12 +5,12 @@
 
 #include "components/run_state.hpp"
 #include "scenes/space/contact_columns.hpp"
+#include "scenes/checks/travel.hpp"
 #include "scenes/space/layout.hpp"
 #include "scenes/space/overlaps.hpp"
-#include "scenes/space/packing/place.hpp"
+#include "scenes/packing/place.hpp"
 #include "scenes/space/results/observe.hpp"
 #include "scenes/space/tools/drives.hpp"
-#include "scenes/space/travel.hpp"
 #include "systems/laws/flow_law.hpp"
 
 namespace pulvis::space {
@@ -56,8 +56,8 @@ std::vector<double> elements_of_chunks(const Layout& layout) {
 
 std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
-  check_overlaps(scene, bodies);
-  space::check_travel(scene, bodies);
+  space::check_overlaps(scene, bodies);
+  check_travel(scene, bodies);
   Layout layout = lay_out(scene, bodies);
   std::unique_ptr<World> world = empty_world(part);
   hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout));

@@ -7,11 +7,11 @@
 #include <set>
 
 #include "scenes/checks/process_checks.hpp"
+#include "scenes/packing/place.hpp"
 #include "scenes/space/results/observe.hpp"
 #include "scenes/space/shape_checks.hpp"
 #include "scenes/space/stl_files.hpp"
-#include "scenes/space/tool_checks.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/tools/tool_checks.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -20,19 +20,6 @@ constexpr std::int64_t max_particles_in_space = 1'000'000;
 constexpr std::int64_t max_hexahedra = 100'000'000;  // at 1.5 kB each: 150 GB
 // Of a particle. Its nodes are smoothed all at once, in some ten seconds; the cache of shapes has room for two of them.
 constexpr std::int64_t max_hexahedra_of_one = 100'000;
-
-bool is_lattice_kind(const PackingSpec& packing) {
-  return packing.kind != PackingSpec::Kind::random && packing.kind != PackingSpec::Kind::csv;
-}
-
-// The maximum for the lattice: cells hold one to four.
-std::int64_t most_particles(const PackingSpec& packing) {
-  const std::int64_t cells = std::int64_t{packing.cells[0]} * packing.cells[1] * packing.cells[2];
-  using Kind = PackingSpec::Kind;
-  return cells * (packing.kind == Kind::body_centred   ? 2
-                  : packing.kind == Kind::face_centred ? 4
-                                                       : 1);
-}
 
 // Relative to the diameter of touching spheres.
 double touching_spacing(PackingSpec::Kind kind) {
@@ -44,19 +31,19 @@ double touching_spacing(PackingSpec::Kind kind) {
 class SpaceChecks {
  public:
   SpaceChecks(Scene& scene, const schema::Origins& origins, Problems& problems)
-      : scene_(scene), space_(*scene.space), origins_(origins), problems_(problems) {}
+      : scene_(scene), origins_(origins), problems_(problems) {}
 
   void run() {
     something_is_there();
     check_materials(scene_, refusal());
     read_stl_files(scene_, refusal());
-    for (std::size_t i = 0; i < space_.particles.size(); ++i) particle(i);
+    for (std::size_t i = 0; i < scene_.particles.size(); ++i) particle(i);
     counts();
     packings();
     stages();
     check_frictions(scene_, names_of_tools(), refusal());
     check_bonds(scene_, names_of_tools(), refusal());
-    check_tools(scene_, origins_, refusal());
+    check_tools(scene_, origins_, problems_);
     output();
     everything_is_used();
   }
@@ -83,51 +70,51 @@ class SpaceChecks {
 
   void something_is_there() {
     if (scene_.materials.empty()) refuse_missing("material", "at least one [[material]]");
-    if (space_.particles.empty()) refuse_missing("particle", "at least one [[particle]]");
-    if (scene_.bodies.empty() && space_.packings.empty())
+    if (scene_.particles.empty()) refuse_missing("particle", "at least one [[particle]]");
+    if (scene_.bodies.empty() && scene_.packings.empty())
       refuse_missing("body", "at least one [[body]] or [[packing]]");
     if (scene_.stages.empty()) refuse_missing("stage", "at least one [[stage]]");
   }
 
   void particle(std::size_t i) {
-    const ParticleSpec& of = space_.particles[i];
+    const ParticleSpec& of = scene_.particles[i];
     const std::string path = fmt::format("particle[{}]", i);
     check_shape(of.shape, path, refusal());
     // Either there is a four-face node between two corners of the cube, or on none of its edges.
-    if (of.mesh.axial_divisions && of.mesh.divisions < 2)
+    if (of.hex_mesh.axial_divisions && of.hex_mesh.divisions < 2)
       refuse(path + ".mesh.axial_divisions", "needs divisions of at least 2");
-    if (of.mesh.hexahedra() > max_hexahedra_of_one)
+    if (of.hex_mesh.hexahedra() > max_hexahedra_of_one)
       refuse(path + ".mesh.divisions",
              fmt::format("the mesh has {} elements with rings = {}, and takes too long to make, "
                          "allowed: at most {}, as with divisions = 24 and rings = 24",
-                         of.mesh.hexahedra(), of.mesh.rings, max_hexahedra_of_one));
+                         of.hex_mesh.hexahedra(), of.hex_mesh.rings, max_hexahedra_of_one));
     const auto* cylinder = std::get_if<CylinderShape>(&of.shape);
-    if (cylinder != nullptr && of.mesh.grid == MeshSpec::Grid::extruded)
-      check_extruded(*cylinder, of.mesh, path, refusal());
+    if (cylinder != nullptr && of.hex_mesh.grid == HexMeshSpec::Grid::extruded)
+      check_extruded(*cylinder, of.hex_mesh, path, refusal());
   }
 
   std::vector<std::string> names_of_tools() const {
     std::vector<std::string> names;
-    for (const ToolSpec& tool : space_.tools) names.push_back(tool.name);
+    for (const ToolSpec& tool : scene_.tools) names.push_back(tool.name);
     return names;
   }
 
   std::int64_t hexahedra_of(int particle) const {
-    return space_.particles[static_cast<std::size_t>(particle)].mesh.hexahedra();
+    return scene_.particles[static_cast<std::size_t>(particle)].hex_mesh.hexahedra();
   }
 
   void counts() {
     std::int64_t particles = static_cast<std::int64_t>(scene_.bodies.size()), total = 0;
     for (const BodySpec& body : scene_.bodies) total += hexahedra_of(body.particle);
-    for (std::size_t i = 0; i < space_.packings.size(); ++i) {
-      const PackingSpec& packing = space_.packings[i];
-      if (!is_lattice_kind(packing)) continue;
-      particles += most_particles(packing);
+    for (std::size_t i = 0; i < scene_.packings.size(); ++i) {
+      const PackingSpec& packing = scene_.packings[i];
+      if (!is_lattice(packing)) continue;
+      particles += particle_count(packing);
       if (particles > max_particles_in_space)
         return refuse(fmt::format("packing[{}]", i),
                       fmt::format("the scene has {} particles up to here, allowed: at most {}",
                                   particles, max_particles_in_space));
-      total += most_particles(packing) * hexahedra_of(packing.particle);
+      total += particle_count(packing) * hexahedra_of(packing.particle);
     }
     if (total > max_hexahedra)
       problems_.add({{1, 1}, -1}, "particle",
@@ -136,14 +123,14 @@ class SpaceChecks {
   }
 
   void packings() {
-    for (std::size_t i = 0; i < space_.packings.size(); ++i) {
-      PackingSpec& packing = space_.packings[i];
+    for (std::size_t i = 0; i < scene_.packings.size(); ++i) {
+      PackingSpec& packing = scene_.packings[i];
       const std::string path = fmt::format("packing[{}]", i);
       if (packing.kind != PackingSpec::Kind::random && !packing.classes.empty())
         refuse(path + ".class[0]",
                "has no effect with this kind, allowed: classes of kind = \"random\"");
       if (packing.kind == PackingSpec::Kind::random) container(packing, path);
-      if (is_lattice_kind(packing) && !given(path + ".spacing")) spacing(packing, path);
+      if (is_lattice(packing) && !given(path + ".spacing")) spacing(packing, path);
     }
   }
 
@@ -160,7 +147,7 @@ class SpaceChecks {
   }
 
   void spacing(PackingSpec& packing, const std::string& path) {
-    const ParticleShape& shape = space_.particles[static_cast<std::size_t>(packing.particle)].shape;
+    const ParticleShape& shape = scene_.particles[static_cast<std::size_t>(packing.particle)].shape;
     if (const auto* sphere = std::get_if<SphereShape>(&shape))
       packing.spacing = touching_spacing(packing.kind) * sphere->diameter;
     else
@@ -170,7 +157,7 @@ class SpaceChecks {
   }
 
   void output() {
-    if (scene_.output.contacts && space_.tools.empty() && space_.packings.empty() &&
+    if (scene_.output.contacts && scene_.tools.empty() && scene_.packings.empty() &&
         scene_.bodies.size() < 2)
       refuse("output.contacts",
              "has no effect: nothing can touch the only particle, allowed: with two particles, or "
@@ -192,25 +179,24 @@ class SpaceChecks {
   void everything_is_used() {
     std::set<int> particles, materials;
     for (const BodySpec& body : scene_.bodies) particles.insert(body.particle);
-    for (const PackingSpec& packing : space_.packings) {
-      if (is_lattice_kind(packing)) particles.insert(packing.particle);
+    for (const PackingSpec& packing : scene_.packings) {
+      if (is_lattice(packing)) particles.insert(packing.particle);
       for (const MixtureClass& mixed : packing.classes) particles.insert(mixed.particle);
       if (packing.kind != PackingSpec::Kind::csv) continue;
-      for (int p = 0; p < static_cast<int>(space_.particles.size()); ++p) particles.insert(p);
+      for (int p = 0; p < static_cast<int>(scene_.particles.size()); ++p) particles.insert(p);
     }
-    for (const ParticleSpec& particle : space_.particles) materials.insert(particle.material);
+    for (const ParticleSpec& particle : scene_.particles) materials.insert(particle.material);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
       if (!materials.contains(static_cast<int>(i)))
         refuse_unused(fmt::format("material[{}]", i), scene_.materials[i].name, "[[particle]]",
                       refusal());
-    for (std::size_t i = 0; i < space_.particles.size(); ++i)
+    for (std::size_t i = 0; i < scene_.particles.size(); ++i)
       if (!particles.contains(static_cast<int>(i)))
-        refuse_unused(fmt::format("particle[{}]", i), space_.particles[i].name,
+        refuse_unused(fmt::format("particle[{}]", i), scene_.particles[i].name,
                       "[[body]] or [[packing]]", refusal());
   }
 
   Scene& scene_;
-  SpaceScene& space_;
   const schema::Origins& origins_;
   Problems& problems_;
 };

@@ -13,9 +13,9 @@ namespace pulvis::space {
 
 Shape class_shape(const Scene& scene, std::size_t particle) {
   constexpr double farthest = 0.5;
-  const ParticleSpec& spec = scene.space->particles.at(particle);
+  const ParticleSpec& spec = scene.particles.at(particle);
   try {
-    Shape shape = make_shape(spec);
+    Shape shape = space::make_shape(spec);
     if (const double share = surface_error_share(shape); share > farthest)
       throw std::invalid_argument(
           fmt::format("its smoothed surface is {:.0f}% of the mean radius off", 100 * share));
@@ -40,8 +40,8 @@ double surface_error_share(const Shape& shape) {
 std::vector<std::string> coarse_surface_warnings(const Scene& scene) {
   constexpr double far = 0.05;
   std::vector<std::string> lines;
-  for (std::size_t i = 0; i < scene.space->particles.size(); ++i) {
-    if (scene.space->particles[i].class_of >= 0) continue;  // differs only in size
+  for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+    if (scene.particles[i].class_of >= 0) continue;  // differs only in size
     const Shape shape = class_shape(scene, i);
     if (surface_error_share(shape) <= far) continue;
     lines.push_back(fmt::format(

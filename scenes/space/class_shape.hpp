@@ -2,11 +2,11 @@
 #pragma once
 
 #include "components/space/shape.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 
-// `particle`: index in SpaceScene::particles. Throws SceneError for the class if its mesh or its smooth surface is folded.
+// `particle`: index in Scene::particles. Throws SceneError for the class if its mesh or its smooth surface is folded.
 Shape class_shape(const Scene& scene, std::size_t particle);
 
 // Maximum distance of the smooth surface, which contacts use, from the true one, relative to the radius of the sphere of

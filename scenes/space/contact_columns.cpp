@@ -23,14 +23,7 @@ constexpr double skins_of_neighbourhood = 8;
 
 ContactRules rules_of(const Scene& scene) {
   ContactRules rules = contact_rules(scene);
-  for (const ToolSpec& tool : scene.space->tools)
-    for (const MaterialSpec& material : scene.materials)
-      rules.tool_friction.push_back(friction_of(scene, tool.name, material.name));
-  if (has_adhesion(scene))
-    for (const ToolSpec& tool : scene.space->tools)
-      for (const MaterialSpec& material : scene.materials)
-        rules.tool_adhesion.push_back(adhesion_of(scene, tool.name, material.name));
-  rules.tool_thickness.assign(scene.space->tools.size(), std::numeric_limits<double>::infinity());
+  rules.tool_thickness.assign(scene.tools.size(), std::numeric_limits<double>::infinity());
   rules.servos = has_servos(scene);
   return rules;
 }
@@ -63,7 +56,7 @@ struct Touching {  // what can touch, and how
 
   Touching(const Scene& scene, const ContactRules& rules, std::size_t bodies) {
     pairs = bodies > 1;
-    tools = !scene.space->tools.empty();
+    tools = !scene.tools.empty();
     const auto any = [&](const auto& is) {
       return (pairs && std::ranges::any_of(rules.friction, is)) ||
              (tools && std::ranges::any_of(rules.tool_friction, is));
@@ -194,7 +187,7 @@ void add_pairs(World& world, const Touching& touching) {
   world.emplace<ContactSums<Contact>>();
 }
 
-void add_tools(World& world, const SpaceScene& scene, const Touching& touching) {
+void add_tools(World& world, const Scene& scene, const Touching& touching) {
   add_rows<FaceToolContact>(world);
   world.add<PointForce<FaceToolContact>>();
   if (touching.friction) world.add<ElasticSlip<FaceToolContact>>();
@@ -225,7 +218,7 @@ void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& 
   find_smallest(world.resource<Shapes>(), rules);
   add_surfaces(world, touching);
   if (touching.pairs) add_pairs(world, touching);
-  if (touching.tools) add_tools(world, *scene.space, touching);
+  if (touching.tools) add_tools(world, scene, touching);
   ContactIndex& index = world.emplace<ContactIndex>();
   index.skin = scene.contact.skin * rules.shortest_edge;
   index.reach = rules.longest_range();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/world.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

@@ -45,12 +45,12 @@ class CurveThroughSpace {
 std::vector<std::vector<Numbered>> by_classes(const Scene& scene,
                                               const std::vector<BodySpec>& bodies) {
   std::mt19937_64 random(scene.seed);
-  std::vector<std::vector<Numbered>> classes(scene.space->particles.size());
+  std::vector<std::vector<Numbered>> classes(scene.particles.size());
   const CurveThroughSpace curve(bodies);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto which = static_cast<std::size_t>(bodies[i].particle);
     Rotation turn = bodies[i].rotation;
-    if (scene.space->particles[which].random_mesh_phase) turn = turn * random_rotation(random);
+    if (scene.particles[which].random_mesh_phase) turn = turn * random_rotation(random);
     classes[which].push_back({{&bodies[i], turn}, static_cast<int>(i), curve(bodies[i].position)});
   }
   for (std::vector<Numbered>& of_class : classes)
@@ -66,7 +66,7 @@ void add_class(Layout& layout, const Scene& scene, std::size_t particle,
   for (std::size_t i = 0; i < lanes; ++i) {
     const bool there = i < particles.size();
     const Bodies::Slot slot{there ? particles[i].number : Bodies::empty_slot, shape,
-                            scene.space->particles[particle].material, face, Bodies::empty_slot};
+                            scene.particles[particle].material, face, Bodies::empty_slot};
     face += static_cast<int>(layout.shapes.list.back().faces.size());
     if (there)
       layout.bodies.slot_of_number[static_cast<std::size_t>(slot.number)] =

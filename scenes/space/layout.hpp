@@ -8,7 +8,7 @@
 #include "components/shape.hpp"
 #include "components/space/shape.hpp"
 #include "scenes/space/body_columns.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

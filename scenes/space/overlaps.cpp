@@ -13,7 +13,7 @@
 #include "scenes/space/meshes/star_surface.hpp"
 #include "scenes/space/packing/container.hpp"
 #include "scenes/space/packing/near_pairs.hpp"
-#include "scenes/space/packing/place.hpp"
+#include "scenes/packing/place.hpp"
 #include "scenes/space/tools/tool_depth.hpp"
 #include "scenes/space/tools/tool_shapes.hpp"
 
@@ -43,7 +43,7 @@ class BodyOverlaps {
   using ShapeOf = RigidShape(const ParticleSpec&, double unit);
 
   BodyOverlaps(const Scene& scene, const std::vector<BodySpec>& bodies, ShapeOf& shape_of)
-      : scene_(*scene.space),
+      : scene_(scene),
         bodies_(bodies),
         tools_(tool_shapes(scene_)),
         points_(scene_.particles.size()) {
@@ -156,7 +156,7 @@ class BodyOverlaps {
     return points;
   }
 
-  const SpaceScene& scene_;
+  const Scene& scene_;
   const std::vector<BodySpec>& bodies_;
   ToolShapes tools_;
   std::vector<std::vector<Vec3>> points_;  // m, on the classes' surfaces, empty until needed
@@ -185,16 +185,16 @@ class OverlapReport {
         fmt::format("{} is outside the die: it reaches {:.6g} m behind tool '{}', allowed: "
                     "particles in front of every tool",
                     described(overlap.particle), overlap.depth,
-                    scene_.space->tools[overlap.other].name));
+                    scene_.tools[overlap.other].name));
   }
   void inside(const Overlap& overlap) {
     add(overlap, fmt::format("{} reaches {:.6g} m into tool '{}', allowed: particles outside of "
                              "every tool",
                              described(overlap.particle), overlap.depth,
-                             scene_.space->tools[overlap.other].name));
+                             scene_.tools[overlap.other].name));
   }
   void turned_away(std::size_t number) {
-    const ToolSpec& tool = scene_.space->tools[number];
+    const ToolSpec& tool = scene_.tools[number];
     const Vec3 n = -tool.normal;
     problems_.push_back(
         {scene_.file_of(tool.mark).string(), tool.mark.line, tool.mark.column, "",
@@ -221,9 +221,8 @@ class OverlapReport {
 
   // All particles of a packing share its mark, so the mark identifies the source of a particle.
   std::string key_of(const BodySpec& body) const {
-    const SpaceScene& space = *scene_.space;
-    for (std::size_t i = 0; i < space.packings.size(); ++i)
-      if (space.packings[i].mark == body.mark) return fmt::format("packing[{}]", i);
+    for (std::size_t i = 0; i < scene_.packings.size(); ++i)
+      if (scene_.packings[i].mark == body.mark) return fmt::format("packing[{}]", i);
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
       if (scene_.bodies[i].mark == body.mark) return fmt::format("body[{}].position", i);
     return "particle";
@@ -233,7 +232,7 @@ class OverlapReport {
     const BodySpec& body = bodies_[i];
     const Vec3& p = body.position;
     return fmt::format("particle {} ('{}' at ({:.6g}, {:.6g}, {:.6g}) m)", i,
-                       scene_.space->particles[static_cast<std::size_t>(body.particle)].name, p.x(),
+                       scene_.particles[static_cast<std::size_t>(body.particle)].name, p.x(),
                        p.y(), p.z());
   }
 
@@ -246,14 +245,14 @@ class OverlapReport {
 
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (bodies.empty()) return 0;
-  check_distance(scene, *scene.space, bodies, [&](const BodySpec& body) {
-    return diameter_of(scene.space->particles[static_cast<std::size_t>(body.particle)].shape);
+  check_distance(scene, scene, bodies, [&](const BodySpec& body) {
+    return diameter_of(scene.particles[static_cast<std::size_t>(body.particle)].shape);
   });
   BodyOverlaps search(scene, bodies, true_shape);
   OverlapReport report(scene, bodies);
-  for (std::size_t t = 0; t < scene.space->tools.size(); ++t) {
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const std::vector<Overlap> found = search.with_tool(t);
-    const ToolSpec& tool = scene.space->tools[t];
+    const ToolSpec& tool = scene.tools[t];
     if (!found.empty() && search.is_reversed(tool)) {
       report.turned_away(t);
       continue;
@@ -271,7 +270,7 @@ std::vector<std::string> contact_overlap_warnings(const Scene& scene,
   const auto bulges = [](const ParticleSpec& particle) {
     return contact_shape(particle, 1).radius > rigid_shape(particle.shape, 1).radius;
   };
-  if (bodies.empty() || std::ranges::none_of(scene.space->particles, bulges)) return {};
+  if (bodies.empty() || std::ranges::none_of(scene.particles, bulges)) return {};
   BodyOverlaps search(scene, bodies, contact_shape);
   std::size_t count = 0;
   double deepest = 0;
@@ -285,9 +284,9 @@ std::vector<std::string> contact_overlap_warnings(const Scene& scene,
     }
   };
   see(search.between_particles(), [](std::size_t i) { return fmt::format("particle {}", i); });
-  for (std::size_t t = 0; t < scene.space->tools.size(); ++t)
+  for (std::size_t t = 0; t < scene.tools.size(); ++t)
     see(search.with_tool(t),
-        [&](std::size_t tool) { return fmt::format("tool '{}'", scene.space->tools[tool].name); });
+        [&](std::size_t tool) { return fmt::format("tool '{}'", scene.tools[tool].name); });
   if (count == 0) return {};
   return {fmt::format(
       "the contact surfaces bulge out beyond the shapes: at the start {}, by up to {:.3g} m ({}), "

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

@@ -59,7 +59,7 @@ void check_shape(const ParticleShape& shape, const std::string& path, const Refu
   std::visit([&](const auto& one) { check_sizes(one, path, refuse); }, shape);
 }
 
-void check_extruded(const CylinderShape& cylinder, const MeshSpec& mesh, const std::string& path,
+void check_extruded(const CylinderShape& cylinder, const HexMeshSpec& mesh, const std::string& path,
                     const Refuse& refuse) {
   if (mesh.divisions < 2)
     refuse(path + ".mesh.grid",

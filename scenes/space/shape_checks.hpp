@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenes/spec/material_checks.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 
@@ -10,7 +10,7 @@ void check_shape(const ParticleShape& shape, const std::string& path, const Refu
 
 // With one division, the disc's square has no four-face node between its corners; a rim rounded by more than half
 // an element is as flat as the element faces next to it.
-void check_extruded(const CylinderShape& cylinder, const MeshSpec& mesh, const std::string& path,
+void check_extruded(const CylinderShape& cylinder, const HexMeshSpec& mesh, const std::string& path,
                     const Refuse& refuse);
 
 }  // namespace pulvis::space

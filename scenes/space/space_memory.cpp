@@ -8,7 +8,7 @@
 #include "components/space/contact.hpp"
 #include "components/space/formulation.hpp"
 #include "engine/chunk_lane.hpp"
-#include "scenes/space/packing/place.hpp"
+#include "scenes/packing/place.hpp"
 #include "scenes/spec/yield.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/contact_rules.hpp"
@@ -65,7 +65,7 @@ bool any_friction(const Scene& scene, const Is& is) {
 }  // namespace
 
 SpaceMemory memory_of(const Scene& scene) {
-  std::vector<std::uint64_t> particles(scene.space->particles.size());
+  std::vector<std::uint64_t> particles(scene.particles.size());
   for (const BodySpec& body : place_bodies(scene))
     particles[static_cast<std::size_t>(body.particle)] += 1;
   using Friction = ContactRules::Friction;
@@ -90,7 +90,7 @@ SpaceMemory memory_of(const Scene& scene) {
                  static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(z);
   for (std::size_t c = 0; c < particles.size(); ++c) {
     if (particles[c] == 0) continue;
-    const MeshSpec& mesh = scene.space->particles[c].mesh;
+    const HexMeshSpec& mesh = scene.particles[c].hex_mesh;
     const std::uint64_t lanes = (particles[c] + lane_count - 1) / lane_count * lane_count;
     const auto nodes = static_cast<std::uint64_t>(mesh.nodes()),
                elements = static_cast<std::uint64_t>(mesh.hexahedra()),

@@ -12,8 +12,8 @@ namespace pulvis::space {
 
 std::string packing_summary(const Scene& scene) {
   std::string text;
-  for (std::size_t i = 0; i < scene.space->packings.size(); ++i) {
-    const PackingSpec& packing = scene.space->packings[i];
+  for (std::size_t i = 0; i < scene.packings.size(); ++i) {
+    const PackingSpec& packing = scene.packings[i];
     if (packing.kind != PackingSpec::Kind::random) continue;
     text += fmt::format(
         "packing[{}]: {}, relative density {:.4f}, {:.6g} m high, mean gap to the nearest "
@@ -27,7 +27,7 @@ std::string packing_summary(const Scene& scene) {
 
 std::string mesh_summary(const Scene& scene) {
   std::string text;
-  for (std::size_t i = 0; i < scene.space->particles.size(); ++i) {
+  for (std::size_t i = 0; i < scene.particles.size(); ++i) {
     const Shape shape = class_shape(scene, i);
     double smallest = std::numeric_limits<double>::infinity();
     for (const Shape::Face& face : shape.faces) smallest = std::min(smallest, face.size);

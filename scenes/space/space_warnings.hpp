@@ -1,14 +1,14 @@
-// Likely mistakes in a scene in three dimensions whose values are all allowed.
+// Likely mistakes that only scenes in three dimensions can have: surfaces too coarse, thin walls, particles beyond a die.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 
 // One line for each warning. The packings must be filled.
-std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);
+std::vector<std::string> solid_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis::space

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

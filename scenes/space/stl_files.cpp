@@ -10,7 +10,7 @@
 #include "scenes/language/units.hpp"
 #include "scenes/space/meshes/stl.hpp"
 #include "scenes/space/stl_bodies.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -52,9 +52,8 @@ void set_in_place(Triangles& triangles, const std::optional<double>& diameter) {
 }  // namespace
 
 void read_stl_files(Scene& scene, const Refuse& refuse) {
-  SpaceScene& space = *scene.space;
-  for (std::size_t i = 0; i < space.particles.size(); ++i) {
-    auto* shape = std::get_if<StlShape>(&space.particles[i].shape);
+  for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+    auto* shape = std::get_if<StlShape>(&scene.particles[i].shape);
     if (shape == nullptr) continue;
     const std::string path = fmt::format("particle[{}]", i);
     auto triangles = triangles_in(scene, shape->file, shape->unit, path, refuse);
@@ -66,8 +65,8 @@ void read_stl_files(Scene& scene, const Refuse& refuse) {
     set_in_place(*triangles, shape->diameter);
     shape->triangles = std::move(*triangles);
   }
-  for (std::size_t t = 0; t < space.tools.size(); ++t) {
-    ToolSpec& tool = space.tools[t];
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    ToolSpec& tool = scene.tools[t];
     if (tool.shape != ToolSpec::Shape::stl) continue;
     if (auto triangles =
             triangles_in(scene, tool.file, tool.unit, fmt::format("tool[{}]", t), refuse))

@@ -80,7 +80,7 @@ class Walls {
 
 // A mesh is made once for all sizes of a class.
 double smallest_face(const Scene& scene) {
-  const std::vector<ParticleSpec>& particles = scene.space->particles;
+  const std::vector<ParticleSpec>& particles = scene.particles;
   std::vector<double> scale(particles.size(), 1);  // of the smallest particle of a class
   for (const ParticleSpec& spec : particles)
     if (spec.class_of >= 0)
@@ -103,7 +103,7 @@ std::optional<ThinWall> thinnest_wall(const std::vector<std::array<Vec3, 3>>& tr
 std::vector<std::string> thin_wall_warnings(const Scene& scene) {
   std::vector<std::string> lines;
   double below = 0;
-  for (const ToolSpec& tool : scene.space->tools) {
+  for (const ToolSpec& tool : scene.tools) {
     if (tool.triangles.empty()) continue;
     if (below == 0) below = thin * smallest_face(scene);
     if (const auto wall = thinnest_wall(tool.triangles, below))

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenes/spec/scene.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

@@ -23,7 +23,7 @@ std::optional<std::string> asks_for_elastic_response(const Scene& scene) {
 std::string advice_of_stiff_contacts(const Scene& scene) {
   return fmt::format(
       "contact.stiffness = {:g} (1.5 times the CPU time, 2 to 3% more force in loading{})",
-      stiff_contacts, scene.space ? ", up to 9% at relative densities above 0.9" : "");
+      stiff_contacts, scene.in_space() ? ", up to 9% at relative densities above 0.9" : "");
 }
 
 std::string soft_contact_warning(const Scene& scene, const std::string& reason) {

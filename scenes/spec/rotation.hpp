@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-using Rotation3 = Eigen::Quaterniond;  // built from its four components, never from an angle
+using Rotation = Eigen::Quaterniond;  // built from its four components, never from an angle
 
 inline Eigen::Matrix2d rotation(double angle) {
   const double c = portable::cos(angle), s = portable::sin(angle);

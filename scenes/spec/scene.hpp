@@ -13,12 +13,14 @@
 #include <vector>
 
 #include "components/formulation.hpp"
+#include "engine/enum_table.hpp"
 #include "scenes/language/source_mark.hpp"
 #include "scenes/language/vectors.hpp"
 #include "scenes/spec/cell_spec.hpp"
 #include "scenes/spec/profile_spec.hpp"
 #include "scenes/spec/results_spec.hpp"
 #include "scenes/spec/rotation.hpp"
+#include "scenes/spec/particle_shape.hpp"
 
 namespace pulvis {
 
@@ -168,25 +170,27 @@ struct GrainPlace {
 struct ParticleSpec {  // a class of identical particles
   std::string name;
   int material = 0;  // index in Scene::materials
-  Outline outline;
+  Outline outline;  // in two dimensions
   MeshSpec mesh;
   bool random_mesh_phase =
-      false;              // rotate every particle's mesh by its own random angle (disc, ring)
+      false;  // rotate every particle's mesh by its own random angle (disc, ring), or rotation (sphere)
   double mesh_phase = 0;  // rad, the same rotation for all if not random (disc, ring)
   SourceMark mark;
   std::optional<double> mesh_size = {};  // m, edge length; the counts in `mesh` follow from it
   int class_of = -1;  // for one size of a packing: the class that is scaled, in Scene::particles
-  double scale = 1;   // factor on that class's outline
+  double scale = 1;   // factor on that class's shape
   std::optional<GrainsSpec> grains = {};
   // [variants][grains], set once the scene has been read.
   std::vector<std::vector<GrainPlace>> tessellations = {};
+  ParticleShape shape = {};  // in three dimensions
+  HexMeshSpec hex_mesh = {};
 };
 
 struct BodySpec {                // one particle, placed individually
   int particle = 0;              // index in Scene::particles
   Vec3 position = Vec3::Zero();  // m, centre of the outline or of the volume
   double angle = 0;              // rad, counter-clockwise; in two dimensions
-  Rotation3 rotation = Rotation3::Identity();  // from its local frame to the scene's; in three
+  Rotation rotation = Rotation::Identity();  // from its local frame to the scene's; in three
   Vec3 velocity = Vec3::Zero();                // m/s
   Vec3 angular_velocity = Vec3::Zero();        // rad/s, in the scene's frame
   SourceMark mark;
@@ -221,21 +225,28 @@ struct PackingReached {  // the result of a random packing
   int touches = 0;       // pairs of particles with a gap below a thousandth of a diameter
 };
 
-// Square, hexagonal: rows of particles from the bottom. Hexagonal: rows are sqrt(3)/2 of the spacing apart, and
-// every second one, shifted by half of it, has one particle less: between flat walls it is symmetric, its full
-// rows touch both walls, and the other rows leave a gap of half a particle at each. Random: a mixture in a die,
-// for which two of count, density and height are given. CSV: positions from a file.
+// Where a packing stands: a box (in two dimensions a die), or a cylinder along z.
+struct ContainerSpec {
+  enum class Kind { box, cylinder } kind = Kind::box;
+  Vec3 corner = Vec3::Zero();   // m, with the smallest x, y, z; centre of the floor of a cylinder
+  double width = 0, depth = 0;  // m, along x, y: of a box
+  double diameter = 0;          // m, of a cylinder
+};
+
+// Square, hexagonal in two dimensions: rows of particles from the bottom. Hexagonal: rows are sqrt(3)/2 of the spacing
+// apart, and every second one, shifted by half of it, has one particle less: between flat walls it is symmetric, its full
+// rows touch both walls, and the other rows leave a gap of half a particle at each. Lattices in three fill `cells` of
+// `spacing`. Random: a mixture in a container, for which two of count, density and height are given. CSV: positions from a
+// file.
 struct PackingSpec {
-  enum class Kind { square, hexagonal, random, csv } kind = Kind::square;
+  enum class Kind { square, cubic, body_centred, face_centred, hexagonal, random, csv };
   enum class Dense { given, touching, densest };
+  Kind kind = Kind::square;
   int particle = 0;
-  int rows = 1;
-  int columns = 1;
-  double spacing = 0;       // m, centre to centre
+  std::array<int, 3> cells{1, 1, 0};  // along x, y, z; in two dimensions columns, rows, 0
+  double spacing = 0;  // m, centre to centre; in three dimensions, except hexagonal: edge of the cell
   double perturbation = 0;  // -, of the spacing: maximum offset of a centre from its lattice site
-  Vec2 corner =
-      Vec2::Zero();  // m, lower left corner of the first particle's lattice cell, or the die
-  double width = 0;  // m, of the die
+  ContainerSpec container;  // of lattices: only the corner of the first cell
   std::optional<double> height;   // m
   std::optional<int> count;       // if the classes give fractions
   std::optional<double> density;  // -
@@ -249,29 +260,43 @@ struct PackingSpec {
   PackingReached reached = {};
 };
 
-// Rigid. A plane fills the half-plane behind `point` and faces along `normal`; a polyline lies to
-// the right of its points, a profile below its relief; a constraint touches nothing and holds the nodes of one body that lie in a box or
-// within a radius of `point`.
+// Rigid. A plane fills what lies behind `point` and faces along `normal`. In two dimensions a polyline lies to the right of
+// its points, a profile below its relief; a constraint touches nothing and holds the nodes of one body that lie in a box or
+// within a radius of `point`. In three a die is the inside of a round hole along `normal`; a punch is a body of revolution
+// about its normal through `point`; an STL tool is a closed surface with outward normals that moves as a whole.
 struct ToolSpec {
-  enum class Shape { plane, polyline, constraint, profile };
+  enum class Shape { plane, polyline, constraint, profile, die, punch, stl };
   enum class Holds { x, y, both, radial };
   std::string name;
-  Vec2 point = Vec2::Zero();    // m; for a radial constraint, and one with a radius: its centre
-  bool on_packing = false;      // point.y is the top of the highest packing
-  Vec2 normal = Vec2::UnitY();  // unit vector, from a plane or a drawn polyline into the powder
+  Vec3 point = Vec3::Zero();    // m; for a radial constraint, and one with a radius: its centre
+  bool on_packing = false;      // point's last component is the top of the highest packing
+  Vec3 normal = Vec3::UnitY();  // unit vector, from the tool into the powder; of dies and punches: the axis
   SourceMark mark;
   Shape shape = Shape::plane;
   std::vector<Vec2> points = {};  // m, of a polyline, or of a profile generated from `relief`
-  std::string file = {};          // of a drawn polyline or measured profile: relative to the scene
-  std::string unit = {}, layer = {};  // of a drawing: its unit, if it gives none; the layer to use
-  ProfileSpec relief = {};            // of a profile whose crests are at the height of `point`
-  double rounding = 0;                // m, radius of a polyline's convex corners
-  int body = 0;                       // of a constraint, in the order of placement
-  Vec2 low = Vec2::Zero();            // m, corners of a constraint's box
+  std::string file = {};          // of a drawing, a measured profile, an STL tool: relative to the scene
+  std::string unit = {};          // of its numbers, if it gives none
+  std::string layer = {};         // of a drawing: the layer to use
+  ProfileSpec relief = {};        // of a profile whose crests are at the height of `point`
+  double rounding = 0;            // m, radius of a polyline's convex corners, of the edge of a die's mouth
+  int body = 0;                   // of a constraint, in the order of placement
+  Vec2 low = Vec2::Zero();        // m, corners of a constraint's box
   Vec2 high = Vec2::Zero();
   std::optional<double> radius = {};  // m, about `point`, instead of the box
   Holds holds = Holds::both;
+  double diameter = 0;                // m, of a die, of a punch
+  std::optional<double> height = {};  // m, of a die whose hole ends: its mouth, from `point` along the normal
+  std::vector<Vec2> profile = {};     // m, of a punch: radius, height along the normal; from the axis outward
+  // m, relative to `point`, of an STL tool, set once it has been read.
+  std::vector<std::array<Vec3, 3>> triangles = {};
 };
+
+// Its normal gives the side of the powder.
+inline bool has_face(const ToolSpec& tool) {
+  return tool.shape == ToolSpec::Shape::plane || tool.shape == ToolSpec::Shape::punch;
+}
+inline constexpr EnumTable<ToolSpec::Shape> tool_shape_names{
+    "plane", "polyline", "constraint", "profile", "die", "punch", "stl"};
 
 struct MoveSpec {
   int tool = 0;                      // index in Scene::tools
@@ -363,11 +388,9 @@ struct ElementSpec {
 };
 
 struct AfmScene;  // scenes/spec/afm_scene.hpp
-namespace space {
-struct SpaceScene;  // scenes/spec/space_scene.hpp
-}
 
 struct Scene {
+  int dimension = 2;
   std::filesystem::path file;
   std::vector<std::filesystem::path> extended;  // by `file`, and by one another in this order
   std::string title;
@@ -392,13 +415,12 @@ struct Scene {
   std::vector<ExpectSpec> expects;  // [[expect]]
   // family = "afm": there are then no particles, tools or stages. Not modified after reading.
   std::shared_ptr<AfmScene> afm;
-  // dimension = 3: particles, bodies, packings and tools are in here. Not modified after reading.
-  std::shared_ptr<space::SpaceScene> space;
 
   // Stresses of the particles, hence of the powder: force chains need them, and a periodic cell is evaluated with them.
   bool observes_stress() const {
     return output.particle_stress || output.contacts || cell.has_value();
   }
+  bool in_space() const { return dimension == 3; }
   // For a particle or a grain: grain classes are numbered after the particle classes.
   const ParticleSpec& class_of(const BodySpec& body) const {
     const auto number = static_cast<std::size_t>(body.particle);

@@ -8,7 +8,7 @@
 
 #include "engine/entry.hpp"
 #include "scenes/language/problem.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 namespace {
@@ -33,8 +33,6 @@ BondRules::Law law_of(const Scene& scene, const BondSpec& spec) {
 std::vector<std::string> names_of_tools(const Scene& scene) {
   std::vector<std::string> names;
   for (const ToolSpec& tool : scene.tools) names.push_back(tool.name);
-  if (scene.space)
-    for (const space::ToolSpec& tool : scene.space->tools) names.push_back(tool.name);
   return names;
 }
 
@@ -192,7 +190,7 @@ BondRules bounded_by(const Bodies& bodies, const std::vector<SurfaceSprings>& of
            fmt::format("{:.4g} J/m^2 is less than the energy stored in the bond when it starts to "
                        "break at {:.4g} Pa, allowed: >= {:.4g} J/m^2 with this mesh; {} "
                        "or a higher `stiffness` allow less",
-                       energy, strength, least, scene.space ? "smaller faces" : "finer edges")});
+                       energy, strength, least, scene.in_space() ? "smaller faces" : "finer edges")});
     };
     bound("fracture_energy", law.strength, law.energy);
     bound("shear_fracture_energy", law.shear_strength, law.shear_energy);

@@ -48,7 +48,7 @@ void hold_node(const Scene& scene, const Held& node, double size, std::vector<He
   if (tool.holds == Holds::x || tool.holds == Holds::both) add(Vec2::UnitX(), Vec2::UnitX());
   if (tool.holds == Holds::y || tool.holds == Holds::both) add(Vec2::UnitY(), Vec2::UnitY());
   if (tool.holds != Holds::radial) return;
-  const Vec2 arm = node.place - tool.point;
+  const Vec2 arm = node.place - in_plane(tool.point);
   if (arm.norm() <= round_off * size)
     refuse(scene, node.tool, "point",
            fmt::format("node {} of particle {} lies at the centre, where the radial direction is "
@@ -58,7 +58,7 @@ void hold_node(const Scene& scene, const Held& node, double size, std::vector<He
 }
 
 bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
-  if (tool.radius) return (place - tool.point).norm() <= *tool.radius + margin;
+  if (tool.radius) return (place - in_plane(tool.point)).norm() <= *tool.radius + margin;
   return (place.array() >= tool.low.array() - margin).all() &&
          (place.array() <= tool.high.array() + margin).all();
 }
@@ -71,7 +71,7 @@ bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
                        "node in it",
                        tool.body));
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Vec2& place : places) nearest = std::min(nearest, (place - tool.point).norm());
+  for (const Vec2& place : places) nearest = std::min(nearest, (place - in_plane(tool.point)).norm());
   refuse(scene, number, "radius",
          fmt::format("no node of particle {} lies within it, allowed: at least {:.6g} m, the "
                      "distance of the nearest one",

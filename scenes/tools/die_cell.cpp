@@ -19,7 +19,8 @@ bool is_ground(const ToolSpec& tool) {
 // For a polyline, which continues straight beyond its ends.
 bool lies_behind(const ToolSpec& polyline, const ToolSpec& plane) {
   const std::vector<Vec2>& p = polyline.points;
-  const auto height = [&](const Vec2& at) { return (at - plane.point).dot(plane.normal); };
+  const Vec2 point = in_plane(plane.point), normal = in_plane(plane.normal);
+  const auto height = [&](const Vec2& at) { return (at - point).dot(normal); };
   return std::ranges::all_of(p, [&](const Vec2& at) { return height(at) <= 0; }) &&
          height(p.front()) <= height(p[1]) && height(p.back()) <= height(p[p.size() - 2]);
 }
@@ -36,6 +37,7 @@ bool waits_outside(const ToolSpec& tool, const Scene& scene) {
 }  // namespace
 
 std::optional<DieCell> die_cell(const Scene& scene) {
+  if (scene.in_space()) return std::nullopt;
   DieCell cell{-1, -1, -1, -1};
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];

@@ -10,7 +10,7 @@ constexpr double straight = 1 - 1e-12;  // cosine between a plane's normal and a
 }  // namespace
 
 Vec2 face_normal(const ToolSpec& tool) {
-  if (tool.shape == ToolSpec::Shape::plane) return tool.normal;
+  if (tool.shape == ToolSpec::Shape::plane) return in_plane(tool.normal);
   if (tool.points.empty()) return Vec2::UnitY();  // a profile that has not been generated yet
   const Vec2 along = tool.points.back() - tool.points.front();
   return std::abs(along.x()) >= std::abs(along.y()) ? Vec2(0, along.x() > 0 ? 1 : -1)
@@ -18,6 +18,7 @@ Vec2 face_normal(const ToolSpec& tool) {
 }
 
 std::optional<DieSides> die_sides(const Scene& scene) {
+  if (scene.in_space()) return std::nullopt;
   constexpr int none = -1;
   DieSides sides{none, none, none, none};
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {

@@ -48,8 +48,9 @@ void read_drawn_faces(Scene& scene, const schema::Origins& origins, Problems& pr
     if (!is_drawn || !tool.points.empty()) continue;  // a tool with both keys is rejected elsewhere
     const std::filesystem::path path = scene.file.parent_path() / tool.file;
     try {
-      tool.points = placed_face(line_in(path, tool), tool.normal,
-                                origins.contains(at + ".point") ? &tool.point : nullptr);
+      const Vec2 point = in_plane(tool.point);
+      tool.points = placed_face(line_in(path, tool), in_plane(tool.normal),
+                                origins.contains(at + ".point") ? &point : nullptr);
     } catch (const drawing::BadDrawing& bad) {
       problems.add(origins.at(at + ".file"), at + ".file",
                    fmt::format("{}: {}", path.string(), bad.what()));

@@ -77,7 +77,7 @@ StageEnds stage_ends(const World& world, const Scene& scene, const std::vector<B
   ends.ends = early_ends(scene.stages, [&](int number) -> Point3 {
     const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
     if (tool.shape != ToolSpec::Shape::plane) return {};
-    return {tool.normal.x(), tool.normal.y(), 0};
+    return values_of(tool.normal);
   });
   ends.cell.particle_area = powder_of(scene, bodies).area;
   if (const auto cell = die_cell(scene))

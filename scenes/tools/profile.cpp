@@ -110,15 +110,16 @@ Extent covered(const Scene& scene, int tool, const PowderSpan& powder) {
 std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {
   const ProfileSpec& relief = tool.relief;
   const std::vector<Vec2> pitch = one_pitch(relief);
-  const double from = tool.point.x();
+  const Vec2 at = in_plane(tool.point);
+  const double from = at.x();
   const double first = std::floor((extent.low - from) / relief.pitch) - pitches_beyond;
   const double last = std::ceil((extent.high - from) / relief.pitch) + pitches_beyond;
-  std::vector<Vec2> points{tool.point + Vec2((first - 1) * relief.pitch, 0)};  // flat extension
+  std::vector<Vec2> points{at + Vec2((first - 1) * relief.pitch, 0)};  // flat extension
   for (double k = first; k < last; ++k)
     for (const Vec2& corner : pitch)
-      points.push_back(tool.point + corner + Vec2(k * relief.pitch, 0));
-  points.push_back(tool.point + Vec2(last * relief.pitch, 0));
-  points.push_back(tool.point + Vec2((last + 1) * relief.pitch, 0));
+      points.push_back(at + corner + Vec2(k * relief.pitch, 0));
+  points.push_back(at + Vec2(last * relief.pitch, 0));
+  points.push_back(at + Vec2((last + 1) * relief.pitch, 0));
   return points;
 }
 

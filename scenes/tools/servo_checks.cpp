@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scenes/space/tools/die_room.hpp"
 #include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
@@ -60,11 +61,11 @@ class ServoChecks {
     const Vec3 direction = direction_of(servo, scene_);
     if (direction.isZero(0))
       return refuse(path, "direction",
-                    "required key is missing: only a plane has a normal, allowed: two numbers, not "
-                    "both zero");
-    const Vec3 normal =
-        tool(servo).shape == ToolSpec::Shape::plane ? in_space(tool(servo).normal) : Vec3::Zero();
-    if (pulls_off(scene_, tool(servo).name, direction, normal))
+                    fmt::format("required key is missing: only planes and punches have a normal, "
+                                "allowed: {} numbers, not all 0",
+                                scene_.in_space() ? "three" : "two"));
+    if (has_face(tool(servo)) &&
+        pulls_off(scene_, tool(servo).name, direction, tool(servo).normal))
       refuse(path, "direction", fmt::format(pulled_off, tool(servo).name));
     for (const MoveSpec& move : stage_.moves)
       if (move.tool == servo.tool && !move.stiffness &&
@@ -76,7 +77,7 @@ class ServoChecks {
                         tool(servo).name));
   }
 
-  // A move through a spring. Moves by zero, and two of one tool, are refused in scenes/checks/checks.cpp.
+  // A move through a spring.
   void elastic(std::size_t number, const std::string& path) {
     const MoveSpec& move = stage_.moves[number];
     const ToolSpec& moved = scene_.tools[static_cast<std::size_t>(move.tool)];
@@ -102,12 +103,19 @@ class ServoChecks {
                       aims));
     if (until.relative_density && until.tool)
       refuse(path, "tool", "has no effect together with relative_density, allowed: without it");
-    if (until.relative_density && !scene_.cell && !die_cell(scene_))
+    if (until.relative_density && !scene_.cell && !has_die())
       refuse(path, "relative_density",
-             "there is no die to which it could refer, allowed: in a periodic cell, or in a scene "
-             "whose "
-             "tools "
-             "are four planes with normals along +x, -x, +y and -y");
+             fmt::format(
+                 "there is no die to which it could refer, allowed: {}",
+                 scene_.in_space()
+                     ? "with six planes with normals along +x, -x, +y, -y, +z and -z, or a round "
+                       "die and a plane or punch at either end"
+                     : "in a periodic cell, or in a scene whose tools are four planes with normals "
+                       "along +x, -x, +y and -y"));
+  }
+
+  bool has_die() const {
+    return scene_.in_space() ? space::die_room(scene_).has_value() : die_cell(scene_).has_value();
   }
 
   const Scene& scene_;
@@ -122,8 +130,7 @@ class ServoChecks {
 Vec3 direction_of(const ServoSpec& servo, const Scene& scene) {
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(servo.tool)];
   if (servo.direction) return *servo.direction;
-  if (tool.shape != ToolSpec::Shape::plane) return Vec3::Zero();
-  return in_space(tool.normal);
+  return has_face(tool) ? tool.normal : Vec3::Zero();
 }
 
 bool pulls_off(const Scene& scene, const std::string& tool, const Vec3& direction,

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <set>
+
 #include "scenes/tools/profile.hpp"
 #include "scenes/tools/servo_checks.hpp"
 #include "scenes/tools/surface.hpp"
@@ -17,17 +20,19 @@ class ToolChecks {
   void run() {
     for (std::size_t t = 0; t < scene_.tools.size(); ++t) {
       const std::string path = fmt::format("tool[{}]", t);
-      point(scene_.tools[t], path);
-      normal(scene_.tools[t], path);
+      if (!scene_.in_space()) {  // there the declaration of the keys says all
+        point(scene_.tools[t], path);
+        normal(scene_.tools[t], path);
+      }
       if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::profile)
         check_profile(scene_.tools[t], path, origins_, problems_);
       if (scene_.tools[t].shape == ToolSpec::Shape::constraint) region(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::punch) profile_of_punch(scene_.tools[t], path);
     }
     for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
       const StageSpec& stage = scene_.stages[s];
-      for (std::size_t m = 0; m < stage.moves.size(); ++m)
-        move(stage.moves[m], fmt::format("stage[{}].move[{}]", s, m));
+      moves(stage.moves, fmt::format("stage[{}]", s));
       check_servos(scene_, stage, fmt::format("stage[{}]", s), origins_, problems_);
     }
     for (std::size_t f = 0; f < scene_.frictions.size(); ++f) friction(scene_.frictions[f], f);
@@ -110,6 +115,41 @@ class ToolChecks {
     const bool box = !tool.radius && given(path + ".low") && given(path + ".high");
     if (!box || (tool.low.array() <= tool.high.array()).all()) return;
     refuse(path, "high", "the box is empty, allowed: not below and not left of low");
+  }
+
+  // From the axis outward, to the full width of the punch.
+  void profile_of_punch(const ToolSpec& tool, const std::string& path) {
+    if (tool.profile.empty()) return;
+    if (tool.profile.front().x() != 0)
+      return refuse(path, "profile",
+                    fmt::format("starts {:g} m from the axis, allowed: a first point [\"0 m\", ..]",
+                                tool.profile.front().x()));
+    for (std::size_t i = 1; i < tool.profile.size(); ++i)
+      if (!(tool.profile[i].x() > tool.profile[i - 1].x()))
+        return refuse(path, "profile",
+                      fmt::format("point {} is not farther from the axis than the one before it, "
+                                  "allowed: increasing distances",
+                                  i));
+    const double end = tool.profile.back().x(), radius = tool.diameter / 2;
+    if (std::abs(end - radius) > 1e-9 * radius)
+      refuse(path, "profile",
+             fmt::format("ends {:g} m from the axis, allowed: at half the diameter, {:g} m", end,
+                         radius));
+  }
+
+  void moves(const std::vector<MoveSpec>& moves, const std::string& stage) {
+    std::set<int> moved;
+    for (std::size_t m = 0; m < moves.size(); ++m) {
+      const std::string path = fmt::format("{}.move[{}]", stage, m);
+      if (!moved.insert(moves[m].tool).second)
+        refuse(path, "tool",
+               fmt::format("'{}' is moved twice in this stage, allowed: one move for each tool",
+                           scene_.tools[static_cast<std::size_t>(moves[m].tool)].name));
+      if (moves[m].displacement.isZero(0))
+        refuse(path, "displacement",
+               "a move by zero has no effect, allowed: a displacement that is not 0");
+      move(moves[m], path);
+    }
   }
 
   // A constraint cannot move a node in a direction that it leaves free.

@@ -37,7 +37,7 @@ constexpr double most_updates_with_bonds = 6e7;
 constexpr double most_updates_in_space = 4e7;
 
 double most_updates_of(const Scene& scene) {
-  if (scene.space) return most_updates_in_space;
+  if (scene.in_space()) return most_updates_in_space;
   return scene.bonds.empty() ? most_updates : most_updates_with_bonds;
 }
 

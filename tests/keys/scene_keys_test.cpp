@@ -23,7 +23,6 @@
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/space/overlaps.hpp"
-#include "scenes/space/packing/place.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "tests/helpers/left.hpp"
 #include "tests/helpers/paths.hpp"
@@ -69,8 +68,8 @@ std::string fault_of_scene(const std::string& text, const fs::path& folder) {
     const Scene scene = load_scene_text(text, folder / "case.toml").scene;
     if (scene.afm)
       build_afm(scene);
-    else if (scene.space)
-      space::check_overlaps(scene, space::place_bodies(scene));
+    else if (scene.in_space())
+      space::check_overlaps(scene, place_bodies(scene));
     else
       check_overlaps(scene, place_bodies(scene));
   });

@@ -148,7 +148,7 @@ class PlateFitReader {
         problems_.add(origins.at("scene"), "scene", problem.text());
       return;
     }
-    if (fit_.scene.space) {
+    if (fit_.scene.in_space()) {
       problems_.add(origins.at("scene"), "scene",
                     "the scene is three-dimensional, allowed: two-dimensional scenes");
       return;

@@ -15,8 +15,7 @@
 #include "scenes/space/meshes/mesh.hpp"
 #include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/packing_file.hpp"
-#include "scenes/space/packing/place.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::python {
 namespace py = pybind11;
@@ -46,7 +45,7 @@ py::dict packing_in_space(const Scene& scene) {
   std::vector<BodySpec> bodies;
   {
     py::gil_scoped_release others_may_run;
-    bodies = space::place_bodies(scene);
+    bodies = place_bodies(scene);
     space::check_overlaps(scene, bodies);
   }
   auto centres = table_of<double>(bodies.size(), 3), rotations = table_of<double>(bodies.size(), 4);
@@ -61,7 +60,7 @@ py::dict packing_in_space(const Scene& scene) {
     classes.mutable_at(array_index(i)) = bodies[i].particle;
   }
   py::list names;
-  for (const auto& particle : scene.space->particles) names.append(particle.name);
+  for (const auto& particle : scene.particles) names.append(particle.name);
   py::dict all;
   all["centres"] = centres;
   all["rotations"] = rotations;
@@ -72,7 +71,7 @@ py::dict packing_in_space(const Scene& scene) {
 }
 
 py::dict mesh_in_space(const Scene& scene, int number) {
-  const auto& particles = scene.space->particles;
+  const auto& particles = scene.particles;
   const auto& particle = particles[static_cast<std::size_t>(number)];
   const space::Shape shape = space::make_shape(particle);
   auto nodes = table_of<double>(shape.nodes.size(), 3);
@@ -101,7 +100,7 @@ py::dict mesh_in_space(const Scene& scene, int number) {
 // m, rad, names: all particles in order of their numbers.
 py::dict packing_of(const LoadedScene& loaded) {
   require_particles(loaded);
-  if (loaded.scene.space) return packing_in_space(loaded.scene);
+  if (loaded.scene.in_space()) return packing_in_space(loaded.scene);
   std::vector<BodySpec> bodies;
   {
     py::gil_scoped_release others_may_run;
@@ -134,12 +133,11 @@ py::dict packing_of(const LoadedScene& loaded) {
 py::dict mesh_of_class(const LoadedScene& loaded, std::int64_t index) {
   require_particles(loaded);
   const Scene& scene = loaded.scene;
-  const std::size_t classes =
-      scene.space ? scene.space->particles.size() : scene.particles.size() + scene.grains.size();
+  const std::size_t classes = scene.particles.size() + scene.grains.size();
   if (index < 0 || static_cast<std::size_t>(index) >= classes)
     throw py::index_error(fmt::format("particle: class {}, allowed: 0 to {}", index, classes - 1));
   const int number = static_cast<int>(index);
-  if (scene.space) return mesh_in_space(scene, number);
+  if (scene.in_space()) return mesh_in_space(scene, number);
   BodySpec body;
   body.particle = number;
   const ParticleSpec& particle = scene.class_of(body);

@@ -147,7 +147,7 @@ void bind_state(RunClass& run) {
       .def_property_readonly("verdicts", &verdicts_of)
       .def_property_readonly("mesh", &mesh_of_run)
       .def_property_readonly("dimension",
-                             [](PythonRun& r) { return r.session().loaded().scene.space ? 3 : 2; })
+                             [](PythonRun& r) { return r.session().loaded().scene.dimension; })
       .def_property_readonly("driven", [](PythonRun& r) { return r.session().driven(); })
       .def_property_readonly("elements",
                              [](PythonRun& r) { return r.session().results().elements(); })

@@ -15,8 +15,6 @@
 #include "scenes/language/units.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
-#include "scenes/space/packing/place.hpp"
-#include "scenes/space/space_warnings.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis::python {
@@ -47,8 +45,6 @@ SharedScene loaded_by(const Read& read) {
 
 std::vector<std::string> warnings(const LoadedScene& loaded) {
   if (loaded.scene.afm) return lever_warnings(loaded.scene);
-  if (loaded.scene.space)
-    return space::setup_warnings(loaded.scene, space::place_bodies(loaded.scene));
   return setup_warnings(loaded.scene, place_bodies(loaded.scene));
 }
 

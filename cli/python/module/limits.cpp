@@ -12,7 +12,7 @@ namespace pulvis::python {
 
 const schema::KeyInfo& declared_key(const Scene& scene, const std::string& table,
                                     const std::string& key) {
-  const schema::Language& language = schema::scene_language(scene.space ? 3 : 2);
+  const schema::Language& language = schema::scene_language(scene.dimension);
   return *schema::find_key(*schema::find_table(table, language), key);
 }
 

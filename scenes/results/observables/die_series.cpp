@@ -133,7 +133,7 @@ void add_die(const Die& die, const DieWords& words, std::optional<double> yield_
 
 void add_die_series(const Scene& scene, Observables& all) {
   const auto yield = common_yield_stress(scene);
-  if (!scene.space) {
+  if (!scene.in_space()) {
     if (const auto die = die_cell(scene)) add_die(*die, plane_words, yield, all);
   } else if (const auto die = space::die_room(scene)) {
     add_die(*die, die->kind == DieRoom::Kind::box ? box_words : round_words, yield, all);

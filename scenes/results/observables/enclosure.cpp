@@ -55,7 +55,7 @@ Vec2 size_of(const World& world, const DieCell& die) {
 
 std::function<double(const World&)> enclosure_of(const Scene& scene) {
   if (scene.cell) return [](const World& world) { return world.resource<PeriodicCell>().area(); };
-  if (scene.space) {
+  if (scene.in_space()) {
     if (const auto room = space::die_room(scene))
       return [room = *room](const World& world) { return volume_of(world, room); };
   } else if (const auto cell = die_cell(scene)) {

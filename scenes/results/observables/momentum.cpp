@@ -62,7 +62,7 @@ Momentum momentum_in_space(const Observation& now) {
 }  // namespace
 
 void add_momentum(const Scene& scene, Observables& all) {
-  const bool space = scene.space != nullptr;
+  const bool space = scene.in_space();
   const auto linear = [](int axis) { return [axis](const Momentum& m) { return m.linear[axis]; }; };
   const auto angular = [](int axis) {
     return [axis](const Momentum& m) { return m.angular[axis]; };

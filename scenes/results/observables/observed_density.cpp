@@ -128,8 +128,8 @@ constexpr GridWords space_grid_words{
 
 void add_density_series(const Scene& scene, Observables& all) {
   if (!scene.output.density()) return;
-  const auto grid = scene.space ? space_grid : plane_grid;
-  const GridWords& words = scene.space ? space_grid_words : plane_grid_words;
+  const auto grid = scene.in_space() ? space_grid : plane_grid;
+  const GridWords& words = scene.in_space() ? space_grid_words : plane_grid_words;
   all.add([grid](const Observation& now) { return grid(now.world).figures(); },
           {{"density/compact", "-", words.compact, &DensityFigures::mean},
            {"density/minimum", "-", words.extremes, &DensityFigures::minimum},
@@ -139,7 +139,7 @@ void add_density_series(const Scene& scene, Observables& all) {
 
 void add_density_fields(const Scene& scene, FrameFields& all) {
   if (!scene.output.density()) return;
-  const bool space = scene.space != nullptr;
+  const bool space = scene.in_space();
   const auto grid = space ? space_grid : plane_grid;
   const auto lines_of = space ? space_planes : plane_lines;
   const auto lines = [lines_of](int axis) {

@@ -210,13 +210,13 @@ void add_network(const LinkWords& words, FrameFields& all) {
 
 void add_network_series(const Scene& scene, Observables& all) {
   if (!scene.output.contacts) return;
-  const auto figures = scene.space ? network_figures<ThreeD> : network_figures<TwoD>;
-  all.add(figures, network_rows(scene.space != nullptr));
+  const auto figures = scene.in_space() ? network_figures<ThreeD> : network_figures<TwoD>;
+  all.add(figures, network_rows(scene.in_space()));
 }
 
 void add_network_fields(const Scene& scene, FrameFields& all) {
   if (!scene.output.contacts) return;
-  if (scene.space)
+  if (scene.in_space())
     add_network<ThreeD>(space_links, all);
   else
     add_network<TwoD>(plane_links, all);

@@ -52,7 +52,7 @@ StressFigures mean_stress(const World& world, double size) {
 void add_stress_series(const Scene& scene, Observables& all) {
   const auto enclosure = enclosure_of(scene);
   if (!scene.observes_stress() || !enclosure) return;
-  const bool space = scene.space != nullptr;
+  const bool space = scene.in_space();
   const auto figures = [enclosure, space](const Observation& now) {
     const double size = enclosure(now.world);
     return space ? mean_stress<ThreeD>(now.world, size) : mean_stress<TwoD>(now.world, size);
@@ -90,7 +90,7 @@ void add_stress_fields(const Scene& scene, FrameFields& all) {
              {{"particle_centre", "m", Centre::info.meaning, FieldPlace::particle, Centre::count},
               by_number<Centre>}});
   };
-  if (scene.space)
+  if (scene.in_space())
     add(ThreeD());
   else
     add(TwoD());

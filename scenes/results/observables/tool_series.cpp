@@ -2,13 +2,12 @@
 #include "components/servo.hpp"
 #include "scenes/results/observables/enclosure.hpp"
 #include "scenes/results/observables/result_rows.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "scenes/spec/tool_motion.hpp"
 
 namespace pulvis {
 namespace {
 
-// What differs between the tools of two and three dimensions.
 struct ToolWords {
   std::string name;
   const char* position;  // of which point
@@ -16,20 +15,16 @@ struct ToolWords {
 };
 
 ToolWords words_of(const ToolSpec& tool) {
-  const bool constraint = tool.shape == ToolSpec::Shape::constraint;
+  using Shape = ToolSpec::Shape;
+  const bool constraint = tool.shape == Shape::constraint;
   if (constraint && tool.holds == ToolSpec::Holds::radial)
     return {tool.name, "x: position of its centre plus the radial displacement of its nodes", true};
   if (tool.radius) return {tool.name, "of the centre of its circle, which moves with its nodes"};
   if (constraint) return {tool.name, "of the centre of its box, which moves with its nodes"};
-  return {tool.name, "of a point on the tool's surface"};
-}
-
-ToolWords words_of(const space::ToolSpec& tool) {
-  using Shape = space::ToolSpec::Shape;
   if (tool.shape == Shape::die) return {tool.name, "of a point on its axis"};
-  if (tool.shape == Shape::plane) return {tool.name, "of a point on its surface"};
   if (tool.shape == Shape::punch) return {tool.name, "of the centre of its face"};
-  return {tool.name, "of the origin of its file"};
+  if (tool.shape == Shape::stl) return {tool.name, "of the origin of its file"};
+  return {tool.name, "of a point on the tool's surface"};
 }
 
 void add_tool(const Scene& scene, int tool, const ToolWords& words, Observables& all) {
@@ -44,7 +39,7 @@ void add_tool(const Scene& scene, int tool, const ToolWords& words, Observables&
     return now.world.column<ServoForce>().values()[2 * tool];
   };
   const char* on_it = "force of the particles on the tool";
-  const bool space = scene.space != nullptr, servo = is_servo_driven(scene, tool);
+  const bool space = scene.in_space(), servo = is_servo_driven(scene, tool);
   all.add(
       {{name + "position_x", "m", words.position, position(0)},
        {name + "position_y", "m", words.position, position(1)},
@@ -63,14 +58,8 @@ void add_tool(const Scene& scene, int tool, const ToolWords& words, Observables&
 }  // namespace
 
 void add_tool_series(const Scene& scene, Observables& all) {
-  int number = 0;
-  const auto add = [&](const auto& tools) {
-    for (const auto& tool : tools) add_tool(scene, number++, words_of(tool), all);
-  };
-  if (scene.space)
-    add(scene.space->tools);
-  else
-    add(scene.tools);
+  for (std::size_t t = 0; t < scene.tools.size(); ++t)
+    add_tool(scene, static_cast<int>(t), words_of(scene.tools[t]), all);
 }
 
 }  // namespace pulvis

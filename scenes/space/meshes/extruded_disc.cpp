@@ -10,7 +10,7 @@ namespace {
 
 // Boundary nodes first, as many as the outermost ring has quads; quads of that ring first, each with its side on the
 // boundary as its first.
-pulvis::Shape disc_of(double diameter, const MeshSpec& mesh) {
+pulvis::Shape disc_of(double diameter, const HexMeshSpec& mesh) {
   pulvis::Shape disc;
   disc.area = std::numbers::pi / 4 * diameter * diameter;
   DiscMesh of;
@@ -102,7 +102,7 @@ class Extrusion {
 
 }  // namespace
 
-ExtrudedDisc extruded_disc(const CylinderShape& cylinder, const MeshSpec& mesh,
+ExtrudedDisc extruded_disc(const CylinderShape& cylinder, const HexMeshSpec& mesh,
                            const StarSurface& surface) {
   const pulvis::Shape disc = disc_of(cylinder.diameter, mesh);
   const Extrusion extrusion(disc, mesh.axial());

@@ -10,7 +10,7 @@
 
 #include "scenes/space/meshes/cubed_sphere.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 
@@ -22,7 +22,7 @@ struct ExtrudedDisc {
 };
 
 // Surface nodes lie on `surface`, that of the cylinder; inner nodes are those of the disc's mesh in two dimensions.
-ExtrudedDisc extruded_disc(const CylinderShape& cylinder, const MeshSpec& mesh,
+ExtrudedDisc extruded_disc(const CylinderShape& cylinder, const HexMeshSpec& mesh,
                            const StarSurface& surface);
 
 }  // namespace pulvis::space

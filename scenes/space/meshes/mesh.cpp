@@ -28,7 +28,7 @@ void make_surface_true(std::vector<Vec3>& nodes, int surface_nodes,
 
 class Mesher {
  public:
-  Mesher(const MeshSpec& mesh, const StarSurface& surface)
+  Mesher(const HexMeshSpec& mesh, const StarSurface& surface)
       : grid_({mesh.divisions, mesh.divisions, mesh.axial()}, mesh.rings),
         surface_(surface),
         hexahedra_(grid_.hexahedra()) {}
@@ -92,13 +92,13 @@ void set_mesh(Shape& shape, const std::vector<Vec3>& nodes, int surface_nodes,
   shape.hexahedra = hexahedra;
 }
 
-void mesh_on_cube(const MeshSpec& mesh, const StarSurface& surface, Shape& shape) {
+void mesh_on_cube(const HexMeshSpec& mesh, const StarSurface& surface, Shape& shape) {
   Mesher mesher(mesh, surface);
   set_mesh(shape, mesher.nodes(), mesher.surface_nodes(), mesher.hexahedra());
 }
 
 // Its elements are uniform from the start.
-void mesh_by_extrusion(const CylinderShape& cylinder, const MeshSpec& mesh,
+void mesh_by_extrusion(const CylinderShape& cylinder, const HexMeshSpec& mesh,
                        const StarSurface& surface, Shape& shape) {
   ExtrudedDisc disc = extruded_disc(cylinder, mesh, surface);
   make_surface_true(disc.nodes, disc.surface_nodes, disc.quads, surface);
@@ -116,7 +116,7 @@ void complete(Shape& shape, const StarSurface& surface) {
   complete_elements(shape);  // and the contact frequencies need the faces
 }
 
-Shape shape_on_cube(const MeshSpec& mesh, const StarSurface& surface, Seen seen) {
+Shape shape_on_cube(const HexMeshSpec& mesh, const StarSurface& surface, Seen seen) {
   Shape shape;
   mesh_on_cube(mesh, seen ? *seen : surface, shape);
   if (seen)
@@ -130,7 +130,7 @@ Shape shape_on_cube(const MeshSpec& mesh, const StarSurface& surface, Seen seen)
 
 // A polyhedron or a scan has an arbitrary orientation in its file. The cube is rotated to where contacts see the shape
 // best; it stays along the shape's own axes if the gain is small.
-Shape shape_on_fitting_cube(const MeshSpec& mesh, const StarSurface& surface) {
+Shape shape_on_fitting_cube(const HexMeshSpec& mesh, const StarSurface& surface) {
   constexpr double clearly = 0.8;
   std::optional<Shape> best;
   double best_error = std::numeric_limits<double>::infinity();
@@ -151,7 +151,7 @@ Shape shape_on_fitting_cube(const MeshSpec& mesh, const StarSurface& surface) {
 
 struct ShapeKey {
   ParticleShape shape;
-  MeshSpec mesh;
+  HexMeshSpec mesh;
   bool operator==(const ShapeKey&) const = default;
 };
 
@@ -165,7 +165,7 @@ Shape shape_of(const ShapeKey& of) {
   const auto& [true_shape, mesh] = of;
   const std::unique_ptr<StarSurface> surface = star_surface(true_shape);
   if (has_free_axes(of)) return shape_on_fitting_cube(mesh, *surface);
-  if (mesh.grid == MeshSpec::Grid::cube) return shape_on_cube(mesh, *surface, nullptr);
+  if (mesh.grid == HexMeshSpec::Grid::cube) return shape_on_cube(mesh, *surface, nullptr);
   Shape shape;
   mesh_by_extrusion(std::get<CylinderShape>(true_shape), mesh, *surface, shape);
   complete(shape, *surface);
@@ -184,7 +184,7 @@ Shape make_shape(const ParticleSpec& particle) {
   // runs of a study. The largest mesh that a scene may have (scenes/space/checks.cpp) needs 150 MB.
   static ResultCache<ShapeKey, Shape> cache(320 << 20);  // bytes, approximately
   const auto size = [&](const Shape& made) { return stl_bytes(particle.shape) + bytes_of(made); };
-  Shape shape = cache.get({particle.shape, particle.mesh}, shape_of, size);
+  Shape shape = cache.get({particle.shape, particle.hex_mesh}, shape_of, size);
   shape.name = particle.name;
   return shape;
 }

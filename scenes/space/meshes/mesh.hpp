@@ -3,7 +3,7 @@
 
 #include "components/space/shape.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

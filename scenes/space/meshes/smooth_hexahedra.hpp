@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scenes/space/meshes/cubed_sphere.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

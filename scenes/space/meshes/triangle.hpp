@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

@@ -13,13 +13,13 @@
 #include "scenes/packing/mixture.hpp"
 #include "scenes/space/packing/die_filling.hpp"
 #include "scenes/space/packing/packing_file.hpp"
-#include "scenes/space/packing/place.hpp"
+#include "scenes/packing/place.hpp"
 #include "scenes/space/packing/widths.hpp"
 
 namespace pulvis::space {
 namespace {
 
-int sized_class(SpaceScene& scene, int particle, double scale) {
+int sized_class(Scene& scene, int particle, double scale) {
   return class_of_size(scene.particles, particle, scale, [](ParticleSpec& spec, double factor) {
     spec.shape = scaled(spec.shape, factor);
   });
@@ -35,7 +35,7 @@ class RandomPacking {
  public:
   RandomPacking(Scene& scene, std::size_t number, const schema::Origins& origins,
                 Problems& problems)
-      : scene_(*scene.space),
+      : scene_(scene),
         folder_(scene.file.parent_path()),
         packing_(scene_.packings[number]),
         path_(fmt::format("packing[{}]", number)),
@@ -154,7 +154,7 @@ class RandomPacking {
     }
   }
 
-  SpaceScene& scene_;
+  Scene& scene_;
   std::filesystem::path folder_;
   PackingSpec& packing_;
   std::string path_;
@@ -165,7 +165,7 @@ class RandomPacking {
   double unit_ = 1;           // m, the mean diameter
 };
 
-double highest_point(const SpaceScene& scene, const std::vector<BodySpec>& bodies) {
+double highest_point(const Scene& scene, const std::vector<BodySpec>& bodies) {
   double highest = std::numeric_limits<double>::lowest();
   std::map<int, RigidShape> shapes;  // by class
   for (const BodySpec& body : bodies) {
@@ -182,17 +182,16 @@ double highest_point(const SpaceScene& scene, const std::vector<BodySpec>& bodie
 }
 
 void read_file(Scene& scene, PackingSpec& packing) {
-  SpaceScene& space = *scene.space;
-  const FiledPacking filed = read_packing(scene.file.parent_path() / packing.file, scene);
+  const FiledPacking filed = space::read_packing(scene.file.parent_path() / packing.file, scene);
   for (const FiledParticle& particle : filed.particles) {
     BodySpec body;
-    body.particle = sized_class(space, particle.particle, particle.scale);
+    body.particle = sized_class(scene, particle.particle, particle.scale);
     body.position = particle.position;
     body.rotation = particle.rotation;
     body.mark = packing.mark;
     packing.placed.push_back(body);
   }
-  packing.top = filed.top ? *filed.top : highest_point(space, packing.placed);
+  packing.top = filed.top ? *filed.top : highest_point(scene, packing.placed);
 }
 
 double lowest_place(const std::vector<std::array<Vec3, 3>>& triangles) {
@@ -210,7 +209,7 @@ double foremost_place(const ToolSpec& tool) {
   return std::ranges::max(tool.profile, {}, [](const Vec2& place) { return place.y(); }).y();
 }
 
-void put_tools_on(SpaceScene& scene, const schema::Origins& origins, Problems& problems) {
+void put_tools_on(Scene& scene, const schema::Origins& origins, Problems& problems) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     if (!scene.tools[t].on_packing) continue;
     if (scene.packings.empty()) {
@@ -227,9 +226,8 @@ void put_tools_on(SpaceScene& scene, const schema::Origins& origins, Problems& p
 }  // namespace
 
 void fill_packings(Scene& scene, const schema::Origins& origins, Problems& problems) {
-  SpaceScene& space = *scene.space;
-  for (std::size_t i = 0; i < space.packings.size(); ++i) {
-    PackingSpec& packing = space.packings[i];
+  for (std::size_t i = 0; i < scene.packings.size(); ++i) {
+    PackingSpec& packing = scene.packings[i];
     if (packing.kind == PackingSpec::Kind::random)
       RandomPacking(scene, i, origins, problems).run();
     else if (packing.kind == PackingSpec::Kind::csv)
@@ -237,7 +235,7 @@ void fill_packings(Scene& scene, const schema::Origins& origins, Problems& probl
     else
       packing.top = top_of_lattice(packing);
   }
-  put_tools_on(space, origins, problems);
+  put_tools_on(scene, origins, problems);
 }
 
 }  // namespace pulvis::space

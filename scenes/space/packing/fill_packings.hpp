@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenes/language/table_reader.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scenes/packing/packing_table.hpp"
-#include "scenes/space/packing/place.hpp"
+#include "scenes/packing/place.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -24,7 +24,7 @@ std::string described(const PackingSpec& packing) {
 std::string header(const Scene& scene) {
   std::string text =
       fmt::format("# Packing of {}, seed {}\n", scene.file.filename().string(), scene.seed);
-  for (const PackingSpec& packing : scene.space->packings) {
+  for (const PackingSpec& packing : scene.packings) {
     if (packing.kind != PackingSpec::Kind::random) continue;
     const PackingReached& r = packing.reached;
     text += fmt::format(
@@ -32,8 +32,8 @@ std::string header(const Scene& scene) {
         "{:.3g} m, {}\n",
         packing.placed.size(), r.density, r.mean_gap, r.min_gap, described(packing));
   }
-  if (!scene.space->packings.empty())
-    text += fmt::format("# top: {} m\n", top_of_packings(*scene.space));
+  if (!scene.packings.empty())
+    text += fmt::format("# top: {} m\n", top_of_packings(scene));
   return text;
 }
 
@@ -66,7 +66,7 @@ FiledPacking read_packing(const std::filesystem::path& file, const Scene& scene)
   const std::vector<double> scale = scales_in(table);
   FiledPacking packing;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
-    packing.particles.push_back({class_in(table, i, names, scene.space->particles), scale[i],
+    packing.particles.push_back({class_in(table, i, names, scene.particles), scale[i],
                                  Vec3(x[i], y[i], z[i]),
                                  unit_rotation(table, i, Rotation(w[i], u[i], v[i], t[i]))});
   packing.top = top_in(table);
@@ -74,7 +74,7 @@ FiledPacking read_packing(const std::filesystem::path& file, const Scene& scene)
 }
 
 std::string packing_text(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  const std::vector<ParticleSpec>& particles = scene.space->particles;
+  const std::vector<ParticleSpec>& particles = scene.particles;
   const bool scales = any_scaled(particles, bodies);
   std::string text = header(scene);
   text += fmt::format("class,x [m],y [m],z [m],qw,qx,qy,qz{}\n", scales ? ",scale" : "");

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 
 struct FiledParticle {
-  int particle = 0;  // index in SpaceScene::particles
+  int particle = 0;  // index in Scene::particles
   double scale = 1;  // of its shape
   Vec3 position = Vec3::Zero();
   Rotation rotation = Rotation::Identity();

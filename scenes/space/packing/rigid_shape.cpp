@@ -274,7 +274,7 @@ RigidShape contact_shape(const ParticleSpec& particle, double unit) {
   constexpr double little = 0.002;  // of the mean radius: spheres are taken as they are
   RigidShape shape = rigid_shape(particle.shape, unit);
   try {
-    const double bulge = make_shape(particle).surface_bulge / unit;
+    const double bulge = space::make_shape(particle).surface_bulge / unit;
     if (bulge < little * shape.diameter / 2) return shape;
     shape.radius += bulge;
     shape.reach += bulge;

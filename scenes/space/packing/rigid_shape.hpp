@@ -4,7 +4,7 @@
 #pragma once
 
 #include "scenes/space/packing/support_table.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

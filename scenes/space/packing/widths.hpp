@@ -1,7 +1,7 @@
 // The width of a particle: the distance between two parallel planes that touch it.
 #pragma once
 
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

@@ -7,7 +7,7 @@
 #include "components/space/observed.hpp"
 #include "engine/entry.hpp"
 #include "scenes/space/tools/die_room.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -25,7 +25,7 @@ DensityGrid density_grid(const Scene& scene) {
   grid.between = *die_room(scene);
   if (grid.between.kind == DieRoom::Kind::round)
     for (const auto& [end, side] : {std::pair{0, DieRoom::bottom}, {1, DieRoom::top}})
-      entry(grid.bottom_top, end) = profile_of(entry(scene.space->tools, grid.between.tool[side]));
+      entry(grid.bottom_top, end) = profile_of(entry(scene.tools, grid.between.tool[side]));
   return grid;
 }
 

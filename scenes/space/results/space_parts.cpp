@@ -6,7 +6,7 @@
 #include "scenes/space/results/space_tags.hpp"
 #include "scenes/space/results/tool_sheets.hpp"
 #include "scenes/space/tools/powder.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -24,7 +24,7 @@ class SpaceParts : public ResultParts {
       : world_(world),
         volume_(powder_of(world, scene).volume),
         tags_(particle_tags(scene, world)),
-        sheets_(*scene.space, box_of_nodes(world)) {
+        sheets_(scene, box_of_nodes(world)) {
     visit_particles<ThreeD>(
         world, [&](std::size_t, int, const Shape& shape) { elements_ += shape.elements(); });
   }

@@ -6,12 +6,12 @@
 #include "components/particle_classes.hpp"
 #include "components/shape.hpp"
 #include "engine/access.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 namespace {
 
-const std::string& name_of_class(const SpaceScene& scene, int position) {
+const std::string& name_of_class(const Scene& scene, int position) {
   const ParticleSpec& spec = scene.particles[static_cast<std::size_t>(position)];
   return spec.class_of < 0 ? spec.name
                            : scene.particles[static_cast<std::size_t>(spec.class_of)].name;
@@ -34,7 +34,7 @@ std::vector<ParticleTag> particle_tags(const Scene& scene, const World& world) {
   for (const MaterialSpec& m : scene.materials) material.names.push_back(m.name);
   std::vector<std::int32_t> class_of_shape;
   for (const int position : world.resource<ParticleClasses>().of_shape)
-    class_of_shape.push_back(place_in(of_class.names, name_of_class(*scene.space, position)));
+    class_of_shape.push_back(place_in(of_class.names, name_of_class(scene, position)));
   for (const int slot : bodies.slot_of_number) {
     const Bodies::Slot& s = entry(bodies.slots, slot);
     number.values.push_back(s.number);

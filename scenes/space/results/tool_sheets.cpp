@@ -20,11 +20,6 @@ constexpr double share_of_face =
     0.2;  // drawn width of the face around a mouth over the diameter of the hole
 constexpr int steps_of_edge = 6;  // of the quarter circle of a rounded edge
 
-const char* kind_of(const ToolSpec& tool) {
-  static constexpr EnumTable<ToolSpec::Shape> kinds{"plane", "die", "punch", "stl"};
-  return kinds[tool.shape];
-}
-
 std::array<Vec3, 8> corners_of(const Box& box) {
   std::array<Vec3, 8> corners;
   for (std::size_t k = 0; k < 8; ++k) corners[k] = box.corner(static_cast<Box::CornerType>(k));
@@ -64,7 +59,7 @@ std::vector<Vec3> ring(const Vec3& centre, const Vec3& axis, double radius) {
   return points;
 }
 
-const ToolSpec* die_across(const SpaceScene& scene, const ToolSpec& plane) {
+const ToolSpec* die_across(const Scene& scene, const ToolSpec& plane) {
   const auto found = std::ranges::find_if(scene.tools, [&](const ToolSpec& tool) {
     return tool.shape == ToolSpec::Shape::die &&
            std::abs(std::abs(tool.normal.dot(plane.normal)) - 1) < parallel;
@@ -79,7 +74,7 @@ FieldInfo ToolSheets::field() {
           FieldPlace::list, 3};
 }
 
-ToolSheets::ToolSheets(const SpaceScene& scene, const Box& powder) : box_(powder) {
+ToolSheets::ToolSheets(const Scene& scene, const Box& powder) : box_(powder) {
   const Vec3 middle = powder.center();
   for (const ToolSpec& tool : scene.tools) {  // distant tools do not extend the others
     if (tool.shape != ToolSpec::Shape::plane) continue;
@@ -89,9 +84,9 @@ ToolSheets::ToolSheets(const SpaceScene& scene, const Box& powder) : box_(powder
   for (const ToolSpec& tool : scene.tools) add_tool(scene, tool);
 }
 
-void ToolSheets::add_tool(const SpaceScene& scene, const ToolSpec& tool) {
+void ToolSheets::add_tool(const Scene& scene, const ToolSpec& tool) {
   faces_.names.push_back(tool.name);
-  faces_.kinds.emplace_back(kind_of(tool));
+  faces_.kinds.emplace_back(tool_shape_names[tool.shape]);
   switch (tool.shape) {
     case ToolSpec::Shape::plane:
       if (const ToolSpec* die = die_across(scene, tool)) {
@@ -109,7 +104,7 @@ void ToolSheets::add_tool(const SpaceScene& scene, const ToolSpec& tool) {
     case ToolSpec::Shape::punch:
       add_punch(tool);
       break;
-    case ToolSpec::Shape::stl:
+    default:  // a closed surface from a file
       add_triangles(tool);
       break;
   }

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "engine/files/record.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 
 class ToolSheets {
  public:
   // `powder`: bounding box of its nodes at the start, m.
-  ToolSheets(const SpaceScene& scene, const Eigen::AlignedBox3d& powder);
+  ToolSheets(const Scene& scene, const Eigen::AlignedBox3d& powder);
 
   static FieldInfo field();
   const ToolFaces& faces() const { return faces_; }
@@ -24,7 +24,7 @@ class ToolSheets {
  private:
   using Ring = std::vector<Vec3>;
 
-  void add_tool(const SpaceScene& scene, const ToolSpec& tool);
+  void add_tool(const Scene& scene, const ToolSpec& tool);
   void add_sheet(const ToolSpec& plane);
   void add_die(const ToolSpec& die);
   void add_punch(const ToolSpec& punch);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -33,7 +33,7 @@ bool stand_on(DieRoom& room, DieRoom::Side low, const Vec3& axis, const ToolSpec
   return true;
 }
 
-std::optional<DieRoom> box_of(const SpaceScene& scene) {
+std::optional<DieRoom> box_of(const Scene& scene) {
   DieRoom room;
   room.tool.fill(nobody);
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
@@ -49,7 +49,7 @@ std::optional<DieRoom> box_of(const SpaceScene& scene) {
   return room;
 }
 
-std::optional<DieRoom> round_of(const SpaceScene& scene) {
+std::optional<DieRoom> round_of(const Scene& scene) {
   DieRoom room{.kind = DieRoom::Kind::round};
   room.tool.fill(nobody);
   const auto die = std::ranges::find(scene.tools, ToolSpec::Shape::die, &ToolSpec::shape);
@@ -61,8 +61,7 @@ std::optional<DieRoom> round_of(const SpaceScene& scene) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];
     if (static_cast<int>(t) == room.die) continue;
-    const bool face = tool.shape == ToolSpec::Shape::plane || tool.shape == ToolSpec::Shape::punch;
-    if (!face || !stand_on(room, DieRoom::bottom, die->normal, tool, static_cast<int>(t)))
+    if (!has_face(tool) || !stand_on(room, DieRoom::bottom, die->normal, tool, static_cast<int>(t)))
       return std::nullopt;
     room.in_faces += volume_of_face(tool);
   }
@@ -74,8 +73,8 @@ std::optional<DieRoom> round_of(const SpaceScene& scene) {
 }  // namespace
 
 std::optional<DieRoom> die_room(const Scene& scene) {
-  if (auto box = box_of(*scene.space)) return box;
-  return round_of(*scene.space);
+  if (auto box = box_of(scene)) return box;
+  return round_of(scene);
 }
 
 }  // namespace pulvis::space

@@ -13,6 +13,7 @@
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
 #include "scenes/spec/tool_motion.hpp"
+#include "scenes/tools/servo_checks.hpp"
 #include "scenes/tools/tool_drive.hpp"
 
 namespace pulvis::space {
@@ -20,7 +21,7 @@ namespace {
 
 ToolProgram programme_of(const Scene& scene) {
   ToolProgram program;
-  for (const ToolSpec& tool : scene.space->tools) {
+  for (const ToolSpec& tool : scene.tools) {
     program.names.push_back(tool.name);
     program.start.push_back(values_of(tool.point));
   }
@@ -41,20 +42,20 @@ ToolServos servos_of(const World& world, const Scene& scene, const std::vector<B
   ToolServos servos;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (const ServoSpec& spec : scene.stages[s].servos) {
-      const Vec3 direction = space::direction_of(spec, scene);
+      const Vec3 direction = direction_of(spec, scene);
       const double wave = powder.impedance * section_across(world, bodies, direction);
       servos.servos.push_back(force_servo(spec, static_cast<int>(s), scene.stages[s].duration,
                                           values_of(direction), {powder.mass, wave}));
     }
   add_elastic_drives(scene.stages, servos);
-  servos.make_room(scene.space->tools.size());
+  servos.make_room(scene.tools.size());
   return servos;
 }
 
 StageEnds ends_of(const World& world, const Scene& scene) {
   StageEnds ends;
   ends.ends = early_ends(scene.stages, [&](int number) -> Point3 {
-    const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(number)];
+    const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
     return has_face(tool) ? values_of(tool.normal) : Point3{};
   });
   ends.room = die_room(scene);
@@ -62,7 +63,7 @@ StageEnds ends_of(const World& world, const Scene& scene) {
   return ends;
 }
 
-void add_columns_of_tools(World& world, const SpaceScene& scene) {
+void add_columns_of_tools(World& world, const Scene& scene) {
   world.add_table<Tool>(scene.tools.size());
   world.add<ToolPosition>();
   world.add<ToolVelocity>();
@@ -78,16 +79,9 @@ void add_columns_of_tools(World& world, const SpaceScene& scene) {
 
 }  // namespace
 
-Vec3 direction_of(const ServoSpec& servo, const Scene& scene) {
-  const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(servo.tool)];
-  if (servo.direction) return *servo.direction;
-  return has_face(tool) ? tool.normal : Vec3::Zero();
-}
-
 void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
-  const SpaceScene& space = *scene.space;
-  if (space.tools.empty()) return;
-  add_columns_of_tools(world, space);
+  if (scene.tools.empty()) return;
+  add_columns_of_tools(world, scene);
   world.emplace<ToolProgram>(programme_of(scene));
   if (has_servos(scene)) {
     world.add<ServoTravel>();

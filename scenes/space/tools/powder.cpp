@@ -23,10 +23,6 @@ const Shape& shape_in(const World& world, int slot) {
 
 }  // namespace
 
-bool has_face(const ToolSpec& tool) {
-  return tool.shape == ToolSpec::Shape::plane || tool.shape == ToolSpec::Shape::punch;
-}
-
 Powder powder_of(const World& world, const Scene& scene) {
   const Bodies& bodies = world.resource<Bodies>();
   Powder powder;

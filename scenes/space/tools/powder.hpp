@@ -5,12 +5,9 @@
 #include <vector>
 
 #include "engine/world.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
-
-// Planes and punches: their normal gives the side of the powder.
-bool has_face(const ToolSpec& tool);
 
 struct Powder {
   double volume = 0;     // m^3, of all particles, undeformed

@@ -12,7 +12,7 @@ namespace {
 using Kind = ToolShapes::Kind;
 
 // No powder gets past its rim.
-bool fills_a_die(const ToolSpec& punch, const SpaceScene& scene) {
+bool fills_a_die(const ToolSpec& punch, const Scene& scene) {
   constexpr double round_off = 1e-9;
   return punch.diameter == 0 || std::ranges::any_of(scene.tools, [&](const ToolSpec& tool) {
            return tool.shape == ToolSpec::Shape::die &&
@@ -28,10 +28,9 @@ Kind kind_of(const ToolSpec& tool) {
       return tool.height ? Kind::revolution : Kind::hole;
     case ToolSpec::Shape::punch:
       return Kind::revolution;
-    case ToolSpec::Shape::stl:
-      break;
+    default:  // a closed surface from a file
+      return Kind::mesh;
   }
-  return Kind::mesh;
 }
 
 // make_surface uses coordinates relative to the first point.
@@ -74,7 +73,7 @@ ToolSurface punch_meridian(const ToolSpec& punch, bool open) {
   return meridian;
 }
 
-ToolShapes tool_shapes(const SpaceScene& scene) {
+ToolShapes tool_shapes(const Scene& scene) {
   ToolShapes shapes;
   for (const ToolSpec& tool : scene.tools) {
     ToolShapes::Shape& shape = shapes.of_tool.emplace_back();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/space/tools.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

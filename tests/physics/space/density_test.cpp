@@ -8,7 +8,7 @@
 
 #include "components/space/observed.hpp"
 #include "scenes/results/state_hash.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/wrong.hpp"
 
@@ -95,7 +95,7 @@ TEST(DensityInSpace, HoldsTheVolumeOfTheDeformedElementsWhateverTheGrid) {
     World& world = e.simulation.world();
     for (const int side : world.resource<DensityGrid>().between.tool)
       for (int k = 0; k < 3; ++k) {
-        const Vec3 normal = e.scene.space->tools[static_cast<std::size_t>(side)].normal;
+        const Vec3 normal = e.scene.tools[static_cast<std::size_t>(side)].normal;
         world.column<ToolPosition>().values()[tool_axes * side + k] -= 1e-3 * normal[k];
       }
     const double volume = volume_of_elements(e);
@@ -112,10 +112,10 @@ Scene loose_tablet(const std::string& cells, const std::string& die_height = "44
 // A loose tablet with the top punch drawn back, in a die that is lowered.
 std::unique_ptr<Experiment> in_lowered_die(double top, double lowered) {
   Scene scene = loose_tablet("[2, 3, 4]");
-  ToolSpec& punch = scene.space->tools.back();
+  ToolSpec& punch = scene.tools.back();
   punch.on_packing = false;
   punch.point = Vec3(0, 0, top);
-  scene.space->tools.front().point.z() -= lowered;
+  scene.tools.front().point.z() -= lowered;
   auto e = std::make_unique<Experiment>(std::move(scene));
   observed_grid(*e);
   return e;
@@ -156,7 +156,7 @@ TEST(DensityInSpace, FillsARoundDieBetweenPlanes) {
 TEST(DensityInSpace, TakesTheProfileOfAPunchFromTheRoom) {
   for (const double rise : {2e-3, -2e-3}) {
     Scene scene = loose_tablet("[7, 7, 9]", "70 mm");
-    ToolSpec& top = scene.space->tools.back();
+    ToolSpec& top = scene.tools.back();
     top.shape = ToolSpec::Shape::punch;
     top.diameter = 36e-3;
     top.profile = {Vec2(0, rise), Vec2(18e-3, 0)};

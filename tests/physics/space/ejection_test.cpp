@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "components/space/shape.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/plates.hpp"
 
@@ -98,7 +98,7 @@ Scene tablet_in_a_die(double friction) {
                    {"contact.friction=" + std::to_string(friction)});
 }
 
-using space::Vec3;
+using Vec3;
 using Places = std::vector<Vec3>;  // of the nodes
 
 Places places_in(const Experiment& e) {

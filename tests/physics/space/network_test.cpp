@@ -8,7 +8,7 @@
 #include "components/observed.hpp"
 #include "components/space/shape.hpp"
 #include "scenes/results/state_hash.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "systems/observe/network_kernel.hpp"
 #include "tests/helpers/experiment.hpp"
 
@@ -72,7 +72,7 @@ TEST(NetworkInSpace, GivesEveryParticleAndToolItsForce) {
   const std::vector<int>& slots = e.simulation.world().resource<Bodies>().slot_of_number;
   for (std::size_t p = 0; p < sums.size(); ++p)
     EXPECT_LT((sums[p] - contact_force_on(e, slots[p])).norm(), 1e-11 * largest) << p;
-  const auto& tools = e.scene.space->tools;
+  const auto& tools = e.scene.tools;
   std::vector<Vec3> on_tools(tools.size(), Vec3::Zero());
   for (const ContactLink<ThreeD>& l : network_in(e).tools)
     on_tools[static_cast<std::size_t>(l.second)] -= vector_of(l.force);

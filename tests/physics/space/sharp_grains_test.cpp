@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "scenes/space/packing/place.hpp"
-#include "scenes/space/space_warnings.hpp"
+#include "scenes/packing/place.hpp"
+#include "scenes/checks/setup_warnings.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {
@@ -75,12 +75,12 @@ INSTANTIATE_TEST_SUITE_P(All, SharpGrainsInABox,
 
 TEST(SharpGrainsWarnings, TellThatBendsAreRoundedOff) {
   const Scene coarse = sharp_grains(octahedron, 3, "0.1");
-  const std::vector<std::string> lines = space::setup_warnings(coarse, space::place_bodies(coarse));
+  const std::vector<std::string> lines = setup_warnings(coarse, place_bodies(coarse));
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines[0].find("'grain'"), std::string::npos);
   EXPECT_NE(lines[0].find("sharp edges are rounded off"), std::string::npos);
   const Scene fine = sharp_grains(cube, 8, "0.1");
-  EXPECT_TRUE(space::setup_warnings(fine, space::place_bodies(fine)).empty());
+  EXPECT_TRUE(setup_warnings(fine, place_bodies(fine)).empty());
 }
 
 }  // namespace

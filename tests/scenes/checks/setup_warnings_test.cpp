@@ -12,8 +12,6 @@
 #include "scenes/checks/travel.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/packing/place.hpp"
-#include "scenes/space/packing/place.hpp"
-#include "scenes/space/space_warnings.hpp"
 #include "tests/helpers/afm_run.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/wrong.hpp"
@@ -77,7 +75,7 @@ TEST(SetupWarnings, AStageOfCompactionThatLoadsNothingIsTold) {
     const Scene scene =
         read_scene(paths::source_dir() + "/scenes/compaction-3d/one-sphere.toml", overrides);
     std::string all;
-    for (const std::string& line : space::setup_warnings(scene, space::place_bodies(scene)))
+    for (const std::string& line : setup_warnings(scene, place_bodies(scene)))
       all += line + "\n";
     return all;
   };
@@ -147,7 +145,7 @@ TEST(SetupWarnings, AStageThatIsOverBeforeItBeginsIsTold) {
   const std::string cell = paths::source_dir() + "/scenes/compaction-3d/unit-cell-sc.toml";
   for (const auto& [density, told] : {std::pair(0.5, true), {0.6, false}}) {
     const Scene scene = read_scene(cell, until(density));
-    const auto lines = space::setup_warnings(scene, space::place_bodies(scene));
+    const auto lines = setup_warnings(scene, place_bodies(scene));
     EXPECT_EQ(std::ranges::any_of(lines,
                                   [](const std::string& line) {
                                     return line.find("ends as soon as it begins") !=
@@ -175,9 +173,7 @@ TEST(SetupWarnings, WallsBesideTheRoomOfThePackingAreTold) {
 TEST(SetupWarnings, SoftContactsAreToldWhereTheElasticResponseCounts) {
   const auto of = [](const std::string& file, const std::vector<std::string>& overrides = {}) {
     const Scene scene = read_scene(paths::source_dir() + "/scenes/" + file, overrides);
-    std::vector<std::string> lines = scene.space
-                                         ? space::setup_warnings(scene, space::place_bodies(scene))
-                                         : setup_warnings(scene, place_bodies(scene));
+    std::vector<std::string> lines = setup_warnings(scene, place_bodies(scene));
     std::erase_if(lines, [](const std::string& line) {
       return line.find("elastic response") == std::string::npos;
     });

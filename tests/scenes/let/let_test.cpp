@@ -44,8 +44,8 @@ std::vector<SceneProblem> problems_with(const std::string& variables) {
 TEST(Let, StandsForNumbersAndQuantities) {
   const Scene scene = load_scene_text(with_variables, "let.toml").scene;
   EXPECT_EQ(diameter_in(scene), 0.01);
-  EXPECT_EQ(scene.packings[0].rows, 2);
-  EXPECT_EQ(scene.packings[0].columns, 2);
+  EXPECT_EQ(scene.packings[0].cells[1], 2);
+  EXPECT_EQ(scene.packings[0].cells[0], 2);
   EXPECT_EQ(scene.tools[1].point.y(), 3 * 0.01);
   EXPECT_EQ(scene.frictions[0].coefficient, 0.3);
   EXPECT_EQ(scene.stages[0].duration, 0.001);
@@ -97,7 +97,7 @@ TEST_F(LetFiles, AreInherited) {
   std::ofstream(place / "thin.toml") << "extends = \"base.toml\"\n[let]\nD = \"5 mm*k\"\nk = 2.4\n";
   const Scene scene = load_scene(place / "thin.toml").scene;
   EXPECT_EQ(diameter_in(scene), 0.012);
-  EXPECT_EQ(scene.packings[0].rows, 2);
+  EXPECT_EQ(scene.packings[0].cells[1], 2);
 }
 
 TEST_F(LetFiles, AreVariedByStudies) {

@@ -86,8 +86,8 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
 Scene die(int rows, int columns, Vec2 corner) {
   Scene scene = scene_of({});
   PackingSpec packing;
-  packing.rows = rows;
-  packing.columns = columns;
+  packing.cells[1] = rows;
+  packing.cells[0] = columns;
   packing.spacing = size;
   packing.corner = corner;
   packing.mark = {7, 1};
@@ -103,7 +103,7 @@ TEST(PerturbedLattice, MovesCentresWithinTheirCircles) {
   Scene scene;
   scene.particles = {disc()};
   PackingSpec packing;
-  packing.rows = packing.columns = 40;
+  packing.cells = {40, 40, 0};
   packing.spacing = 1.1 * size;
   scene.packings = {packing};
   const std::vector<BodySpec> regular = place_bodies(scene);

@@ -152,8 +152,8 @@ corner = ["20 mm", "0 mm"]
 )");
   const Scene one = load("extends = \"one.toml\"\n[[packing]]\nrows = 4\n").scene;
   ASSERT_EQ(one.packings.size(), 1U);
-  EXPECT_EQ(one.packings[0].rows, 4);
-  EXPECT_EQ(one.packings[0].columns, 3);
+  EXPECT_EQ(one.packings[0].cells[1], 4);
+  EXPECT_EQ(one.packings[0].cells[0], 3);
   EXPECT_EQ(one.packings[0].corner.x(), 0.02);
   write("two.toml",
         "extends = \"one.toml\"\npacking = [{ kind = \"square\", particle = \"disc\", rows "
@@ -161,7 +161,7 @@ corner = ["20 mm", "0 mm"]
         "\"disc\", rows = 1, columns = 2, corner = [\"40 mm\", \"0 mm\"] }]\n");
   const Scene two = load("extends = \"two.toml\"\n[[packing]]\n[[packing]]\ncolumns = 3\n").scene;
   ASSERT_EQ(two.packings.size(), 2U);
-  EXPECT_EQ(two.packings[0].columns, 1);
+  EXPECT_EQ(two.packings[0].cells[0], 1);
   EXPECT_EQ(two.packings[1].columns, 3);
   EXPECT_THAT(wrong_with("extends = \"two.toml\"\n[[packing]]\ncolumns = 3\n"),
               HasSubstr("scene.toml:2:1: packing[0]: without `kind` it changes the element at its "

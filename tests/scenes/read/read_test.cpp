@@ -158,7 +158,7 @@ TEST(Read, OverridesByKeyNameAndPosition) {
   EXPECT_EQ(scene.limits.kinetic_energy, 0.01);
   EXPECT_EQ(std::get<DiscMesh>(scene.particles.at(0).mesh).rings, 2);
   EXPECT_EQ(scene.output.frames, 7);
-  EXPECT_EQ(scene.packings.at(0).rows, 4);
+  EXPECT_EQ(scene.packings.at(0).cells[1], 4);
 }
 
 TEST(Read, TheLaterOverrideWins) {

@@ -138,8 +138,8 @@ TEST(RunQuality, JudgesKineticEnergyUnderLoad) {
        {std::pair("basic/disc-platens.toml", coarse_disc()),
         {"compaction-3d/one-sphere.toml", Changes{"accuracy=draft"}}}) {
     Experiment e(scene, with(changes, "output.samples=200"));
-    const std::string force = e.scene.space ? "tool/top/force_z" : "tool/top/force_y";
-    const std::string other = e.scene.space ? "tool/bottom/force_z" : "tool/bottom/force_y";
+    const std::string force = e.scene.in_space() ? "tool/top/force_z" : "tool/top/force_y";
+    const std::string other = e.scene.in_space() ? "tool/bottom/force_z" : "tool/bottom/force_y";
     struct Sample {
       double load, internal, ratio;
     };

@@ -22,7 +22,7 @@ struct Place {
 
 Scene placed(const std::vector<ParticleShape>& shapes, const std::vector<Place>& places) {
   Scene scene = scene_of(shapes, {});
-  scene.space->packings.clear();
+  scene.packings.clear();
   for (const Place& place : places) {
     BodySpec body;
     body.particle = place.particle;
@@ -36,7 +36,7 @@ Scene placed(const std::vector<ParticleShape>& shapes, const std::vector<Place>&
 
 std::vector<SceneProblem> problems_of(const Scene& scene) {
   try {
-    check_overlaps(scene, place_bodies(scene));
+    space::check_overlaps(scene, place_bodies(scene));
   } catch (const SceneError& error) {
     return error.errors();
   }
@@ -87,7 +87,7 @@ ToolSpec plane_at(const Vec3& point, const Vec3& normal) {
 
 TEST(OverlapsInSpace, BehindAPlaneAreToldWithTheirDepth) {
   Scene scene = placed({EllipsoidShape{Vec3(20, 10, 8) * mm}}, {{0, {9.5, 0, 0}}, {0, {50, 0, 0}}});
-  scene.space->tools = {plane_at({0, 0, 0}, {1, 0, 0})};
+  scene.tools = {plane_at({0, 0, 0}, {1, 0, 0})};
   const auto problems = problems_of(scene);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_THAT(problems[0].message,
@@ -96,7 +96,7 @@ TEST(OverlapsInSpace, BehindAPlaneAreToldWithTheirDepth) {
 
 TEST(OverlapsInSpace, APlaneThatFacesAwayIsToldOnce) {
   Scene scene = placed({SphereShape{10 * mm}}, {{0, {5, 0, 0}}, {0, {50, 0, 0}}});
-  scene.space->tools = {plane_at({0, 0, 0}, {-1, 0, 0})};
+  scene.tools = {plane_at({0, 0, 0}, {-1, 0, 0})};
   const auto problems = problems_of(scene);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].line, 3);
@@ -111,7 +111,7 @@ TEST(OverlapsInSpace, OfARoundDieAlongAnyAxis) {
   ToolSpec die = plane_at({0, 0, 0}, {0, 1, 0});
   die.shape = ToolSpec::Shape::die;
   die.diameter = 60 * mm;
-  scene.space->tools = {die};
+  scene.tools = {die};
   const auto problems = problems_of(scene);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_THAT(problems[0].message, HasSubstr("particle 1"));
@@ -125,7 +125,7 @@ TEST(OverlapsInSpace, OfARoundDieEndAtItsMouth) {
   die.shape = ToolSpec::Shape::die;
   die.diameter = 60 * mm;
   die.height = 20 * mm;
-  scene.space->tools = {die};
+  scene.tools = {die};
   const auto problems = problems_of(scene);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_THAT(problems[0].message, HasSubstr("particle 1"));
@@ -139,9 +139,9 @@ TEST(OverlapsInSpace, OfATabletInADieAreThoseOfItsRim) {
   ToolSpec die = plane_at({0, 0, 0}, {0, 0, 1});
   die.shape = ToolSpec::Shape::die;
   die.diameter = 20 * mm;  // = the diagonal of 12 mm x 16 mm
-  scene.space->tools = {die};
+  scene.tools = {die};
   EXPECT_TRUE(problems_of(scene).empty());
-  scene.space->tools[0].diameter = 19.8 * mm;
+  scene.tools[0].diameter = 19.8 * mm;
   EXPECT_THAT(problems_of(scene).at(0).message, HasSubstr("reaches 0.0001 m behind"));
 }
 
@@ -156,7 +156,7 @@ ToolSpec punch_down(double height, std::vector<Vec2> profile) {
 // Under a cone of 45 degrees whose tip is 6 mm above the balls' centres: 6/sqrt(2) mm from it.
 TEST(OverlapsInSpace, OfBallsInAPunchHaveTheDepthOfItsFace) {
   Scene scene = placed({SphereShape{10 * mm}}, {{0, {0, 0, 0}}, {0, {15, 0, 0}}});
-  scene.space->tools = {punch_down(6, {{0, 0}, {30, 30}})};  // forward towards the rim
+  scene.tools = {punch_down(6, {{0, 0}, {30, 30}})};  // forward towards the rim
   const auto problems = problems_of(scene);
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_THAT(problems[0].message, HasSubstr("particle 0"));
@@ -164,9 +164,9 @@ TEST(OverlapsInSpace, OfBallsInAPunchHaveTheDepthOfItsFace) {
                                              "particles outside of every tool"));
   EXPECT_THAT(problems[1].message, HasSubstr("particle 1"));
   // Its tip forward, 5.1 mm above the first ball: both have room.
-  scene.space->tools = {punch_down(5.1, {{0, 0}, {30, -30}})};
+  scene.tools = {punch_down(5.1, {{0, 0}, {30, -30}})};
   EXPECT_TRUE(problems_of(scene).empty());
-  scene.space->tools = {punch_down(4.9, {{0, 0}, {30, -30}})};
+  scene.tools = {punch_down(4.9, {{0, 0}, {30, -30}})};
   EXPECT_THAT(problems_of(scene).at(0).message, HasSubstr("reaches 0.0001 m into"));
 }
 
@@ -175,9 +175,9 @@ TEST(OverlapsInSpace, OfATabletInAPunchAreThoseOfItsRim) {
   const Rotation tilted(std::cos(0.3), std::sin(0.3), 0, 0);  // by 0.6 rad about x
   Scene scene = placed({CylinderShape{12 * mm, 4 * mm, 0}}, {{0, {0, 0, 0}, tilted}});
   const double top = 6 * std::sin(0.6) + 2 * std::cos(0.6);  // mm
-  scene.space->tools = {punch_down(top + 0.01, {})};
+  scene.tools = {punch_down(top + 0.01, {})};
   EXPECT_TRUE(problems_of(scene).empty());
-  scene.space->tools = {punch_down(top - 0.1, {})};
+  scene.tools = {punch_down(top - 0.1, {})};
   EXPECT_THAT(problems_of(scene).at(0).message, HasSubstr("reaches 0.0001 m into"));
 }
 
@@ -195,7 +195,7 @@ TEST(OverlapsInSpace, OfBallsInAnStlTool) {
   Scene scene =
       placed({SphereShape{2 * mm}},
              {{0, {50, -0.9, 20}}, {0, {40, -1.1, 10}}, {0, {20, 20, 20}}, {0, {50, 50, 50}}});
-  scene.space->tools = {tetrahedron_tool(100)};
+  scene.tools = {tetrahedron_tool(100)};
   const auto problems = problems_of(scene);
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_THAT(problems[0].message, HasSubstr("particle 0"));
@@ -211,7 +211,7 @@ TEST(OverlapsInSpace, OfAFaceOnAnEdgeOfAnStlTool) {
     const double off = -(5 - depth) / std::numbers::sqrt2;
     Scene scene =
         placed({SuperquadricShape{Vec3(10, 10, 10) * mm, 8, 8}}, {{0, {50, off, off}, turned}});
-    scene.space->tools = {tetrahedron_tool(100)};
+    scene.tools = {tetrahedron_tool(100)};
     return problems_of(scene);
   };
   EXPECT_TRUE(at(-0.01).empty());

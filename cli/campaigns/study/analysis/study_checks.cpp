@@ -90,7 +90,7 @@ class StudyChecks {
         study_.spec.curves.push_back({"", x, y, {}});
     };
     add("stress_ratio/axial", "relative_density");
-    const bool in_space = study_.runs.front().scene.space != nullptr;
+    const bool in_space = study_.runs.front().scene.in_space();
     add(in_space ? "tool/top/force_z" : "tool/top/force_y", "travel/top");
     add(in_space ? "stress/transmission" : "transmission", "relative_density");
     if (study_.spec.curves.empty()) add("energy/external", "time");

@@ -236,6 +236,7 @@ std::vector<FitRuns> groups_of(const Study& study, const StudyFit& fit) {
 std::size_t fewest_runs(Law law) { return law == Law::weibull ? 5 : law == Law::power ? 2 : 3; }
 
 std::optional<double> disc_diameter(const Scene& scene, const std::string& particle) {
+  if (scene.in_space()) return std::nullopt;
   const auto found = std::ranges::find(scene.particles, particle, &ParticleSpec::name);
   if (found == scene.particles.end()) return std::nullopt;
   const auto* disc = std::get_if<DiscOutline>(&found->outline);

@@ -6,7 +6,7 @@
 
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/results/results.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
@@ -32,8 +32,6 @@ std::optional<Face> face_of(const DieCell& cell, int tool) {
 std::vector<std::string> tool_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const ToolSpec& tool : scene.tools) names.push_back(tool.name);
-  if (scene.space)
-    for (const space::ToolSpec& tool : scene.space->tools) names.push_back(tool.name);
   return names;
 }
 
@@ -49,7 +47,7 @@ int tool_called(const Scene& scene, const std::string& name) {
 std::vector<double> travel(const Scene& scene, const std::string& tool, const History& history) {
   std::vector<double> distance;
   for (const char* axis : {"x", "y", "z"}) {
-    if (!scene.space && *axis == 'z') continue;
+    if (!scene.in_space() && *axis == 'z') continue;
     const std::vector<double> at = history("tool/" + tool + "/position_" + axis);
     distance.resize(at.size());
     for (std::size_t i = 0; i < at.size(); ++i)

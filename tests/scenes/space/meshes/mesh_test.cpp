@@ -104,12 +104,12 @@ TEST(SpaceMesh, ExtrudedHasTheCountsOfADiscInLayers) {
     const Shape shape = extruded({1, 1, 0}, n, rings, m);
     const int disc = n * n + 4 * n * rings;
     ParticleSpec particle;
-    particle.mesh = {n, rings, m, MeshSpec::Grid::extruded};
+    particle.hex_mesh = {n, rings, m, HexMeshSpec::Grid::extruded};
     EXPECT_EQ(shape.elements(), disc * m);
-    EXPECT_EQ(particle.mesh.hexahedra(), shape.elements());
-    EXPECT_EQ(particle.mesh.faces(), static_cast<std::int64_t>(shape.faces.size()));
-    EXPECT_EQ(particle.mesh.surface_nodes(), shape.boundary_nodes);
-    EXPECT_EQ(particle.mesh.nodes(), static_cast<std::int64_t>(shape.nodes.size()));
+    EXPECT_EQ(particle.hex_mesh.hexahedra(), shape.elements());
+    EXPECT_EQ(particle.hex_mesh.faces(), static_cast<std::int64_t>(shape.faces.size()));
+    EXPECT_EQ(particle.hex_mesh.surface_nodes(), shape.boundary_nodes);
+    EXPECT_EQ(particle.hex_mesh.nodes(), static_cast<std::int64_t>(shape.nodes.size()));
     EXPECT_EQ(static_cast<int>(shape.faces.size()), 2 * disc + 4 * n * m);
     EXPECT_EQ(shape.boundary_nodes, static_cast<int>(shape.faces.size()) + 2);  // Euler
   }
@@ -234,7 +234,7 @@ TEST(SpaceMesh, OfASharpShapeHasNoSpikes) {
 
 double seconds_to_make(const ParticleSpec& particle) {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(make_shape(particle).elements(), 16 * 16 * 16 + 6 * 16 * 16 * 16);
+  EXPECT_EQ(space::make_shape(particle).elements(), 16 * 16 * 16 + 6 * 16 * 16 * 16);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -242,7 +242,7 @@ double seconds_to_make(const ParticleSpec& particle) {
 TEST(SpaceMesh, AFineMeshIsMadeOnce) {
   ParticleSpec particle;
   particle.shape = SphereShape{1};
-  particle.mesh.divisions = particle.mesh.rings = 16;
+  particle.hex_mesh.divisions = particle.hex_mesh.rings = 16;
   const double first = seconds_to_make(particle);
   EXPECT_LT(seconds_to_make(particle), first / 5);
 }

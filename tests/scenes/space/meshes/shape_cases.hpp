@@ -53,14 +53,14 @@ inline Shape shape_of(const ParticleShape& shape, int divisions, int rings,
                       std::optional<int> axial_divisions = {}) {
   ParticleSpec particle;
   particle.shape = shape;
-  particle.mesh = {divisions, rings, axial_divisions};
+  particle.hex_mesh = {divisions, rings, axial_divisions};
   return make_shape(particle);
 }
 
 inline Shape extruded(const CylinderShape& shape, int divisions, int rings, int axial_divisions) {
   ParticleSpec particle;
   particle.shape = shape;
-  particle.mesh = {divisions, rings, axial_divisions, MeshSpec::Grid::extruded};
+  particle.hex_mesh = {divisions, rings, axial_divisions, HexMeshSpec::Grid::extruded};
   return make_shape(particle);
 }
 

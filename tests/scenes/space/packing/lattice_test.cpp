@@ -45,7 +45,7 @@ class Lattices : public testing::TestWithParam<Lattice> {};
 TEST_P(Lattices, NeighboursTouchAndInsideThereAreAsManyAsKnown) {
   const Scene scene = scene_of({SphereShape{1}}, lattice_of(GetParam(), 5));
   const std::vector<BodySpec> bodies = place_bodies(scene);
-  EXPECT_EQ(bodies.size(), particle_count(scene.space->packings[0]));
+  EXPECT_EQ(bodies.size(), particle_count(scene.packings[0]));
   std::size_t most = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     EXPECT_NEAR(distance_to_nearest(bodies, i), 1, 1e-12);

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "scenes/space/packing/fill_packings.hpp"
-#include "scenes/space/packing/place.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/packing/place.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 
@@ -16,14 +16,14 @@ inline Scene scene_of(const std::vector<ParticleShape>& shapes, const PackingSpe
   Scene scene;
   scene.file = "packed.toml";
   scene.seed = seed;
-  scene.space = std::make_shared<SpaceScene>();
+  scene.dimension = 3;
   for (const ParticleShape& shape : shapes) {
     ParticleSpec particle;
-    particle.name = std::string(1, static_cast<char>('a' + scene.space->particles.size()));
+    particle.name = std::string(1, static_cast<char>('a' + scene.particles.size()));
     particle.shape = shape;
-    scene.space->particles.push_back(particle);
+    scene.particles.push_back(particle);
   }
-  scene.space->packings = {packing};
+  scene.packings = {packing};
   return scene;
 }
 
@@ -33,7 +33,7 @@ inline PackingSpec filled(Scene& scene) {
   fill_packings(scene, {{"packing[0]", {{7, 1}, -1}}, {"packing[0].density", {{8, 3}, -1}}},
                 problems);
   problems.throw_if_any();
-  return scene.space->packings.at(0);
+  return scene.packings.at(0);
 }
 
 // `count` particles of each class in a cube of such an edge.

@@ -49,7 +49,7 @@ TEST(PackingFileInSpace, IsReadBackBitForBit) {
   law.maximum = 14e-3;
   Scene scene = scene_of(two_shapes, packing);
   const PackingSpec made = filled(scene);
-  const std::string text = packing_text(scene, place_bodies(scene));
+  const std::string text = space::packing_text(scene, place_bodies(scene));
   EXPECT_THAT(text, HasSubstr("# Packing of packed.toml, seed 1\n"));
   EXPECT_THAT(text, HasSubstr("relative density 0.450000"));
   EXPECT_THAT(text, HasSubstr("class,x [m],y [m],z [m],qw,qx,qy,qz,scale\n"));
@@ -61,12 +61,12 @@ TEST(PackingFileInSpace, IsReadBackBitForBit) {
     const BodySpec &a = made.placed[i], &b = read.placed[i];
     EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs());
-    const ParticleSpec& own = scene.space->particles[static_cast<std::size_t>(a.particle)];
-    const ParticleSpec& other = again.space->particles[static_cast<std::size_t>(b.particle)];
+    const ParticleSpec& own = scene.particles[static_cast<std::size_t>(a.particle)];
+    const ParticleSpec& other = again.particles[static_cast<std::size_t>(b.particle)];
     EXPECT_EQ(own.scale, other.scale);
     EXPECT_EQ(own.class_of, other.class_of);
   }
-  const std::string again_text = packing_text(again, place_bodies(again));
+  const std::string again_text = space::packing_text(again, place_bodies(again));
   EXPECT_EQ(again_text.substr(again_text.find("class,")), text.substr(text.find("class,")));
 }
 

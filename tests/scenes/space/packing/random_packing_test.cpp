@@ -90,7 +90,7 @@ class Surface {
 
 std::vector<Surface> surfaces_of(const Scene& scene) {
   std::vector<Surface> surfaces;
-  for (const ParticleSpec& particle : scene.space->particles) surfaces.emplace_back(particle.shape);
+  for (const ParticleSpec& particle : scene.particles) surfaces.emplace_back(particle.shape);
   return surfaces;
 }
 
@@ -113,7 +113,7 @@ void expect_apart(const Scene& scene) {
   for (const BodySpec& a : bodies) {
     std::vector<Vec3> points;
     for (const Vec3& own : surface(a).points) points.push_back(a.position + a.rotation * own);
-    for (const Vec3& p : points) outside += in_die(scene.space->packings[0], p) ? 0 : 1;
+    for (const Vec3& p : points) outside += in_die(scene.packings[0], p) ? 0 : 1;
     for (const BodySpec& b : bodies)
       if (&a != &b && (a.position - b.position).norm() < surface(a).reach() + surface(b).reach())
         for (const Vec3& p : points)
@@ -124,13 +124,13 @@ void expect_apart(const Scene& scene) {
 }
 
 double density_in(const Scene& scene) {
-  const PackingSpec& packing = scene.space->packings[0];
+  const PackingSpec& packing = scene.packings[0];
   const ContainerSpec& die = packing.container;
   const double area = die.kind == ContainerSpec::Kind::cylinder
                           ? pi / 4 * die.diameter * die.diameter
                           : die.width * die.depth;
   std::vector<double> volumes;
-  for (const ParticleSpec& particle : scene.space->particles)
+  for (const ParticleSpec& particle : scene.particles)
     volumes.push_back(star_surface(particle.shape)->volume());
   double volume = 0;
   for (const BodySpec& body : place_bodies(scene))
@@ -275,10 +275,10 @@ TEST(RandomPackingInSpace, SizesOfALawHaveItsMeanVolume) {
   law.maximum = 12e-3;
   Scene scene = scene_of({ball}, packing);
   filled(scene);
-  EXPECT_EQ(scene.space->particles.size(), 1u + 8u);
+  EXPECT_EQ(scene.particles.size(), 1u + 8u);
   double volume = 0;
   for (const BodySpec& body : place_bodies(scene)) {
-    const auto& sized = scene.space->particles[static_cast<std::size_t>(body.particle)];
+    const auto& sized = scene.particles[static_cast<std::size_t>(body.particle)];
     EXPECT_EQ(sized.class_of, 0);
     volume += pi / 6 * std::pow(std::get<SphereShape>(sized.shape).diameter, 3);
   }

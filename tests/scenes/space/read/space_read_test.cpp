@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "scenes/keys/tables.hpp"
-#include "scenes/space/packing/place.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/packing/place.hpp"
+#include "scenes/spec/scene.hpp"
 #include "tests/helpers/elastic_ball.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/right_scene.hpp"
@@ -22,29 +22,29 @@ LoadedScene loaded(const std::vector<std::string>& overrides = {}) {
 
 TEST(SpaceScene, HasWhatItsFileSays) {
   const Scene scene = loaded().scene;
-  ASSERT_NE(scene.space, nullptr);
-  const space::SpaceScene& in_space = *scene.space;
+  ASSERT_EQ(scene.dimension, 3);
+  const Scene& in_space = scene;
   EXPECT_TRUE(scene.particles.empty());
   ASSERT_EQ(in_space.particles.size(), 2U);
-  EXPECT_EQ(std::get<space::SphereShape>(in_space.particles[0].shape).diameter, 10e-3);
-  EXPECT_EQ(in_space.particles[0].mesh.divisions, 2);
-  EXPECT_EQ(std::get<space::CylinderShape>(in_space.particles[1].shape).rounding, 1e-3);
+  EXPECT_EQ(std::get<SphereShape>(in_space.particles[0].shape).diameter, 10e-3);
+  EXPECT_EQ(in_space.particles[0].hex_mesh.divisions, 2);
+  EXPECT_EQ(std::get<CylinderShape>(in_space.particles[1].shape).rounding, 1e-3);
   ASSERT_EQ(in_space.tools.size(), 2U);
-  EXPECT_EQ(in_space.tools[1].normal, space::Vec3(0, 0, -1));
-  EXPECT_EQ(in_space.tools[1].point, space::Vec3(0, 0, 20e-3));
+  EXPECT_EQ(in_space.tools[1].normal, Vec3(0, 0, -1));
+  EXPECT_EQ(in_space.tools[1].point, Vec3(0, 0, 20e-3));
   ASSERT_EQ(scene.stages.size(), 1U);
   EXPECT_EQ(scene.stages[0].moves.at(0).displacement, Vec3(0, 0, -1e-3));
   EXPECT_EQ(scene.frictions[0].coefficient, 0.3);
-  EXPECT_EQ(space::place_bodies(scene).size(), 5U);
+  EXPECT_EQ(place_bodies(scene).size(), 5U);
 }
 
 // A turn of 30 degrees about z takes the x axis to (cos 30, sin 30, 0).
 TEST(SpaceScene, TurnsBodiesAboutTheirAxis) {
-  const space::Vec3 turned = loaded().scene.bodies[0].rotation * space::Vec3::UnitX();
+  const Vec3 turned = loaded().scene.bodies[0].rotation * Vec3::UnitX();
   EXPECT_NEAR(turned.x(), std::numbers::sqrt3 / 2, 1e-15);
   EXPECT_NEAR(turned.y(), 0.5, 1e-15);
   const auto about_x = loaded({"body[0].axis=[2, 0, 0]"}).scene.bodies[0].rotation;
-  EXPECT_NEAR((about_x * space::Vec3::UnitY()).z(), 0.5, 1e-15);
+  EXPECT_NEAR((about_x * Vec3::UnitY()).z(), 0.5, 1e-15);
 }
 
 TEST(SpaceScene, ContactsAreStiffWhereNoMaterialYields) {
@@ -82,8 +82,8 @@ TEST(SpaceScene, AccuracyStandsForMeshes) {
     const std::string counts = "divisions = 3\nrings = 3\n";
     text.erase(text.find(counts), counts.size());
     return load_scene_text(text, "right.toml", {"accuracy=" + accuracy})
-        .scene.space->particles[1]
-        .mesh;
+        .scene.particles[1]
+        .hex_mesh;
   };
   EXPECT_LT(mesh("draft").divisions, mesh("standard").divisions);
   EXPECT_LT(mesh("standard").divisions, mesh("fine").divisions);
@@ -93,7 +93,7 @@ TEST(SpaceScene, AccuracyStandsForMeshes) {
 
 TEST(SpaceScene, SpheresOfALatticeTouchWithoutASpacing) {
   const auto spacing = [](const char* kind) {
-    return loaded({std::string("packing[0].kind=") + kind}).scene.space->packings[0].spacing;
+    return loaded({std::string("packing[0].kind=") + kind}).scene.packings[0].spacing;
   };
   EXPECT_DOUBLE_EQ(spacing("cubic"), 10e-3);
   EXPECT_DOUBLE_EQ(spacing("body-centred"), 20e-3 / std::numbers::sqrt3);
@@ -105,12 +105,12 @@ TEST(SpaceScene, TwoDimensionsNeedNotBeSaidAndChangeNothing) {
   const LoadedScene said = load_scene_text(right_scene, "right.toml", {"dimension=2"});
   EXPECT_EQ(said.text, unsaid.text);
   EXPECT_EQ(said.hash, unsaid.hash);
-  EXPECT_EQ(said.scene.space, nullptr);
+  EXPECT_EQ(said.scene.dimension, 2);
 }
 
 TEST(SpaceScene, VariablesStandForComponents) {
   const Scene scene = loaded({"let.h=20 mm", "tool.top.point=[\"0 mm\", \"0 mm\", \"h\"]"}).scene;
-  EXPECT_EQ(scene.space->tools[1].point.z(), 20e-3);
+  EXPECT_EQ(scene.tools[1].point.z(), 20e-3);
 }
 
 // Extending and copying files, and sorting the tables of a scene, do not depend on its dimension.

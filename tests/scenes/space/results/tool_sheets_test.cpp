@@ -33,7 +33,7 @@ struct Piece {
   Vec3 area() const { return 0.5 * (corners[2] - corners[0]).cross(corners[3] - corners[1]); }
 };
 
-std::vector<Piece> pieces_of(const SpaceScene& scene, const Vec3& shift = Vec3::Zero()) {
+std::vector<Piece> pieces_of(const Scene& scene, const Vec3& shift = Vec3::Zero()) {
   const ToolSheets sheets(scene, powder);
   std::vector<double> places;
   for (const ToolSpec& one : scene.tools)
@@ -53,8 +53,8 @@ double area_of(const std::vector<Piece>& pieces) {
   return area;
 }
 
-SpaceScene box_of_planes() {
-  SpaceScene scene;
+Scene box_of_planes() {
+  Scene scene;
   for (int k = 0; k < 3; ++k) {
     scene.tools.push_back(tool(ToolSpec::Shape::plane, powder.min(), Vec3::Unit(k)));
     scene.tools.push_back(tool(ToolSpec::Shape::plane, powder.max(), -Vec3::Unit(k)));
@@ -74,7 +74,7 @@ TEST(ToolSheets, PlanesAroundThePowderCloseToABox) {
 }
 
 TEST(ToolSheets, EveryPieceLooksAtThePowder) {
-  SpaceScene scene = box_of_planes();
+  Scene scene = box_of_planes();
   scene.tools.push_back(tool(ToolSpec::Shape::die, Vec3(1, 1.5, 0), -Vec3::UnitZ(), 8));
   scene.tools.push_back(tool(ToolSpec::Shape::punch, Vec3(1, 1.5, 9), -Vec3::UnitZ(), 4));
   scene.tools.back().profile = {{0, 0}, {1, 0.2}};
@@ -89,7 +89,7 @@ TEST(ToolSheets, EveryPieceLooksAtThePowder) {
 // Frustums of the quarter circle with a radius of 0.5 about its edge: their area comes near that of the torus, and the ring
 // of the face is as wide as a fifth of the hole.
 TEST(ToolSheets, ADieEndsAtItsMouth) {
-  SpaceScene scene;
+  Scene scene;
   scene.tools.push_back(tool(ToolSpec::Shape::die, Vec3(1, 1.5, 0), Vec3::UnitZ(), 8));
   scene.tools[0].height = 2;
   scene.tools[0].rounding = 0.5;
@@ -111,7 +111,7 @@ TEST(ToolSheets, ADieEndsAtItsMouth) {
 }
 
 TEST(ToolSheets, GoWithTheirTools) {
-  const SpaceScene scene = box_of_planes();
+  const Scene scene = box_of_planes();
   const Vec3 shift(0.1, -0.2, 0.3);
   const auto before = pieces_of(scene), after = pieces_of(scene, shift);
   for (std::size_t i = 0; i < before.size(); ++i)
@@ -119,7 +119,7 @@ TEST(ToolSheets, GoWithTheirTools) {
 }
 
 TEST(ToolSheets, APlaneAcrossADieIsADiscInIt) {
-  SpaceScene scene;
+  Scene scene;
   scene.tools.push_back(tool(ToolSpec::Shape::plane, Vec3(7, 7, 0), Vec3::UnitZ()));
   scene.tools.push_back(tool(ToolSpec::Shape::die, Vec3(1, 1, 0), Vec3::UnitZ(), 4));
   const auto all = pieces_of(scene);

@@ -12,7 +12,7 @@ namespace pulvis::space {
 inline constexpr double diameter = 10e-3;
 
 inline const Shape& ball() {
-  static const Shape shape = make_shape(sphere_of(diameter));
+  static const Shape shape = space::make_shape(sphere_of(diameter));
   return shape;
 }
 
@@ -83,7 +83,7 @@ struct BallOnFloor : TouchingBodies {
               const std::vector<BondSpec>& bonds = {})
       : TouchingBodies({ball()}, {body_at(Vec3(0, 0, diameter / 2 - depth), rotation)},
                        [&](Scene& s) {
-                         s.space->tools = {floor_plane()};
+                         s.tools = {floor_plane()};
                          add_friction(s, "floor", friction);
                          s.bonds = bonds;
                        }) {

@@ -59,7 +59,7 @@ TEST(SpaceContact, KeepsMomentumAndMoment) {
 TEST(SpaceContact, NodesFarFromTheSurfaceAreHeld) {
   for (const double way : {2.5e-3, -2.5e-3}) {
     TouchingBodies w({ball()}, {body_at(Vec3::Zero())},
-                     [](Scene& s) { s.space->tools = {floor_plane()}; });
+                     [](Scene& s) { s.tools = {floor_plane()}; });
     w.move(0, [](const Vec3& x) { return Vec3(x + Vec3(0, 0, 10 * diameter)); });
     w.update();
     EXPECT_EQ(w.energy_of_node_springs(), 0);
@@ -239,7 +239,7 @@ TEST(SpaceContact, BroadPhaseAgainstAllPairs) {
   for (int i = 0; i < 20; ++i)
     bodies.push_back(
         body_at(4 * diameter * Vec3(in(random), in(random), in(random)), any_rotation(random)));
-  TouchingBodies w({make_shape(sphere_of(diameter, 2, 1))}, bodies);
+  TouchingBodies w({space::make_shape(sphere_of(diameter, 2, 1))}, bodies);
   w.update();
   const double skin = w.world.resource<ContactIndex>().skin;
   const Bodies& all = w.world.resource<Bodies>();

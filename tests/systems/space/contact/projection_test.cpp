@@ -16,7 +16,7 @@ constexpr double ball_diameter = 10e-3;
 // A ball whose nodes are displaced at random, and its Bezier points.
 struct Surface : TouchingBodies {
   Surface()
-      : TouchingBodies({make_shape(sphere_of(ball_diameter))},
+      : TouchingBodies({space::make_shape(sphere_of(ball_diameter))},
                        {body_at(Vec3::Zero()), body_at(Vec3(1, 0, 0))}) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> noise(-1e-4, 1e-4);

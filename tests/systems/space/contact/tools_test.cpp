@@ -49,7 +49,7 @@ ToolSpec die_with_mouth(double radius, double height, double rounding) {
 // The solid outside a hole and below its mouth, whose edge is a quarter of a torus.
 TEST(SpaceTools, ADieEndsAtItsMouth) {
   constexpr double radius = 1.5, height = 0.4, rounding = 0.25;
-  SpaceScene scene;
+  Scene scene;
   scene.tools = {die_with_mouth(radius, height, rounding)};
   const ToolShapes shapes = tool_shapes(scene);
   RandomPoints points;
@@ -254,7 +254,7 @@ TEST(SpaceTools, TrianglesNearABoxAreAllThatAre) {
 TEST(SpaceTools, ToolsWithTheSameSurfaceBearTheSame) {
   constexpr double diameter = 10e-3;
   const Vec3 point(4e-3, -2e-3, 0.3);
-  const Shape ball = make_shape(sphere_of(diameter));
+  const Shape ball = space::make_shape(sphere_of(diameter));
   std::vector<double> forces;
   for (const auto shape : {ToolSpec::Shape::plane, ToolSpec::Shape::punch, ToolSpec::Shape::stl}) {
     const Vec3 on_top = point + Vec3(0, 0, diameter / 2 - 100e-6);
@@ -268,7 +268,7 @@ TEST(SpaceTools, ToolsWithTheSameSurfaceBearTheSame) {
         for (Vec3& p : triangle) p.z() -= 0.05;
         tool.triangles.push_back(triangle);
       }
-      s.space->tools = {tool};
+      s.tools = {tool};
     });
     w.update();
     forces.push_back(w.force_on(0).z());
@@ -282,8 +282,8 @@ TEST(SpaceTools, ToolsWithTheSameSurfaceBearTheSame) {
 
 void expect_forces_are_the_slope_of_the_energy(const ToolSpec& die) {
   constexpr double diameter = 10e-3, h = 1e-8;
-  TouchingBodies w({make_shape(sphere_of(diameter))}, {body_at(Vec3(2.15e-3, 0.4e-3, 0))},
-                   [&](Scene& s) { s.space->tools = {die}; });
+  TouchingBodies w({space::make_shape(sphere_of(diameter))}, {body_at(Vec3(2.15e-3, 0.4e-3, 0))},
+                   [&](Scene& s) { s.tools = {die}; });
   w.update();
   const Vec3 force = w.force_on(0);
   ASSERT_GT(force.norm(), 100);
@@ -317,8 +317,8 @@ TEST(SpaceTools, ADieIsTheSameFarBelowItsMouth) {
   endless.height.reset();
   std::vector<Vec3> forces;
   for (const ToolSpec& die : {endless, die_with_mouth(7e-3, 20e-3, 1e-3)}) {
-    TouchingBodies w({make_shape(sphere_of(10e-3))}, {body_at(Vec3(2.15e-3, 0.4e-3, 0))},
-                     [&](Scene& s) { s.space->tools = {die}; });
+    TouchingBodies w({space::make_shape(sphere_of(10e-3))}, {body_at(Vec3(2.15e-3, 0.4e-3, 0))},
+                     [&](Scene& s) { s.tools = {die}; });
     w.update();
     forces.push_back(w.force_on(0));
   }

@@ -12,7 +12,7 @@
 #include "engine/system.hpp"
 #include "scenes/space/contact_columns.hpp"
 #include "scenes/space/meshes/mesh.hpp"
-#include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "systems/contact/systems.hpp"
 #include "systems/space/contact/systems.hpp"
 #include "systems/space/tools/systems.hpp"
@@ -23,7 +23,7 @@ namespace pulvis::space {
 inline ParticleSpec sphere_of(double diameter, int divisions = 4, int rings = 4) {
   ParticleSpec spec;
   spec.shape = SphereShape{diameter};
-  spec.mesh = {divisions, rings};
+  spec.hex_mesh = {divisions, rings};
   return spec;
 }
 
@@ -37,7 +37,7 @@ class TouchingBodies {
   TouchingBodies(std::vector<Shape> shapes, std::vector<BodySpec> placed,
                  const std::function<void(Scene&)>& change = {})
       : bodies(std::move(placed)) {
-    scene.space = std::make_shared<SpaceScene>();
+    scene.dimension = 3;
     scene.materials = {{"steel", 7850, 200e9, 0.3, {}, 0, {}, {}}};
     if (change) change(scene);
     lay_out(shapes);
@@ -204,7 +204,7 @@ class TouchingBodies {
     std::fill_n(world.column<Density>().values(), lanes, 7850.0);
   }
   void add_tools() {
-    const auto& tools = scene.space->tools;
+    const auto& tools = scene.tools;
     if (tools.empty()) return;
     world.add_table<Tool>(tools.size());
     world.add<ToolPosition>();
