@@ -7,8 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "scenes/keys/tables.hpp"
+#include "scenes/keys/declare.hpp"
 #include "scenes/language/table_reader.hpp"
+#include "scenes/packing/place.hpp"
 
 namespace pulvis {
 namespace {
@@ -21,17 +22,23 @@ using document::Value;
 
 struct Wall {
   const char* name;
-  int normal_x, normal_y;
+  std::size_t axis;
+  int normal;  // its component along that axis: +1 or -1
 };
-constexpr std::array<Wall, 4> walls{
-    {{"left", 1, 0}, {"right", -1, 0}, {"bottom", 0, 1}, {"top", 0, -1}}};
+constexpr std::array<Wall, 4> walls_in_plane{
+    {{"left", 0, 1}, {"right", 0, -1}, {"bottom", 1, 1}, {"top", 1, -1}}};
+constexpr std::array<Wall, 6> walls_of_box{{{"left", 0, 1},
+                                            {"right", 0, -1},
+                                            {"front", 1, 1},
+                                            {"back", 1, -1},
+                                            {"bottom", 2, 1},
+                                            {"top", 2, -1}}};
+constexpr std::array<Wall, 2> punches_of_cylinder{{{"bottom", 2, 1}, {"top", 2, -1}}};
 
 Value length_of(double metres, const Origin& origin) {
   return {fmt::format("{} m", metres), origin};
 }
-Value place_of(const Vec2& place, const Origin& origin) {
-  return {Array{length_of(place.x(), origin), length_of(place.y(), origin)}, origin};
-}
+Value word_of(const char* word, const Origin& origin) { return {std::string(word), origin}; }
 
 // An array of tables; null if it is anything else, which the reader refuses.
 Array* elements_of(Table& root, const char* key) {
@@ -46,35 +53,54 @@ bool is_kind(const Table& packing, std::initializer_list<const char*> kinds) {
          std::ranges::any_of(kinds, [&](const char* one) { return *kind == one; });
 }
 
+// The size of a die, as far as it is known.
+using Lengths = std::array<std::optional<double>, 2>;  // m, along x, y; in the plane only the first
+constexpr std::array length_keys{"width", "depth"};
+
 class DieFiller {
  public:
   DieFiller(Table& root, Value die, const Origin& origin, Problems& problems)
-      : root_(root), origin_(origin), problems_(problems) {
+      : root_(root),
+        origin_(origin),
+        problems_(problems),
+        dimension_(dimension_of(root)),
+        language_(language_of(root)) {
     const Table nothing;
-    schema::TableReader(nothing, problems, schema::scene_language(2))
-        .read(schema::die(), die, "die", "", spec_);
+    schema::TableReader(nothing, problems, language_).read(schema::die(), die, "die", "", spec_);
+    lengths_ = {spec_.width, spec_.depth};
   }
 
   std::optional<MissingWidth> fill() {
+    refuse_two_shapes();
     packings_ = elements_of(root_, "packing");
     if (packings_ != nullptr && packings_->size() == 1) take_over(packings_->front().get<Table>());
-    if (!spec_.width && wrong_) return std::nullopt;
-    if (!spec_.width) stand_somewhere();
+    if (!lengths_[0] && !spec_.diameter && wrong_) return std::nullopt;
+    if (!lengths_[0] && !spec_.diameter) stand_somewhere();
+    if (!lengths_[1]) lengths_[1] = lengths_[0];
     for (std::size_t i = 0; packings_ != nullptr && i < packings_->size(); ++i)
       fill_packing((*packings_)[i].get<Table>(), fmt::format("packing[{}]", i));
-    for (const Wall& wall : walls)
-      if (wall.normal_y >= 0 || missing_ || (packings_ != nullptr && !packings_->empty()))
-        stand(wall);
+    stand_tools();
     return missing_;
   }
 
  private:
+  bool in_space() const { return dimension_ == 3; }
+  bool is_round() const { return spec_.diameter.has_value(); }
+
+  void refuse_two_shapes() {
+    if (!is_round() || !(spec_.width || spec_.depth)) return;
+    problems_.add(origin_, "die.diameter",
+                  "has no effect together with width or depth, allowed: a round die, or a box");
+    wrong_ = true;
+  }
+
   // The rest of the scene is still read, with walls that its stages can refer to: what the packing gets wrong is the
   // mistake, and the missing width its consequence.
   void stand_somewhere() {
-    missing_ = {origin_, fmt::format("required key is missing, allowed: a quantity in m; {}",
+    missing_ = {origin_, fmt::format("required key is missing, allowed: a quantity in m{}; {}",
+                                     in_space() ? ", or the diameter of a round die" : "",
                                      why_no_width())};
-    spec_.width = 1;
+    lengths_[0] = 1;
   }
 
   std::string why_no_width() const {
@@ -86,8 +112,10 @@ class DieFiller {
     if (kind != nullptr && *kind == "random") return "here, or as width of the random packing";
     return kind != nullptr && *kind == "csv"
                ? "a packing of kind = \"csv\" has none"
-               : "a lattice has one if `columns`, and `spacing` or the `diameter` of its particle, "
-                 "are given";
+               : fmt::format(
+                     "a lattice has one if `{}`, and `spacing` or the `diameter` of its particle, "
+                     "are given",
+                     in_space() ? "cells" : "columns");
   }
 
   // The value of a key as declared; nothing if it is missing. An invalid one is reported here: without it
@@ -95,33 +123,53 @@ class DieFiller {
   std::optional<schema::Decoded> value_in(const Table& table, const char* declared, const char* key,
                                           const std::string& path) {
     const Entry* entry = document::find(table, key);
-    if (entry == nullptr) return std::nullopt;
-    const schema::TableView& view = *schema::find_table(declared, schema::scene_language(2));
+    const schema::KeyInfo* info = schema::find_key(*schema::find_table(declared, language_), key);
+    if (entry == nullptr || info == nullptr) return std::nullopt;
     try {
-      return schema::decode(*schema::find_key(view, key), entry->value, {});
+      return schema::decode(*info, entry->value, {});
     } catch (const schema::Refusal& refusal) {
       problems_.add(refusal.origin, schema::joined_path(path, key), refusal.what());
       wrong_ = true;
       return std::nullopt;
     }
   }
+  std::optional<schema::Decoded> in_packing(const Table& packing, const char* key) {
+    return value_in(packing, "packing", key, "packing[0]");
+  }
 
   // What [die] leaves unspecified and the only packing specifies.
   void take_over(const Table& packing) {
     if (!spec_.corner)
-      if (const auto corner = value_in(packing, "packing", "corner", "packing[0]"))
-        spec_.corner = corner->vector;
-    if (spec_.width) return;
-    if (const auto width = value_in(packing, "packing", "width", "packing[0]"))
-      spec_.width = width->number;
-    const auto columns = value_in(packing, "packing", "columns", "packing[0]");
-    const std::optional<double> spacing = spacing_in(packing);
-    if (columns && spacing) spec_.width = static_cast<double>(columns->integer) * *spacing;
+      if (const auto corner = in_packing(packing, "corner")) spec_.corner = corner->vector3;
+    if (is_round() || spec_.width) return;
+    if (const auto diameter = in_packing(packing, "diameter")) {
+      spec_.diameter = diameter->number;
+      return;
+    }
+    for (std::size_t k = 0; k < length_keys.size(); ++k)
+      if (const auto length = in_packing(packing, length_keys[k])) lengths_[k] = length->number;
+    if (const auto size = lattice_in(packing)) lengths_ = {size->x(), size->y()};
   }
 
-  std::optional<double> spacing_in(const Table& packing) {
-    if (const auto spacing = value_in(packing, "packing", "spacing", "packing[0]"))
-      return spacing->number;
+  // m, of a lattice that says how many particles it has.
+  std::optional<Vec3> lattice_in(const Table& packing) {
+    PackingSpec lattice;
+    const auto kind = in_packing(packing, "kind");
+    const auto rows = in_packing(packing, "rows"), columns = in_packing(packing, "columns"),
+               cells = in_packing(packing, "cells");
+    if (!kind || !(columns || cells)) return std::nullopt;
+    lattice.kind = schema::value_for<PackingSpec::Kind>(*kind);
+    if (columns) lattice.cells[0] = static_cast<int>(columns->integer);
+    if (rows) lattice.cells[1] = static_cast<int>(rows->integer);
+    if (cells) lattice.cells = cells->counts3;
+    const auto spacing = spacing_in(packing, lattice.kind);
+    if (!is_lattice(lattice) || !spacing) return std::nullopt;
+    lattice.spacing = *spacing;
+    return size_of_lattice(lattice);
+  }
+
+  std::optional<double> spacing_in(const Table& packing, PackingSpec::Kind kind) {
+    if (const auto spacing = in_packing(packing, "spacing")) return spacing->number;
     const std::string* name = document::find_text(packing, "particle");
     const Array* particles = elements_of(root_, "particle");
     for (std::size_t i = 0; name != nullptr && particles != nullptr && i < particles->size(); ++i) {
@@ -130,46 +178,91 @@ class DieFiller {
       if (own == nullptr || *own != *name) continue;
       if (const auto diameter =
               value_in(particle, "particle", "diameter", fmt::format("particle[{}]", i)))
-        return diameter->number;
+        return touching_spacing(kind) * diameter->number;
     }
     return std::nullopt;
   }
 
-  Vec2 corner() const { return spec_.corner.value_or(Vec2::Zero()); }
-  bool differs(double a, double b) const { return std::abs(a - b) > 1e-9 * *spec_.width; }
+  Vec3 corner() const { return spec_.corner.value_or(Vec3::Zero()); }
+  double size() const { return is_round() ? *spec_.diameter : *lengths_[0]; }
+  bool differs(double a, double b) const { return std::abs(a - b) > 1e-9 * size(); }
+
+  Value place_of(const Vec3& place) const {
+    Array components;
+    for (int k = 0; k < dimension_; ++k) components.push_back(length_of(place[k], origin_));
+    return {std::move(components), origin_};
+  }
 
   void fill_packing(Table& packing, const std::string& path) {
     if (is_kind(packing, {"random"})) {
-      const auto width = value_in(packing, "packing", "width", path);
-      if (document::find(packing, "width") == nullptr)
-        packing.push_back({"width", origin_, length_of(*spec_.width, origin_)});
-      else if (width && differs(width->number, *spec_.width))
-        problems_.add(
-            document::find(packing, "width")->origin, path + ".width",
-            fmt::format("is {:g} m, but the die is {:g} m wide, allowed: only one of the two",
-                        width->number, *spec_.width));
+      if (is_round())
+        fill_length(packing, "diameter", *spec_.diameter, path);
+      else
+        for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(dimension_); ++k)
+          fill_length(packing, length_keys[k], *lengths_[k], path);
     }
-    if (spec_.corner && is_kind(packing, {"random", "square", "hexagonal"}) &&
+    if (spec_.corner && !is_kind(packing, {"csv"}) &&
         document::find(packing, "corner") == nullptr)
-      packing.push_back({"corner", origin_, place_of(corner(), origin_)});
+      packing.push_back({"corner", origin_, place_of(corner())});
   }
 
+  void fill_length(Table& packing, const char* key, double length, const std::string& path) {
+    const auto given = value_in(packing, "packing", key, path);
+    if (document::find(packing, key) == nullptr)
+      packing.push_back({key, origin_, length_of(length, origin_)});
+    else if (given && differs(given->number, length))
+      problems_.add(document::find(packing, key)->origin, schema::joined_path(path, key),
+                    fmt::format("is {:g} m, but that of the die is {:g} m, allowed: only one of "
+                                "the two",
+                                given->number, length));
+  }
+
+  void stand_tools() {
+    if (!in_space())
+      for (const Wall& wall : walls_in_plane) stand(wall);
+    else if (!is_round())
+      for (const Wall& wall : walls_of_box) stand(wall);
+    else
+      stand_round_die();
+  }
+
+  void stand_round_die() {
+    if (find_tool("die") == nullptr)
+      add_tool({{"name", origin_, word_of("die", origin_)},
+                {"shape", origin_, word_of("die", origin_)},
+                {"point", origin_, place_of(corner())},
+                {"diameter", origin_, length_of(*spec_.diameter, origin_)}});
+    for (const Wall& punch : punches_of_cylinder) stand(punch);
+  }
+
+  const Table* find_tool(const char* name) const {
+    const Array* tools = elements_of(root_, "tool");
+    for (std::size_t i = 0; tools != nullptr && i < tools->size(); ++i) {
+      const Table& tool = (*tools)[i].get<Table>();
+      const std::string* own = document::find_text(tool, "name");
+      if (own != nullptr && *own == name) return &tool;
+    }
+    return nullptr;
+  }
+
+  bool is_upright(const Wall& wall) const { return wall.axis + 1 < static_cast<std::size_t>(dimension_); }
+
   void stand(const Wall& wall) {
-    if (Array* tools = elements_of(root_, "tool"))
-      for (std::size_t i = 0; i < tools->size(); ++i) {
-        const Table& tool = (*tools)[i].get<Table>();
-        const std::string* name = document::find_text(tool, "name");
-        if (name != nullptr && *name == wall.name)
-          return compare(wall, tool, fmt::format("tool[{}]", i));
-      }
-    const auto name_it = [&](const char* key, Value value) {
-      return Entry{key, origin_, {std::move(value.data), origin_}};
-    };
-    const Array normal{{std::int64_t{wall.normal_x}, origin_},
-                       {std::int64_t{wall.normal_y}, origin_}};
-    Table tool{name_it("name", {std::string(wall.name), origin_}),
-               name_it("shape", {std::string("plane"), origin_}), name_it("point", point_of(wall)),
-               name_it("normal", {normal, origin_})};
+    const bool rests = !is_upright(wall) && wall.normal < 0;
+    if (rests && !missing_ && (packings_ == nullptr || packings_->empty())) return;
+    if (const Table* tool = find_tool(wall.name)) return compare(wall, *tool);
+    Array normal;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k)
+      normal.push_back({std::int64_t{k == wall.axis ? wall.normal : 0}, origin_});
+    Value point = place_of(place_of_wall(wall));
+    if (rests) point.get<Array>().back().data = std::string("packing top");
+    add_tool({{"name", origin_, word_of(wall.name, origin_)},
+              {"shape", origin_, word_of("plane", origin_)},
+              {"point", origin_, std::move(point)},
+              {"normal", origin_, {std::move(normal), origin_}}});
+  }
+
+  void add_tool(Table tool) {
     Entry* entry = document::find(root_, "tool");
     if (entry == nullptr) {
       root_.push_back({"tool", origin_, {Array{}, origin_}});
@@ -178,38 +271,47 @@ class DieFiller {
     if (Array* all = entry->value.as<Array>()) all->push_back({std::move(tool), origin_});
   }
 
-  Value point_of(const Wall& wall) const {
-    const double x = wall.normal_x < 0 ? corner().x() + *spec_.width : corner().x();
-    Value point = place_of({x, corner().y()}, origin_);
-    if (wall.normal_y < 0) point.get<Array>()[1].data = std::string("packing top");
-    return point;
+  Vec3 place_of_wall(const Wall& wall) const {
+    Vec3 place = corner();
+    if (is_upright(wall) && wall.normal < 0)
+      place[static_cast<Eigen::Index>(wall.axis)] += *lengths_[wall.axis];
+    return place;
   }
 
   // A wall defined in the scene itself must coincide with the die's; punches may be anywhere.
-  void compare(const Wall& wall, const Table& tool, const std::string& path) {
+  void compare(const Wall& wall, const Table& tool) {
     const std::string* shape = document::find_text(tool, "shape");
-    if (wall.normal_x == 0 || shape == nullptr || *shape != "plane") return;
+    if (!is_upright(wall) || shape == nullptr || *shape != "plane") return;
+    const Array& tools = *elements_of(root_, "tool");
+    std::size_t number = 0;
+    while (&tools[number].get<Table>() != &tool) ++number;
+    const std::string path = fmt::format("tool[{}]", number);
     const auto point = value_in(tool, "tool", "point", path);
     if (!point) return;
-    const double x = corner().x() + (wall.normal_x < 0 ? *spec_.width : 0);
-    if (differs(point->vector.x(), x))
+    const auto axis = static_cast<Eigen::Index>(wall.axis);
+    const double at = place_of_wall(wall)[axis];
+    if (differs(point->vector3[axis], at))
       problems_.add(document::find(tool, "point")->origin, path + ".point",
-                    fmt::format("is at x = {:g} m, but this side of the die is at {:g} m, allowed: "
-                                "the same position, or no tool '{}'",
-                                point->vector.x(), x, wall.name));
+                    fmt::format("is at {} = {:g} m, but this side of the die is at {:g} m, "
+                                "allowed: the same position, or no tool '{}'",
+                                "xyz"[wall.axis], point->vector3[axis], at, wall.name));
   }
 
   Table& root_;
   Origin origin_;
   Problems& problems_;
+  int dimension_;
+  const schema::Language& language_;
   DieSpec spec_;
+  Lengths lengths_;
   bool wrong_ = false;  // a value that the die depends on
   std::optional<MissingWidth> missing_;
   Array* packings_ = nullptr;
 };
 
-// A random packing needs a width, or a die.
+// In the plane a random packing needs a width, or a die.
 void require_widths(Table& root, Problems& problems) {
+  if (dimension_of(root) == 3) return;
   const Array* packings = elements_of(root, "packing");
   const schema::TableView& view = *schema::find_table("packing", schema::scene_language(2));
   for (std::size_t i = 0; packings != nullptr && i < packings->size(); ++i) {

@@ -1,5 +1,7 @@
 #include "scenes/initial_state.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <set>
 
 #include "components/bond.hpp"
@@ -12,11 +14,43 @@
 
 namespace pulvis {
 
+namespace {
+
+// Stages decide these, and those of the state are over.
+std::set<std::string> decided_by_stages() {
+  std::set<std::string> names{ToolProgram::resource_name, StageEnds::resource_name,
+                              ToolServos::resource_name};
+  for (const ComponentInfo& column : {ServoTravel::info, ServoVelocity::info, ServoMass::info,
+                                      ServoDragged::info, ServoForce::info})
+    names.insert(std::string("tool/") + column.name);
+  return names;
+}
+
+// The stages move tools from where the state has them.
+void start_tools(World& world) {
+  if (!world.has<ToolPosition>()) return;
+  const double* position = world.column<ToolPosition>().values();
+  for (Point3& start : world.resource<ToolProgram>().start) {
+    std::copy_n(position, tool_axes, start.begin());
+    position += tool_axes;
+  }
+}
+
+void start_cell(PeriodicCell& cell) {
+  MixedControl& control = cell.control;
+  control.servos = {};
+  control.asked = {};
+  control.stage = static_cast<std::size_t>(-1);
+  control.cut = std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
 void begin_with_state(World& world, const Scene& scene) {
   if (!scene.initial_state) return;
   const double end = world.resource<Clock>().end;
   const Checkpoint state(scene.file.parent_path() / *scene.initial_state);
-  const std::set<std::string> anew{ToolProgram::resource_name, StageEnds::resource_name};
+  const std::set<std::string> anew = decided_by_stages();
   if (world.has<RankLink>())
     restore_share(state, world, anew);
   else
@@ -29,11 +63,8 @@ void begin_with_state(World& world, const Scene& scene) {
   clock.time = 0;
   clock.end = end;
   clock.next_look = 0;
-  MixedControl& control = world.resource<PeriodicCell>().control;
-  control.servos = {};
-  control.asked = {};
-  control.stage = static_cast<std::size_t>(-1);
-  control.cut = std::numeric_limits<double>::infinity();
+  start_tools(world);
+  if (world.has<PeriodicCell>()) start_cell(world.resource<PeriodicCell>());
 }
 
 }  // namespace pulvis

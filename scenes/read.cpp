@@ -130,8 +130,7 @@ CompleteTree complete_tree(const std::string& text, const std::filesystem::path&
   refuse_dimension_of_variables(root, in_space, problems);
   problems.throw_if_any();
   fill_materials(root, language_of(root), problems);
-  std::optional<MissingWidth> missing_width;
-  if (!in_space) missing_width = fill_die(root, problems);
+  std::optional<MissingWidth> missing_width = fill_die(root, problems);
   problems.throw_if_any();
   in_space ? space::fill_meshes(root, problems) : fill_meshes(root, problems);
   if (in_space) space::fill_contact_stiffness(root);

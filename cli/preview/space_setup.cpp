@@ -22,7 +22,6 @@ namespace pulvis {
 namespace {
 
 using nlohmann::json;
-using Vec3;
 
 constexpr std::array<const char*, 6> shape_names{"sphere",   "ellipsoid",  "superquadric",
                                                  "cylinder", "polyhedron", "STL surface"};

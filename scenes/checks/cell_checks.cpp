@@ -64,25 +64,10 @@ class CellChecks {
       const std::string path = fmt::format("stage[{}].", i);
       if (scene_.cell && stage.until && !stage.until->relative_density)
         refuse(path + "until", "a cell has no tools, allowed: `relative_density`");
-      keeping(i, path);
       if (!stage.cell) continue;
       drive(*stage.cell, path + "cell");
       if (!scene_.cell) walls(stage, path);
     }
-  }
-
-  void keeping(std::size_t i, const std::string& path) {
-    if (!scene_.stages[i].keep_state) return;
-    if (!scene_.cell)
-      refuse(path + "keep_state",
-             "only a powder in a periodic cell can start from a state, allowed: in a scene with "
-             "[cell]");
-    for (std::size_t k = 0; k < i; ++k)
-      if (scene_.stages[k].keep_state && scene_.stages[k].name == scene_.stages[i].name)
-        refuse(path + "name",
-               fmt::format("two stages that keep their state are called '{}', allowed: each name "
-                           "once",
-                           scene_.stages[i].name));
   }
 
   void drive(const CellDriveSpec& drive, const std::string& path) {

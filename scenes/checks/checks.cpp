@@ -42,7 +42,7 @@ class Checks {
     outlines();
     counts();
     packings();
-    stages();
+    check_stages(scene_, refusal());
     frictions();
     bonds();
     everything_is_used();
@@ -291,15 +291,6 @@ class Checks {
         problems_.add(origin(path), path + ".spacing",
                       "required key is missing: only discs and rings have a default spacing, "
                       "allowed: a quantity in m");
-    }
-  }
-
-  void stages() {
-    for (std::size_t i = 0; i < scene_.stages.size(); ++i) {
-      const StageSpec& stage = scene_.stages[i];
-      const std::string path = fmt::format("stage[{}]", i);
-      check_stage_kind(stage, stage.moves.size(), stage.servos.size() + (stage.cell ? 1U : 0U),
-                       "[[stage.move]] or [[stage.servo]], a [stage.cell]", path, refusal());
     }
   }
 

@@ -10,19 +10,43 @@
 
 namespace pulvis {
 
-void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t drives,
-                      const std::string& movers, const std::string& path, const Refuse& refuse) {
+namespace {
+
+void check_stage_kind(const StageSpec& stage, bool in_space, const std::string& path,
+                      const Refuse& refuse) {
   const bool needs_moves =
       stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
-  if (needs_moves && moves == 0 && drives == 0)
+  if (needs_moves && stage.moves.empty() && stage.servos.empty() && !stage.cell)
     refuse(path + ".kind",
-           fmt::format("no tool moves in this stage, allowed: at least one {}, or kind = "
-                       "\"settle\" or \"hold\"",
-                       movers));
-  if (!needs_moves && moves > 0)
+           fmt::format("no tool moves in this stage, allowed: at least one [[stage.move]] or "
+                       "[[stage.servo]]{}, or kind = \"settle\" or \"hold\"",
+                       in_space ? "" : ", a [stage.cell]"));
+  if (!needs_moves && !stage.moves.empty())
     refuse(path + ".move[0]",
            "tools do not move in a stage of this kind, allowed: moves in stages of a kind other "
            "than \"settle\" and \"hold\"");
+}
+
+// Each has a file, named after the stage.
+void check_kept_state(const Scene& scene, std::size_t number, const std::string& path,
+                      const Refuse& refuse) {
+  const StageSpec& stage = scene.stages[number];
+  for (std::size_t k = 0; k < number; ++k)
+    if (stage.keep_state && scene.stages[k].keep_state && scene.stages[k].name == stage.name)
+      refuse(path + ".name",
+             fmt::format("two stages that keep their state are called '{}', allowed: each name "
+                         "once",
+                         stage.name));
+}
+
+}  // namespace
+
+void check_stages(const Scene& scene, const Refuse& refuse) {
+  for (std::size_t s = 0; s < scene.stages.size(); ++s) {
+    const std::string path = fmt::format("stage[{}]", s);
+    check_stage_kind(scene.stages[s], scene.in_space(), path, refuse);
+    check_kept_state(scene, s, path, refuse);
+  }
 }
 
 namespace {

@@ -9,10 +9,7 @@
 
 namespace pulvis {
 
-// `moves`, `drives`: the number of prescribed moves, and of other tool motions (servos, driven cells), in the stage.
-// `movers`: the tables that can move tools, for the error message.
-void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t drives,
-                      const std::string& movers, const std::string& path, const Refuse& refuse);
+void check_stages(const Scene& scene, const Refuse& refuse);
 
 void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
                      const Refuse& refuse);

@@ -31,9 +31,7 @@ void check_initial_state(const Scene& scene, std::uint64_t powder_hash,
                          const schema::Origins& origins, Problems& problems) {
   if (!scene.initial_state) return;
   const std::string unfit =
-      scene.cell ? unfit_state(scene.file.parent_path() / *scene.initial_state, powder_hash)
-                 : "only a powder in a periodic cell can start from a state, allowed: in a scene "
-                   "with [cell]";
+      unfit_state(scene.file.parent_path() / *scene.initial_state, powder_hash);
   if (!unfit.empty()) problems.add(origins.at("initial_state"), "initial_state", unfit);
 }
 

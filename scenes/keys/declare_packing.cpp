@@ -94,7 +94,9 @@ std::vector<Key<PackingSpec>> lattice_keys() {
             .doc = "Maximum random displacement of a centre from its lattice site, as a fraction "
                    "of the spacing: drawn with the scene's `seed`, uniformly over a circle. The "
                    "spacing must leave room for it.",
-            .dimension = two},
+            .in_3d = {.doc = "Maximum random displacement of a centre from its lattice site, as a "
+                             "fraction of the spacing: drawn with the scene's `seed`, uniformly "
+                             "over a ball. The spacing must leave room for it."}},
            to(&PackingSpec::perturbation)}};
 }
 

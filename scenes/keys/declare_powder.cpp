@@ -73,11 +73,10 @@ const TableDeclaration<Scene>& top_level() {
          .kind = Kind::file,
          .only_for = compaction_only,
          .doc = "State saved by another run of the same powder (`stage.keep_state`), as a path "
-                "relative to the folder of the scene. The powder in its periodic cell starts "
-                "from it, at time 0 and with the stages of this scene. Accumulated quantities "
-                "(strain, work, energies) continue from it.",
-         .fallback_doc = "the initial packing",
-         .dimension = Dimension::two},
+                "relative to the folder of the scene. The powder, with its die or periodic cell, "
+                "starts from it, at time 0 and with the stages of this scene. Accumulated "
+                "quantities (strain, work, energies) continue from it.",
+         .fallback_doc = "the initial packing"},
         [](Scene& scene, const Decoded& value) { scene.initial_state = value.text; }}}};
   return declaration;
 }

@@ -34,8 +34,7 @@ const TableDeclaration<StageSpec>& stage() {
          .kind = Kind::flag,
          .fallback = value_of(false),
          .doc = "Save the state at the end of the stage as `state-<name>.h5` in the run "
-                "folder; other scenes can start from it (`initial_state`).",
-         .dimension = Dimension::two},
+                "folder; other scenes can start from it (`initial_state`)."},
         [](StageSpec& spec, const Decoded& value) { spec.keep_state = value.flag; }}}};
   return declaration;
 }

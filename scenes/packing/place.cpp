@@ -76,7 +76,16 @@ std::vector<Vec3> places_in(const PackingSpec& packing, int i, int k, int layer)
   return places;
 }
 
-void add_layers(const PackingSpec& packing, std::vector<BodySpec>& bodies) {
+// Uniform in a ball of radius 1.
+Vec3 in_ball(portable::Random& random) {
+  const double radius = portable::cbrt(random.uniform()), height = random.between(-1, 1);
+  const double angle = random.between(0, 2 * std::numbers::pi);
+  const double across = std::sqrt(1 - height * height);
+  return radius * Vec3(across * portable::cos(angle), across * portable::sin(angle), height);
+}
+
+void add_layers(const PackingSpec& packing, std::uint64_t seed, std::vector<BodySpec>& bodies) {
+  portable::Random random(seed);
   const Vec3 first = packing.container.corner + Vec3::Constant(neighbour_distance(packing) / 2);
   const auto [columns, rows, layers] = packing.cells;
   for (int layer = 0; layer < layers; ++layer)
@@ -86,17 +95,21 @@ void add_layers(const PackingSpec& packing, std::vector<BodySpec>& bodies) {
           BodySpec body;
           body.particle = packing.particle;
           body.position = first + packing.spacing * place;
+          if (packing.perturbation > 0)
+            body.position += packing.perturbation * packing.spacing * in_ball(random);
           body.mark = packing.mark;
           bodies.push_back(body);
         }
 }
 
-double top_of_layers(const PackingSpec& packing) {
-  const int layers = packing.cells[2];
+// Between the centres of the first and the last particle along each axis, in units of the spacing.
+Vec3 reach_of_cells(const PackingSpec& packing) {
+  const auto [columns, rows, layers] = packing.cells;
+  if (packing.kind == Kind::hexagonal)
+    return {columns - 1 + (rows > 1 || layers > 1 ? 0.5 : 0),
+            root_3 / 2 * (rows - 1) + (layers > 1 ? root_3 / 6 : 0), root_2_3 * (layers - 1)};
   const bool centred = packing.kind == Kind::body_centred || packing.kind == Kind::face_centred;
-  const double last =
-      packing.kind == Kind::hexagonal ? root_2_3 * (layers - 1) : layers - (centred ? 0.5 : 1);
-  return packing.container.corner.z() + packing.spacing * last + neighbour_distance(packing);
+  return Vec3(columns, rows, layers) - Vec3::Constant(centred ? 0.5 : 1);
 }
 
 // ---- numbering ---------------------------------------------------------------------------------------
@@ -126,10 +139,23 @@ bool is_lattice(const PackingSpec& packing) {
   return packing.kind != Kind::random && packing.kind != Kind::csv;
 }
 
-double top_of_lattice(const PackingSpec& packing) {
-  if (!is_in_plane(packing)) return top_of_layers(packing);
+double touching_spacing(Kind kind) {
+  if (kind == Kind::body_centred) return 2 / std::sqrt(3.0);
+  return kind == Kind::face_centred ? std::sqrt(2.0) : 1;
+}
+
+Vec3 size_of_lattice(const PackingSpec& packing) {
+  if (!is_in_plane(packing))
+    return packing.spacing * reach_of_cells(packing) +
+           Vec3::Constant(neighbour_distance(packing));
   const double rise = rise_of_rows(packing);
-  return packing.container.corner.y() + packing.spacing * (rise * (packing.cells[1] - 1) + 1);
+  return packing.spacing * Vec3(packing.cells[0], rise * (packing.cells[1] - 1) + 1, 0);
+}
+
+double top_of_lattice(const PackingSpec& packing) {
+  const Vec3& corner = packing.container.corner;
+  if (is_in_plane(packing)) return corner.y() + size_of_lattice(packing).y();
+  return corner.z() + packing.spacing * reach_of_cells(packing).z() + neighbour_distance(packing);
 }
 
 double top_of_packings(const Scene& scene) {
@@ -160,7 +186,7 @@ std::vector<BodySpec> place_bodies(const Scene& scene) {
     else if (is_in_plane(packing))
       add_rows(packing, scene.seed, bodies);
     else
-      add_layers(packing, bodies);
+      add_layers(packing, scene.seed, bodies);
   }
   return bodies;
 }

@@ -24,6 +24,10 @@ int particles_in_row(const PackingSpec& packing, int row);
 std::int64_t particle_count(const PackingSpec& packing);
 bool is_lattice(const PackingSpec& packing);  // not random, not from a file
 
+// Relative to the diameter of touching spheres or discs.
+double touching_spacing(PackingSpec::Kind kind);
+// m, of a lattice between flat walls; in the plane along x and y.
+Vec3 size_of_lattice(const PackingSpec& packing);
 // m, where a punch rests on a lattice: top of its highest cells; on the highest packing.
 double top_of_lattice(const PackingSpec& packing);
 double top_of_packings(const Scene& scene);

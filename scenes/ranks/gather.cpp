@@ -303,6 +303,7 @@ void restore_share(const Checkpoint& checkpoint, World& share, std::set<std::str
     if (column.declared_transient) continue;
     if (is_of_contacts(column)) continue;
     const std::string name = column.entity + "/" + column.info.name;
+    if (left_alone.contains(name)) continue;
     if (!is_by_chunk(column)) {
       share.set_column(column, checkpoint.column(name));
       continue;

@@ -21,13 +21,6 @@ constexpr std::int64_t max_hexahedra = 100'000'000;  // at 1.5 kB each: 150 GB
 // Of a particle. Its nodes are smoothed all at once, in some ten seconds; the cache of shapes has room for two of them.
 constexpr std::int64_t max_hexahedra_of_one = 100'000;
 
-// Relative to the diameter of touching spheres.
-double touching_spacing(PackingSpec::Kind kind) {
-  using Kind = PackingSpec::Kind;
-  if (kind == Kind::body_centred) return 2 / std::sqrt(3.0);
-  return kind == Kind::face_centred ? std::sqrt(2.0) : 1;
-}
-
 class SpaceChecks {
  public:
   SpaceChecks(Scene& scene, const schema::Origins& origins, Problems& problems)
@@ -40,7 +33,7 @@ class SpaceChecks {
     for (std::size_t i = 0; i < scene_.particles.size(); ++i) particle(i);
     counts();
     packings();
-    stages();
+    check_stages(scene_, refusal());
     check_frictions(scene_, names_of_tools(), refusal());
     check_bonds(scene_, names_of_tools(), refusal());
     check_tools(scene_, origins_, problems_);
@@ -167,13 +160,6 @@ class SpaceChecks {
           "output.density_cells",
           "the tools do not enclose a space for the grid, allowed: with six planes whose normals "
           "are along the axes, or a round die along one axis between two planes or punches");
-  }
-
-  void stages() {
-    for (std::size_t s = 0; s < scene_.stages.size(); ++s)
-      check_stage_kind(scene_.stages[s], scene_.stages[s].moves.size(),
-                       scene_.stages[s].servos.size(), "[[stage.move]] or [[stage.servo]]",
-                       fmt::format("stage[{}]", s), refusal());
   }
 
   void everything_is_used() {

@@ -32,7 +32,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The scenes, and a state that one of them begins with: made anew, since it is good for one powder as this program packs it.
+// The scenes, and the states that some of them begin with: made anew, since they are good for one powder as this program
+// packs it.
 class Bases {
  public:
   const fs::path folder =
@@ -45,12 +46,16 @@ class Bases {
     for (const auto& [from, to] : {std::pair{"scenes", plane}, {"scenes-3d", space}})
       fs::copy(given / from, to,
                fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-    const LoadedScene loaded = load_scene(plane / "cell.toml");
+    keep_first_stage(plane, "cell.toml");
+    keep_first_stage(space, "kept.toml");
+  }
+  static void keep_first_stage(const fs::path& folder, const char* scene) {
+    const LoadedScene loaded = load_scene(folder / scene);
     Simulation simulation(loaded.scene);
     simulation.run_until(loaded.scene.stages.front().duration);
     CheckpointInfo info;
     info.powder_hash = fmt::format("{:016x}", loaded.powder_hash);
-    write_state_file(plane / "data" / "state-press.h5", info, simulation.world());
+    write_state_file(folder / "data" / "state-press.h5", info, simulation.world());
   }
   Bases(const Bases&) = delete;
   Bases& operator=(const Bases&) = delete;

@@ -218,7 +218,7 @@ TEST(DieSides, NeedOneToolOnEachSide) {
   twice.tools.back().shape = ToolSpec::Shape::constraint;
   EXPECT_EQ(die_sides(twice), die_sides(scene));
   Scene turned = scene;
-  turned.tools[0].normal = Vec2(1, 0.1).normalized();
+  turned.tools[0].normal = Vec3(1, 0.1, 0).normalized();
   EXPECT_FALSE(die_sides(turned));
   Scene open = scene;
   open.tools.pop_back();

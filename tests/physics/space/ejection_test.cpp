@@ -98,7 +98,6 @@ Scene tablet_in_a_die(double friction) {
                    {"contact.friction=" + std::to_string(friction)});
 }
 
-using Vec3;
 using Places = std::vector<Vec3>;  // of the nodes
 
 Places places_in(const Experiment& e) {

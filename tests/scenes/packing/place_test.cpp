@@ -64,8 +64,8 @@ BodySpec at(double x, double y, int particle = 0, double angle = 0) {
 ToolSpec plane(const std::string& name, const Vec2& point, const Vec2& normal) {
   ToolSpec tool;
   tool.name = name;
-  tool.point = point;
-  tool.normal = normal.normalized();
+  tool.point = in_space(point);
+  tool.normal = in_space(normal.normalized());
   return tool;
 }
 
@@ -89,7 +89,7 @@ Scene die(int rows, int columns, Vec2 corner) {
   packing.cells[1] = rows;
   packing.cells[0] = columns;
   packing.spacing = size;
-  packing.corner = corner;
+  packing.container.corner = in_space(corner);
   packing.mark = {7, 1};
   scene.packings = {packing};
   const Vec2 far_corner = corner + size * Vec2(columns, rows);
@@ -126,6 +126,30 @@ TEST(PerturbedLattice, MovesCentresWithinTheirCircles) {
   EXPECT_LT(sum.norm(), 0.05);
 }
 
+TEST(PerturbedLattice, MovesCentresWithinTheirBalls) {
+  Scene scene;
+  scene.dimension = 3;
+  PackingSpec packing;
+  packing.kind = PackingSpec::Kind::cubic;
+  packing.cells = {12, 12, 12};
+  packing.spacing = 1.1 * size;
+  scene.packings = {packing};
+  const std::vector<BodySpec> regular = place_bodies(scene);
+  scene.packings[0].perturbation = 0.04;
+  const std::vector<BodySpec> moved = place_bodies(scene), again = place_bodies(scene);
+  const double radius = 0.04 * packing.spacing;
+  Vec3 squares = Vec3::Zero(), sum = Vec3::Zero();
+  for (std::size_t i = 0; i < regular.size(); ++i) {
+    const Vec3 way = (moved[i].position - regular[i].position) / radius;
+    EXPECT_LE(way.norm(), 1);
+    EXPECT_EQ(moved[i].position, again[i].position);
+    squares += way.cwiseAbs2() / static_cast<double>(regular.size());
+    sum += way / static_cast<double>(regular.size());
+  }
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(squares[k], 0.2, 0.02);  // of a ball of radius 1
+  EXPECT_LT(sum.norm(), 0.05);
+}
+
 TEST(PlaceBodies, APackingIsFilledRowByRowFromTheBottom) {
   const auto bodies = place_bodies(die(2, 3, Vec2(1, 2)));
   ASSERT_EQ(bodies.size(), 6U);
@@ -139,7 +163,7 @@ Scene hexagonal(int rows, int columns, Vec2 corner) {
   Scene scene = die(rows, columns, corner);
   scene.packings[0].kind = PackingSpec::Kind::hexagonal;
   const double height = size * (1 + (rows - 1) * std::numbers::sqrt3 / 2);
-  scene.tools[3].point = corner + Vec2(columns * size, height);
+  scene.tools[3].point = in_space(corner + Vec2(columns * size, height));
   return scene;
 }
 

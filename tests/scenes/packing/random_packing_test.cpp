@@ -76,7 +76,7 @@ void expect_no_overlap(const Scene& scene) {
   int overlaps = 0, outside = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (const Vec2& p : outlines[i])
-      outside += p.x() < 0 || p.x() > packing.width || p.y() < 0 || p.y() > packing.top;
+      outside += p.x() < 0 || p.x() > packing.container.width || p.y() < 0 || p.y() > packing.top;
     for (std::size_t k = 0; k < bodies.size(); ++k)
       if (i != k && (bodies[i].position - bodies[k].position).norm() < 0.03)
         for (const Vec2& p : outlines[i]) overlaps += inside(outlines[k], p);
@@ -88,7 +88,7 @@ void expect_no_overlap(const Scene& scene) {
 double density_of(const Scene& scene) {
   double area = 0;
   for (const BodySpec& body : place_bodies(scene)) area += outline_area(outline_of(scene, body));
-  return area / (scene.packings.at(0).width * scene.packings.at(0).top);
+  return area / (scene.packings.at(0).container.width * scene.packings.at(0).top);
 }
 
 class RandomPackings : public testing::TestWithParam<Case> {};

@@ -1,6 +1,7 @@
 // [die]: the width is given once; packings and tools follow.
 #include <gmock/gmock.h>
 
+#include "scenes/packing/place.hpp"
 #include "tests/helpers/right_scene.hpp"
 
 namespace pulvis {
@@ -54,7 +55,7 @@ TEST(Die, StandsAroundALattice) {
   EXPECT_DOUBLE_EQ(scene.tools[1].point.x(), 0.007);
   EXPECT_DOUBLE_EQ(scene.tools[2].point.y(), 0.002);
   EXPECT_DOUBLE_EQ(scene.tools[3].point.y(), 0.006);
-  EXPECT_EQ(scene.tools[1].normal, Vec2(-1, 0));
+  EXPECT_EQ(scene.tools[1].normal, Vec3(-1, 0, 0));
 }
 
 // As by --set tool.left.rounding=0.4, before there are tools.
@@ -66,8 +67,8 @@ TEST(Die, RefusesChangesOfItsTools) {
 TEST(Die, GivesRandomPackingsItsWidthAndCorner) {
   const Scene scene =
       scene_with("[die]\nwidth = \"8 mm\"\ncorner = [\"1 mm\", \"0 mm\"]\n" + random_bed);
-  EXPECT_DOUBLE_EQ(scene.packings[0].width, 0.008);
-  EXPECT_DOUBLE_EQ(scene.packings[0].corner.x(), 0.001);
+  EXPECT_DOUBLE_EQ(scene.packings[0].container.width, 0.008);
+  EXPECT_DOUBLE_EQ(scene.packings[0].container.corner.x(), 0.001);
   EXPECT_DOUBLE_EQ(scene.tools[1].point.x(), 0.009);
   EXPECT_GT(scene.tools[3].point.y(), 9 * 3.14159e-6 / 0.008);
 }
@@ -92,7 +93,7 @@ TEST(Die, IsNotInTheSavedScene) {
 TEST(Die, FollowsOverridesAndVariables) {
   const std::string text = powder + "[let]\nW = \"8 mm\"\n[die]\nwidth = \"W\"\n" + random_bed;
   const Scene scene = load_scene_text(text, "die.toml", {"let.W=10 mm"}).scene;
-  EXPECT_DOUBLE_EQ(scene.packings[0].width, 0.01);
+  EXPECT_DOUBLE_EQ(scene.packings[0].container.width, 0.01);
   EXPECT_DOUBLE_EQ(scene.tools[1].point.x(), 0.01);
 }
 
@@ -136,7 +137,7 @@ TEST(WrongDie, IsNotBlamedForMistakesElsewhere) {
 
 TEST(WrongDie, IsRefusedAtItsPlace) {
   EXPECT_THAT(problem_with("[die]\nwidth = \"8 mm\"\n" + random_bed + "width = \"9 mm\"\n"),
-              HasSubstr("packing[0].width: is 0.009 m, but the die is 0.008 m wide"));
+              HasSubstr("packing[0].width: is 0.009 m, but that of the die is 0.008 m"));
   EXPECT_THAT(problem_with("[die]\n" + random_bed),
               HasSubstr("die.width: required key is missing"));
   EXPECT_THAT(problem_with(random_bed),
@@ -148,6 +149,103 @@ TEST(WrongDie, IsRefusedAtItsPlace) {
   EXPECT_THAT(problem_with(lattice + "[die]\nwdth = \"1 mm\"\n"),
               HasSubstr("die.wdth: unknown key, did you mean 'width'?"));
   EXPECT_THAT(problem_with(lattice + "[die]\nwidth = 3\n"), HasSubstr("die.width: missing unit"));
+}
+
+// ---- in three dimensions ----------------------------------------------------------------------------
+const std::string powder_in_space = R"(family = "compaction"
+dimension = 3
+[[material]]
+name = "steel"
+library = "steel"
+[[particle]]
+name = "ball"
+material = "steel"
+shape = "sphere"
+diameter = "2 mm"
+[particle.mesh]
+divisions = 2
+rings = 1
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "1 ms"
+[[stage.move]]
+tool = "top"
+displacement = ["0 mm", "0 mm", "-0.1 mm"]
+)";
+
+Scene in_space_with(const std::string& text) {
+  return load_scene_text(powder_in_space + text, "die.toml").scene;
+}
+
+std::string problem_in_space_with(const std::string& text) {
+  const auto problems = problems_of(powder_in_space + text);
+  return problems.empty() ? "" : problems[0].text();
+}
+
+std::string lattice_in_space(const std::string& kind) {
+  return "[[packing]]\nkind = \"" + kind +
+         "\"\nparticle = \"ball\"\ncells = [3, 2, 2]\ncorner = [\"1 mm\", \"2 mm\", \"3 mm\"]\n";
+}
+
+TEST(DieInSpace, IsABoxAroundALattice) {
+  const Scene scene = in_space_with(lattice_in_space("cubic") + "[die]\n");
+  EXPECT_THAT(names_of(scene),
+              testing::ElementsAre("left", "right", "front", "back", "bottom", "top"));
+  EXPECT_TRUE(scene.tools[1].point.isApprox(Vec3(0.007, 0.002, 0.003), 1e-12));
+  EXPECT_TRUE(scene.tools[3].point.isApprox(Vec3(0.001, 0.006, 0.003), 1e-12));
+  EXPECT_TRUE(scene.tools[5].point.isApprox(Vec3(0.001, 0.002, 0.007), 1e-12));
+  EXPECT_EQ(scene.tools[3].normal, Vec3(0, -1, 0));
+}
+
+// The outermost particles of every lattice touch the walls of its die, and none is behind one.
+TEST(DieInSpace, TouchesTheOutermostParticlesOfEveryLattice) {
+  for (const char* kind : {"cubic", "body-centred", "face-centred", "hexagonal"}) {
+    const Scene scene = in_space_with(lattice_in_space(kind) + "[die]\n");
+    const std::vector<BodySpec> bodies = place_bodies(scene);
+    ASSERT_EQ(scene.tools.size(), 6U) << kind;
+    for (const ToolSpec& tool : scene.tools) {
+      double least = 1;
+      for (const BodySpec& body : bodies)
+        least = std::min(least, (body.position - tool.point).dot(tool.normal));
+      EXPECT_NEAR(least, 1e-3, 1e-12) << kind << ' ' << tool.name;
+    }
+  }
+}
+
+TEST(DieInSpace, GivesARandomPackingItsContainer) {
+  const std::string bed =
+      "[[packing]]\nkind = \"random\"\ndensity = 0.4\nclass = [{ particle = \"ball\", number = 4 }]\n";
+  const Scene box = in_space_with(bed + "[die]\nwidth = \"6 mm\"\ndepth = \"5 mm\"\n");
+  EXPECT_DOUBLE_EQ(box.packings[0].container.depth, 0.005);
+  EXPECT_DOUBLE_EQ(box.tools[1].point.x(), 0.006);
+  EXPECT_DOUBLE_EQ(box.tools[3].point.y(), 0.005);
+  const Scene square = in_space_with(bed + "[die]\nwidth = \"6 mm\"\n");
+  EXPECT_DOUBLE_EQ(square.packings[0].container.depth, 0.006);
+  const Scene round = in_space_with(
+      bed + "[die]\ndiameter = \"6 mm\"\ncorner = [\"1 mm\", \"0 mm\", \"2 mm\"]\n");
+  EXPECT_THAT(names_of(round), testing::ElementsAre("die", "bottom", "top"));
+  EXPECT_EQ(round.tools[0].shape, ToolSpec::Shape::die);
+  EXPECT_EQ(round.tools[0].normal, Vec3(0, 0, 1));
+  EXPECT_DOUBLE_EQ(round.packings[0].container.diameter, 0.006);
+  EXPECT_DOUBLE_EQ(round.tools[1].point.z(), 0.002);
+  EXPECT_DOUBLE_EQ(round.tools[2].point.z(), round.packings[0].top);
+  // What the packing says, the die need not.
+  EXPECT_DOUBLE_EQ(in_space_with(bed + "diameter = \"7 mm\"\n[die]\n").tools[0].diameter, 0.007);
+}
+
+TEST(WrongDieInSpace, IsRefusedAtItsPlace) {
+  EXPECT_THAT(problem_in_space_with(lattice_in_space("cubic") +
+                                    "[die]\nwidth = \"6 mm\"\ndiameter = \"6 mm\"\n"),
+              HasSubstr("die.diameter: has no effect together with width or depth"));
+  EXPECT_THAT(problem_in_space_with("[die]\n"),
+              HasSubstr("die.width: required key is missing, allowed: a quantity in m, or the "
+                        "diameter of a round die"));
+  EXPECT_THAT(problem_in_space_with(
+                  lattice_in_space("cubic") +
+                  "[die]\n[[tool]]\nname = \"back\"\nshape = \"plane\"\npoint = [\"0 mm\", \"9 mm\", "
+                  "\"0 mm\"]\nnormal = [0, -1, 0]\n"),
+              HasSubstr("tool[0].point: is at y = 0.009 m, but this side of the die is at 0.006 m"));
 }
 
 }  // namespace

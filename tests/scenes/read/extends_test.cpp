@@ -154,7 +154,7 @@ corner = ["20 mm", "0 mm"]
   ASSERT_EQ(one.packings.size(), 1U);
   EXPECT_EQ(one.packings[0].cells[1], 4);
   EXPECT_EQ(one.packings[0].cells[0], 3);
-  EXPECT_EQ(one.packings[0].corner.x(), 0.02);
+  EXPECT_EQ(one.packings[0].container.corner.x(), 0.02);
   write("two.toml",
         "extends = \"one.toml\"\npacking = [{ kind = \"square\", particle = \"disc\", rows "
         "= 1, columns = 1, corner = [\"20 mm\", \"0 mm\"] }, { kind = \"square\", particle = "
@@ -162,7 +162,7 @@ corner = ["20 mm", "0 mm"]
   const Scene two = load("extends = \"two.toml\"\n[[packing]]\n[[packing]]\ncolumns = 3\n").scene;
   ASSERT_EQ(two.packings.size(), 2U);
   EXPECT_EQ(two.packings[0].cells[0], 1);
-  EXPECT_EQ(two.packings[1].columns, 3);
+  EXPECT_EQ(two.packings[1].cells[0], 3);
   EXPECT_THAT(wrong_with("extends = \"two.toml\"\n[[packing]]\ncolumns = 3\n"),
               HasSubstr("scene.toml:2:1: packing[0]: without `kind` it changes the element at its "
                         "position of the extended file, which has 2, but 1 is given here"));

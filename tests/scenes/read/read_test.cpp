@@ -93,8 +93,8 @@ TEST(Read, NormalsAreNormalised) {
         .scene.tools.at(0)
         .normal;
   };
-  EXPECT_TRUE(normal("[3, 4]").isApprox(Vec2(0.6, 0.8), 1e-15));
-  EXPECT_EQ(normal("[0, -7.5]"), Vec2(0, -1));
+  EXPECT_TRUE(normal("[3, 4]").isApprox(Vec3(0.6, 0.8, 0), 1e-15));
+  EXPECT_EQ(normal("[0, -7.5]"), Vec3(0, -1, 0));
   EXPECT_NEAR(normal("[1e200, 1e200]").norm(), 1, 1e-15);
 }
 
@@ -152,7 +152,7 @@ TEST(Read, OverridesByKeyNameAndPosition) {
   EXPECT_EQ(scene.time.safety, 0.5);
   EXPECT_EQ(scene.materials.at(0).yield_stress, 100e6);
   EXPECT_EQ(scene.materials.at(0).density, 8000);
-  EXPECT_EQ(scene.tools.at(3).point, Vec2(0, 0.051));
+  EXPECT_EQ(scene.tools.at(3).point, Vec3(0, 0.051, 0));
   EXPECT_EQ(scene.stages.at(0).moves.at(0).ramp, 0.25);
   EXPECT_EQ(scene.stages.at(0).duration, 0.002);
   EXPECT_EQ(scene.limits.kinetic_energy, 0.01);

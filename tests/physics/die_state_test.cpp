@@ -1,0 +1,102 @@
+// A die's powder that another run has pressed: tools, forces and sums go on from there, in both dimensions.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "tests/helpers/initial_state.hpp"
+
+namespace pulvis {
+namespace {
+
+struct Die {
+  const char* name;
+  std::string powder, press, hold, draw;  // the press keeps its state; the others follow it
+  const char *force, *position;           // series of the top
+};
+
+const std::string copper = R"(
+[[material]]
+name = "Cu"
+density = "8940 kg/m^3"
+youngs_modulus = "115 GPa"
+poissons_ratio = 0.35
+yield_stress = "50 MPa"
+hardening_modulus = "440 MPa"
+[contact]
+friction = 0.1
+damping = 0.2
+[die]
+[[particle]]
+name = "grain"
+material = "Cu"
+diameter = "1 mm"
+)";
+
+std::string moved_by(const std::string& kind, const std::string& displacement,
+                     const std::string& keys = "") {
+  return "[[stage]]\nname = \"" + kind + "\"\nkind = \"" + kind +
+         "\"\nduration = \"15 us\"\n" + keys +
+         "[[stage.move]]\ntool = \"top\"\ndisplacement = " + displacement + "\n";
+}
+std::string held_at(const std::string& force) {
+  return "[[stage]]\nname = \"hold\"\nkind = \"hold\"\nduration = \"15 us\"\n[[stage.servo]]\ntool = "
+         "\"top\"\nforce = \"" +
+         force + "\"\ntolerance = 1\n";
+}
+
+const std::array dies{
+    Die{"plane",
+        "family = \"compaction\"\n" + copper +
+            "outline = \"disc\"\nmesh = { boundary_edges = 20 }\n[[packing]]\nkind = \"square\"\n"
+            "particle = \"grain\"\nrows = 3\ncolumns = 2\n",
+        moved_by("compact", "[\"0 mm\", \"-0.15 mm\"]", "keep_state = true\n"), held_at("100 N"),
+        moved_by("unload", "[\"0 mm\", \"0.05 mm\"]"), "tool/top/force_y", "tool/top/position_y"},
+    Die{"space",
+        "family = \"compaction\"\ndimension = 3\n" + copper +
+            "shape = \"sphere\"\nmesh = { divisions = 2, rings = 1 }\n[[packing]]\nkind = "
+            "\"cubic\"\nparticle = \"grain\"\ncells = [1, 1, 3]\n",
+        moved_by("compact", "[\"0 mm\", \"0 mm\", \"-0.15 mm\"]", "keep_state = true\n"),
+        held_at("100 N"), moved_by("unload", "[\"0 mm\", \"0 mm\", \"0.05 mm\"]"),
+        "tool/top/force_z", "tool/top/position_z"}};
+
+class DieState : public InitialState, public testing::WithParamInterface<std::size_t> {
+ protected:
+  const Die& die() const { return dies[GetParam()]; }
+
+  // Of one run through two stages, and of another that begins with the state between them.
+  void expect_as_in_one_run(const std::string& second) {
+    Experiment whole(own_scene(die().powder + die().press + second));
+    whole.run(20);
+    kept(die().powder, die().press);
+    Experiment rest = gone_on(die().powder, second);
+    EXPECT_EQ(rest.simulation.clock().time, 0);
+    rest.run(10);
+    EXPECT_NEAR(rest.value(die().position) / whole.value(die().position), 1, 1e-6);
+    EXPECT_NEAR(rest.value("relative_density") / whole.value("relative_density"), 1, 1e-6);
+    EXPECT_NEAR(rest.value("energy/plastic") / whole.value("energy/plastic"), 1, 1e-4);
+    EXPECT_NEAR(rest.value(die().force), whole.value(die().force),
+                1e-3 * std::abs(whole.value(die().force)) + 1e-3);
+    EXPECT_LT(rest.results.energy_balance_error(), 0.005);
+  }
+};
+
+TEST_P(DieState, GoesOnUnderMoves) { expect_as_in_one_run(die().draw); }
+
+// The run that keeps the state has no servo, the one that begins with it has.
+TEST_P(DieState, GoesOnUnderAServo) {
+  kept(die().powder, die().press);
+  Experiment rest = gone_on(die().powder, die().hold);
+  rest.run(10);
+  Experiment whole(own_scene(die().powder + die().press + die().hold));
+  whole.run(20);
+  EXPECT_NEAR(rest.value(die().position) / whole.value(die().position), 1, 1e-3);
+  EXPECT_NEAR(rest.value(die().force) / whole.value(die().force), 1, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(In, DieState, testing::Range(std::size_t{0}, dies.size()),
+                         [](const auto& of) { return dies[of.param].name; });
+
+}  // namespace
+}  // namespace pulvis
