@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json vector_json(const Scene& scene, const double* v) {
+Json components_json(const Scene& scene, const double* v) {
   Json json{v[0], v[1]};
   if (scene.in_space()) json.push_back(v[2]);
   return json;
@@ -33,9 +33,9 @@ Json vector_json(const Scene& scene, const double* v) {
 void add_geometry(const Scene& scene, const ToolSpec& tool, const double* at, Json& json) {
   using Shape = ToolSpec::Shape;
   const bool drawn = tool.shape == Shape::polyline;
-  if (!drawn && tool.shape != Shape::constraint) json["point"] = vector_json(scene, at);
+  if (!drawn && tool.shape != Shape::constraint) json["point"] = components_json(scene, at);
   if (!drawn && tool.shape != Shape::constraint && tool.shape != Shape::stl)
-    json["normal"] = vector_json(scene, tool.normal.data());
+    json["normal"] = components_json(scene, tool.normal.data());
   if (drawn)
     for (const Vec2& p : drawn_points(make_surface(tool.points, tool.rounding)))
       json["points"].push_back({at[0] + p.x(), at[1] + p.y()});
@@ -49,7 +49,7 @@ Json tools_json(const Scene& scene, const World& world) {
     const ToolSpec& spec = scene.tools[t];
     Json tool{{"name", spec.name}, {"shape", tool_shape_names[spec.shape]}};
     add_geometry(scene, spec, world.column<ToolPosition>().values() + tool_axes * t, tool);
-    tool["force"] = vector_json(scene, world.column<ToolForce>().values() + tool_axes * t);
+    tool["force"] = components_json(scene, world.column<ToolForce>().values() + tool_axes * t);
     tools.push_back(tool);
   }
   return tools;

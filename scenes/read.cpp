@@ -5,7 +5,6 @@
 #include "engine/files/input_file.hpp"
 #include "engine/files/xxh3.hpp"
 #include "scenes/checks/accuracy.hpp"
-#include "scenes/checks/checks.hpp"
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/checks/state_checks.hpp"
 #include "scenes/fill_die.hpp"
@@ -21,9 +20,9 @@
 #include "scenes/lever/mesh/meshed_tip.hpp"
 #include "scenes/materials/library.hpp"
 #include "scenes/packing/fill_packings.hpp"
+#include "scenes/scene_checks.hpp"
 #include "scenes/scene_files.hpp"
 #include "scenes/space/accuracy.hpp"
-#include "scenes/space/checks.hpp"
 #include "scenes/space/packing/fill_packings.hpp"
 #include "scenes/spec/flow_laws.hpp"
 #include "scenes/tools/profile.hpp"
@@ -86,27 +85,22 @@ void refuse_extending(const Table& root, Problems& problems) {
     problems.add(entry->origin, "extends", "cannot be set here, allowed: in the scene file");
 }
 
-// A wrong one would have everything else read in the wrong language. An expression of variables is refused later.
+// A wrong one would have everything else read in the wrong language, which must be known before variables are.
 void refuse_wrong_dimension(const Table& root, Problems& problems) {
   const document::Entry* entry = document::find(root, "dimension");
   if (entry == nullptr) return;
   const auto* number = entry->value.as<std::int64_t>();
+  if (number != nullptr && (*number == 2 || *number == 3)) return;
   const auto* text = entry->value.as<std::string>();
   const document::Entry* let = document::find(root, "let");
   const Table* variables = let == nullptr ? nullptr : let->value.as<Table>();
-  if (number != nullptr ? *number == 2 || *number == 3
-                        : text != nullptr && variables != nullptr && names_one(*text, *variables))
-    return;
-  problems.add(entry->value.origin, "dimension",
-               fmt::format("{} is given, allowed: 2 or 3, without quotes",
-                           shortened(document::value_text(entry->value))));
-}
-
-// The language of a scene must be known before its variables are.
-void refuse_dimension_of_variables(const Table& root, bool in_space, Problems& problems) {
-  if (dimension_of(root) == 3 && !in_space)
-    problems.add(document::find(root, "dimension")->origin, "dimension",
+  if (text != nullptr && variables != nullptr && names_one(*text, *variables))
+    problems.add(entry->value.origin, "dimension",
                  "is an expression of variables, allowed: 2 or 3");
+  else
+    problems.add(entry->value.origin, "dimension",
+                 fmt::format("{} is given, allowed: 2 or 3, without quotes",
+                             shortened(document::value_text(entry->value))));
 }
 
 struct CompleteTree {
@@ -127,7 +121,6 @@ CompleteTree complete_tree(const std::string& text, const std::filesystem::path&
   refuse_keys_of_other_dimension(root, problems);
   problems.throw_if_any();
   apply_let(root, language_of(root), problems);
-  refuse_dimension_of_variables(root, in_space, problems);
   problems.throw_if_any();
   fill_materials(root, language_of(root), problems);
   std::optional<MissingWidth> missing_width = fill_die(root, problems);
@@ -158,8 +151,6 @@ void check_family(Scene& scene, const schema::Origins& origins, Problems& proble
     load_meshed_tip(scene, origins, problems);
     problems.throw_if_any();
     check_afm(scene, origins, problems);
-  } else if (scene.in_space()) {
-    space::complete_and_check(scene, origins, problems);
   } else {
     complete_and_check(scene, origins, problems);
   }

@@ -17,7 +17,7 @@
 #include "scenes/checks/lever_warnings.hpp"
 #include "scenes/checks/mesh_summary.hpp"
 #include "scenes/checks/overlaps.hpp"
-#include "scenes/checks/setup_warnings.hpp"
+#include "scenes/setup_warnings.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/lever/afm_size.hpp"

@@ -14,7 +14,7 @@
 #include "engine/run_failure.hpp"
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
-#include "scenes/checks/setup_warnings.hpp"
+#include "scenes/setup_warnings.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/bond_results.hpp"

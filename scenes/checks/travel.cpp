@@ -11,7 +11,7 @@
 #include "scenes/language/problem.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/space/packing/rigid_shape.hpp"
-#include "scenes/space/tools/die_room.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/tools/die_sides.hpp"
 
 namespace pulvis {
@@ -39,7 +39,7 @@ std::optional<Enclosed> enclosed_area(const Scene& scene) {
 }
 
 std::optional<Enclosed> enclosed_volume(const Scene& scene) {
-  const auto room = space::die_room(scene);
+  const auto room = die_room(scene);
   if (!room) return std::nullopt;
   return [room](const Places& places) {
     const auto at = [&](int tool, int k) { return places[static_cast<std::size_t>(tool)][k]; };

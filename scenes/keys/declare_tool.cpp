@@ -58,7 +58,7 @@ Key<ToolSpec> holds_key() {
           word_to(&ToolSpec::holds)};
 }
 
-Key<ToolSpec> corner_key(const char* name, Vec2 ToolSpec::*member, const char* doc) {
+Key<ToolSpec> box_corner_key(const char* name, Vec2 ToolSpec::*member, const char* doc) {
   return {{.name = name,
            .kind = Kind::vector,
            .unit = "m",
@@ -178,10 +178,10 @@ std::vector<Key<ToolSpec>> keys_of_plane_shapes() {
                   "the whole drawing"),
       corners_rounding_key(),
       body_key(),
-      corner_key("low", &ToolSpec::low,
+      box_corner_key("low", &ToolSpec::low,
                  "Lower left corner of the box. Nodes on the boundary are included; positions "
                  "are those of the initial state."),
-      corner_key("high", &ToolSpec::high, "Upper right corner of the box."),
+      box_corner_key("high", &ToolSpec::high, "Upper right corner of the box."),
       radius_key(),
       holds_key()};
   for (Key<ToolSpec>& key : profile_keys()) all.push_back(std::move(key));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/space/tools/die_room.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
@@ -27,7 +27,7 @@ std::vector<std::string> names_of_walls(const Scene& scene) {
     return {scene.tools[static_cast<std::size_t>(cell->left)].name,
             scene.tools[static_cast<std::size_t>(cell->right)].name};
   }
-  const auto room = space::die_room(scene);
+  const auto room = die_room(scene);
   std::vector<std::string> names;
   if (!room) return names;
   const auto add = [&](int tool) {
@@ -115,7 +115,7 @@ std::optional<double> wall_friction(const Scene& scene) {
 CompactionCurve::CompactionCurve(const Scene& scene)
     : cell_(die_cell(scene)), thickness_(scene.thickness) {
   if (scene.in_space()) {
-    room_ = space::die_room(scene);
+    room_ = die_room(scene);
     thickness_ = 1;
     if (!room_) return;
     bottom_ = scene.tools[static_cast<std::size_t>(room_->tool[DieRoom::bottom])].name;

@@ -7,6 +7,7 @@
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
+#include "scenes/space/results/observe.hpp"
 #include "scenes/tools/die_sides.hpp"
 #include "scenes/tools/surface.hpp"
 
@@ -50,10 +51,16 @@ void check_output(const Scene& scene, const schema::Origins& origins, Problems& 
   const auto refuse = [&](const std::string& key, const std::string& message) {
     problems.add(origins.at("output." + key), "output." + key, message);
   };
-  if (scene.output.density() && !die_sides(scene))
+  const bool enclosed =
+      scene.in_space() ? space::has_grid_room(scene) : die_sides(scene).has_value();
+  if (scene.output.density() && !enclosed)
     refuse("density_cells",
-           "the tools do not enclose a grid, allowed: with one tool on each of the four sides, "
-           "planes with normals along an axis, or polylines");
+           scene.in_space()
+               ? "the tools do not enclose a space for the grid, allowed: with six planes whose "
+                 "normals are along the axes, or a round die along one axis between two planes or "
+                 "punches"
+               : "the tools do not enclose a grid, allowed: with one tool on each of the four "
+                 "sides, planes with normals along an axis, or polylines");
   // In a periodic cell even a single particle can: its own images.
   const bool touchable = scene.cell || std::ranges::any_of(scene.tools, [](const ToolSpec& t) {
                            return t.shape != ToolSpec::Shape::constraint;

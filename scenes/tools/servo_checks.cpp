@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scenes/space/tools/die_room.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
@@ -115,7 +115,7 @@ class ServoChecks {
   }
 
   bool has_die() const {
-    return scene_.in_space() ? space::die_room(scene_).has_value() : die_cell(scene_).has_value();
+    return scene_.in_space() ? die_room(scene_).has_value() : die_cell(scene_).has_value();
   }
 
   const Scene& scene_;

@@ -10,7 +10,7 @@
 #include "cli/save_scene.hpp"
 #include "engine/interruption.hpp"
 #include "scenes/checks/lever_warnings.hpp"
-#include "scenes/checks/setup_warnings.hpp"
+#include "scenes/setup_warnings.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/packing/place.hpp"

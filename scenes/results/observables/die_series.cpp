@@ -8,7 +8,7 @@
 #include "scenes/results/observables/enclosure.hpp"
 #include "scenes/results/observables/result_rows.hpp"
 #include "scenes/space/results/die_wall.hpp"
-#include "scenes/space/tools/die_room.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/spec/yield.hpp"
 
 namespace pulvis {
@@ -135,7 +135,7 @@ void add_die_series(const Scene& scene, Observables& all) {
   const auto yield = common_yield_stress(scene);
   if (!scene.in_space()) {
     if (const auto die = die_cell(scene)) add_die(*die, plane_words, yield, all);
-  } else if (const auto die = space::die_room(scene)) {
+  } else if (const auto die = die_room(scene)) {
     add_die(*die, die->kind == DieRoom::Kind::box ? box_words : round_words, yield, all);
   }
 }

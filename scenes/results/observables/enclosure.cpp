@@ -4,7 +4,7 @@
 
 #include "components/cell.hpp"
 #include "components/contact.hpp"
-#include "scenes/space/tools/die_room.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/tools/die_relief.hpp"
 #include "systems/tools/relief_kernel.hpp"
 
@@ -56,7 +56,7 @@ Vec2 size_of(const World& world, const DieCell& die) {
 std::function<double(const World&)> enclosure_of(const Scene& scene) {
   if (scene.cell) return [](const World& world) { return world.resource<PeriodicCell>().area(); };
   if (scene.in_space()) {
-    if (const auto room = space::die_room(scene))
+    if (const auto room = die_room(scene))
       return [room = *room](const World& world) { return volume_of(world, room); };
   } else if (const auto cell = die_cell(scene)) {
     return [cell = *cell](const World& world) { return area_of(world, cell); };

@@ -181,7 +181,7 @@ std::size_t bytes_of(const Shape& shape) {
 
 Shape make_shape(const ParticleSpec& particle) {
   // Packings, the particle layout, the summary and the warnings of a scene request the same shapes, and so do the
-  // runs of a study. The largest mesh that a scene may have (scenes/space/checks.cpp) needs 150 MB.
+  // runs of a study. The largest mesh that a scene may have (scenes/space/solid_particles.cpp) needs 150 MB.
   static ResultCache<ShapeKey, Shape> cache(320 << 20);  // bytes, approximately
   const auto size = [&](const Shape& made) { return stl_bytes(particle.shape) + bytes_of(made); };
   Shape shape = cache.get({particle.shape, particle.hex_mesh}, shape_of, size);

@@ -6,7 +6,7 @@
 #include "components/space/contact.hpp"
 #include "components/space/observed.hpp"
 #include "engine/entry.hpp"
-#include "scenes/space/tools/die_room.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {

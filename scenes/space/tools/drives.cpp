@@ -10,7 +10,7 @@
 #include "components/servo.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
-#include "scenes/space/tools/die_room.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
 #include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/servo_checks.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/packing/place.hpp"
-#include "scenes/checks/setup_warnings.hpp"
+#include "scenes/setup_warnings.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {

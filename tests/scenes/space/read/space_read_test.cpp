@@ -24,7 +24,6 @@ TEST(SpaceScene, HasWhatItsFileSays) {
   const Scene scene = loaded().scene;
   ASSERT_EQ(scene.dimension, 3);
   const Scene& in_space = scene;
-  EXPECT_TRUE(scene.particles.empty());
   ASSERT_EQ(in_space.particles.size(), 2U);
   EXPECT_EQ(std::get<SphereShape>(in_space.particles[0].shape).diameter, 10e-3);
   EXPECT_EQ(in_space.particles[0].hex_mesh.divisions, 2);

@@ -1,11 +1,11 @@
-#include "scenes/space/tools/die_room.hpp"
+#include "scenes/tools/die_room.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "scenes/spec/scene.hpp"
 
-namespace pulvis::space {
+namespace pulvis {
 namespace {
 
 constexpr double along_axis = 1 - 1e-12;  // cosine between a tool's normal and an axis
@@ -77,4 +77,4 @@ std::optional<DieRoom> die_room(const Scene& scene) {
   return round_of(scene);
 }
 
-}  // namespace pulvis::space
+}  // namespace pulvis

@@ -1,4 +1,4 @@
-// Checks of a scene that involve more than one key, run once all keys have been read.
+// Checks of a scene of particles that involve more than one key, run once all keys have been read.
 #pragma once
 
 #include "scenes/language/problem.hpp"
@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// Also fills in the one default that depends on another table: the spacing of a packing of discs.
+// Also fills in what follows from other tables or files: the spacing of touching particles, outlines, surfaces.
 void complete_and_check(Scene& scene, const schema::Origins& origins, Problems& problems);
 
 }  // namespace pulvis

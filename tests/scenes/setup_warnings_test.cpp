@@ -1,5 +1,5 @@
 // What `check` says of scenes whose values are all allowed, and yet not what anybody wants.
-#include "scenes/checks/setup_warnings.hpp"
+#include "scenes/setup_warnings.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -8,9 +8,9 @@
 #include "components/die_room.hpp"
 #include "scenes/spec/scene.hpp"
 
-namespace pulvis::space {
+namespace pulvis {
 
 // None if there are other tools besides them, or some are missing. Normals must be along the axes, or the die's axis.
 std::optional<DieRoom> die_room(const Scene& scene);
 
-}  // namespace pulvis::space
+}  // namespace pulvis

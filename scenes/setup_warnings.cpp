@@ -1,4 +1,4 @@
-#include "scenes/checks/setup_warnings.hpp"
+#include "scenes/setup_warnings.hpp"
 
 #include <fmt/format.h>
 
