@@ -17,6 +17,7 @@
 #include "scenes/checks/lever_warnings.hpp"
 #include "scenes/checks/mesh_summary.hpp"
 #include "scenes/checks/overlaps.hpp"
+#include "scenes/checks/servo_warnings.hpp"
 #include "scenes/checks/setup_warnings.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
@@ -42,6 +43,12 @@ std::string estimate_line(Simulation* simulation) {
   }
 }
 
+void add_servo_warnings(const Scene& scene, Simulation* simulation,
+                        std::vector<std::string>& lines) {
+  if (simulation != nullptr)
+    std::ranges::move(servo_warnings(scene, simulation->world()), std::back_inserter(lines));
+}
+
 std::string memory_line(const MemoryNeed& need) {
   return fmt::format("memory: about {}: particles {}, contacts {}, results {}, program {}",
                      bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
@@ -56,6 +63,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodyS
   if (simulation != nullptr && has_bonds(scene))  // bonds are known only after a contact search
     std::ranges::move(bond_warnings(scene, simulation->world()), std::back_inserter(lines));
   std::ranges::move(setup_warnings(scene, bodies), std::back_inserter(lines));
+  add_servo_warnings(scene, simulation, lines);
   return lines;
 }
 
@@ -77,6 +85,7 @@ SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>
   SceneFindings findings;
   findings.sizes = space::packing_summary(scene) + space::mesh_summary(scene);
   findings.warnings = space::setup_warnings(scene, bodies);
+  add_servo_warnings(scene, simulation, findings.warnings);
   findings.memory = memory_line(need);
   findings.run = estimate_line(simulation);
   findings.verdict = fmt::format(
