@@ -9,6 +9,7 @@
 
 #include "cli/pack.hpp"
 #include "cli/preview/estimate.hpp"
+#include "cli/setup_progress.hpp"
 #include "cli/tell.hpp"
 #include "engine/machine_memory.hpp"
 #include "engine/run_failure.hpp"
@@ -96,13 +97,32 @@ SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>
 
 namespace {
 
-void check_in_space(const Scene& scene) {
-  const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
-  space::check_overlaps(scene, bodies);
+// `bodies`: of two or three dimensions, without overlaps.
+template <class Body>
+SceneFindings findings_of(const Scene& scene, const std::vector<Body>& bodies) {
   const MemoryNeed need = memory_need(scene);
   std::optional<Simulation> simulation;
   if (need.total() <= available_memory()) simulation.emplace(scene);
-  tell_findings(findings_of(scene, bodies, need, simulation ? &*simulation : nullptr));
+  return findings_of(scene, bodies, need, simulation ? &*simulation : nullptr);
+}
+
+SceneFindings findings_in_space(const Scene& scene) {
+  const SetupProgress progress;
+  const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
+  space::check_overlaps(scene, bodies);
+  return findings_of(scene, bodies);
+}
+
+SceneFindings findings_in_plane(const Scene& scene) {
+  const SetupProgress progress;
+  const std::vector<BodySpec> bodies = place_bodies(scene);
+  check_overlaps(scene, bodies);
+  return findings_of(scene, bodies);
+}
+
+SceneFindings findings_of_lever(const Scene& scene) {
+  const SetupProgress progress;
+  return findings_of(scene, build_afm(scene));
 }
 
 }  // namespace
@@ -135,21 +155,10 @@ void tell_lever_memory(const Scene& scene) {
 }
 
 ExitCode check_scene(const Scene& scene) {
-  if (scene.afm) {
-    tell_lever_memory(scene);
-    tell_findings(findings_of(scene, build_afm(scene)));
-    return ExitCode::done;
-  }
-  if (scene.space) {
-    check_in_space(scene);
-    return ExitCode::done;
-  }
-  const std::vector<BodySpec> bodies = place_bodies(scene);
-  check_overlaps(scene, bodies);
-  const MemoryNeed need = memory_need(scene);
-  std::optional<Simulation> simulation;
-  if (need.total() <= available_memory()) simulation.emplace(scene);
-  tell_findings(findings_of(scene, bodies, need, simulation ? &*simulation : nullptr));
+  if (scene.afm) tell_lever_memory(scene);
+  tell_findings(scene.afm     ? findings_of_lever(scene)
+                : scene.space ? findings_in_space(scene)
+                              : findings_in_plane(scene));
   return ExitCode::done;
 }
 
