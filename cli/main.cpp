@@ -31,6 +31,7 @@
 #include "cli/report/report.hpp"
 #include "cli/session/run.hpp"
 #include "cli/session/run_afm.hpp"
+#include "cli/setup_progress.hpp"
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/output_error.hpp"
@@ -74,6 +75,11 @@ ExitCode print_scene(const LoadedScene& loaded) {
   return ExitCode::done;
 }
 
+LoadedScene load_with_progress(const RunOptions& options) {
+  const SetupProgress progress;
+  return load_scene(options.scene, options.overrides);
+}
+
 ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
     tell("{}", options.reference == "schema"      ? scene_json_schema()
@@ -81,7 +87,7 @@ ExitCode check(const Options& options) {
                                                   : scene_reference());
     return ExitCode::done;
   }
-  const LoadedScene loaded = load_scene(options.run.scene, options.run.overrides);
+  const LoadedScene loaded = load_with_progress(options.run);
   if (options.print) return print_scene(loaded);
   return check_scene(loaded.scene);
 }

@@ -13,7 +13,7 @@ import random
 import re
 import sys
 
-from random_scenes import MATERIALS, log_uniform, metres, try_all
+from random_scenes import MATERIALS, log_uniform, material, metres, try_all
 
 SIDE = 1e-3  # m, of a particle
 # What a physical limit says when it stops a run (exit code 3); an energy balance is no such limit.
@@ -228,10 +228,7 @@ class Scene:
         tools, stages = self.tools(), self.stages()
         materials = ""
         for name in self.used:
-            density, youngs, nu, strength, hardening = MATERIALS[name]
-            materials += f'[[material]]\nname = "{name}"\ndensity = "{density} kg/m^3"\n' \
-                         f'youngs_modulus = "{youngs} Pa"\npoissons_ratio = {nu}\n'
-            materials += f'yield_stress = "{strength} Pa"\nhardening_modulus = "{hardening} Pa"\n' if strength else ""
+            materials += material(name)
             if self.mass_damping:
                 materials += f'[material.damping]\nmass_proportional = "{self.mass_damping:.9g} 1/s"\n'
         falling = f'velocity = ["0 m/s", "{-2 * self.speed * self.wave():.9g} m/s"]\n' if self.action == "throw" else ""

@@ -1,7 +1,10 @@
-"""What the random scenes of random_servos.py, random_breakage.py and random_space.py share."""
+"""What the random scenes of random_servos.py, random_servo_powders.py, random_breakage.py and random_space.py share."""
 import argparse
 import collections
+import contextlib
+import csv
 import json
+import math
 import pathlib
 import subprocess
 import tempfile
@@ -30,15 +33,88 @@ def metres(*numbers):
     return "[" + ", ".join(f'"{x:.12g} m"' for x in numbers) + "]"
 
 
-# ---- what is asked of a run ---------------------------------------------------------------------------
-def run(program, file, folder, threads):
+# ---- their text ---------------------------------------------------------------------------------------
+def value(of):
+    return json.dumps(of) if isinstance(of, str | list | tuple | bool) else f"{of:.12g}"
+
+
+def keys(**values):
+    """Lines of TOML, without what is None."""
+    return "".join(f"{key} = {value(of)}\n" for key, of in values.items() if of is not None)
+
+
+def table(header, /, **values):
+    """An element of an array of tables."""
+    return f"[[{header}]]\n" + keys(**values)
+
+
+def material(name, of=None):
+    """One of MATERIALS, under its own name or another."""
+    density, youngs, nu, strength, hardening = MATERIALS[of or name]
+    flow = {"yield_stress": f"{strength} Pa", "hardening_modulus": f"{hardening} Pa"} if strength else {}
+    return table("material", name=name, density=f"{density} kg/m^3", youngs_modulus=f"{youngs} Pa", poissons_ratio=nu, **flow)
+
+
+def wave_speed(density, youngs, nu):
+    """m/s, of plane elastic waves."""
+    return math.sqrt(youngs * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) / density)
+
+
+# ---- their runs ---------------------------------------------------------------------------------------
+TIMED_OUT = 1000
+
+
+def run(program, file, folder, threads, more=(), timeout=900):
+    """Exit code and standard error."""
+    words = [program, "run", file, "-o", folder, "--overwrite", "--quiet", "--threads", str(threads), *more]
     try:
-        done = subprocess.run([program, "run", file, "-o", folder, "--overwrite", "--quiet", "--threads", str(threads)],
-                              capture_output=True, text=True, timeout=900)
+        done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=timeout)
     except subprocess.TimeoutExpired:
-        return 1000, "it takes longer than 15 minutes"
+        return TIMED_OUT, f"it takes longer than {timeout / 60:g} minutes"
     return done.returncode, done.stderr.strip()
 
+
+def history_of(folder):
+    """Series by name, as tuples of numbers."""
+    with open(folder / "history.csv", encoding="utf-8") as file:
+        names, *rows = csv.reader(file)
+    columns = zip(*([float(cell or "nan") for cell in row] for row in rows))
+    return dict(zip((name.split(" [")[0] for name in names), columns))
+
+
+def summary_of(folder):
+    return json.loads((folder / "summary.json").read_text())
+
+
+@contextlib.contextmanager
+def place_of(options):
+    """Where scenes and runs are written: kept if that was asked for."""
+    with tempfile.TemporaryDirectory() as scratch:
+        place = options.keep or pathlib.Path(scratch)
+        place.mkdir(parents=True, exist_ok=True)
+        yield place
+
+
+def written(scene, place):
+    file = place / f"{scene.name}.toml"
+    file.write_text(scene.text())
+    return file
+
+
+def judge_all(options, scene_of, judge):
+    """Counts the outcomes of scenes. judge(scene, its file, its folder): outcome, and lines of what is to be printed."""
+    options.program, counts = options.program.resolve(), collections.Counter()
+    with place_of(options) as place:
+        for number in range(options.first, options.first + options.scenes):
+            scene = scene_of(options.seed, number)
+            outcome, lines = judge(scene, written(scene, place), place / scene.name)
+            counts[getattr(scene, "kind", ""), outcome] += 1
+            print(f"{outcome:8}{number}: {scene.describe()}" + "".join(f"\n        {line}" for line in lines if line),
+                  flush=True)
+    return counts
+
+
+# ---- what is asked of a run on one and on two threads -------------------------------------------------
 
 def faults(outcomes, folders, limits):
     """(kind, text): "ok", "refused", "stopped" or "BAD". limits: what the message of a physical limit matches."""
@@ -49,7 +125,7 @@ def faults(outcomes, folders, limits):
         return "BAD", f"exit code {code}: {message}"
     if again != code:
         return "BAD", f"exit code {code} on one thread, {again} on two"
-    one, two = (json.loads((folder / "summary.json").read_text()) for folder in folders)
+    one, two = (summary_of(folder) for folder in folders)
     # A step that a limit ends is not finished by every thread.
     if one["steps"] != two["steps"] or (code == 0 and one["state_hash"] != two["state_hash"]):
         return "BAD", "two threads give other bits"
@@ -64,9 +140,8 @@ def faults(outcomes, folders, limits):
 
 def outcome_of(folder, more):
     """What a run came to. more(summary, last row of the history): what else is to be printed."""
-    summary = json.loads((folder / "summary.json").read_text())
-    lines = (folder / "history.csv").read_text().splitlines()
-    last = dict(zip((name.split(" [")[0] for name in lines[0].split(",")), lines[-1].split(",")))
+    summary = summary_of(folder)
+    last = {name: series[-1] for name, series in history_of(folder).items()}
     return f"{summary['steps']} steps in {summary['wall_seconds']:.1f} s, energy balance error " \
            f"{summary['energy_balance_error']:.1e}{more(summary, last)}"
 
@@ -74,21 +149,15 @@ def outcome_of(folder, more):
 def try_all(description, scenes, scene_of, limits, more):
     """Runs scene_of(seed, number) for all numbers, each on one and two threads; the exit code of the whole."""
     options = parser(description, scenes).parse_args()
-    options.program = options.program.resolve()
+
+    def judge(_, file, folder):
+        folders = [folder.with_name(f"{folder.name}-{threads}") for threads in (1, 2)]
+        outcomes = [run(options.program, file, of, threads) for threads, of in zip((1, 2), folders)]
+        end, what = faults(outcomes, folders, limits)
+        return end, [outcome_of(folders[0], more) if end in ("ok", "stopped") else "", what]
+
     ends = collections.Counter()
-    with tempfile.TemporaryDirectory() as scratch:
-        place = options.keep or pathlib.Path(scratch)
-        place.mkdir(parents=True, exist_ok=True)
-        for number in range(options.first, options.first + options.scenes):
-            scene = scene_of(options.seed, number)
-            file = place / f"{scene.name}.toml"
-            file.write_text(scene.text())
-            folders = [place / f"{scene.name}-{threads}" for threads in (1, 2)]
-            outcomes = [run(options.program, file, folder, threads) for threads, folder in zip((1, 2), folders)]
-            end, what = faults(outcomes, folders, limits)
-            ends[end] += 1
-            told = outcome_of(folders[0], more) if end in ("ok", "stopped") else ""
-            print(f"{end:8}{number}: {scene.describe()}" + "".join(f"\n        {line}" for line in (told, what) if line),
-                  flush=True)
+    for (_, end), count in judge_all(options, scene_of, judge).items():
+        ends[end] += count
     print(f"{options.scenes} scenes: " + ", ".join(f"{count} {end}" for end, count in sorted(ends.items())))
     return 1 if ends["BAD"] or ends["refused"] > 0.1 * options.scenes else 0

@@ -15,19 +15,13 @@ go on with a second force. A run may
 
 Anything else is BAD: this script computes force errors from the history of the run, not from what the program says of them.
 """
-import collections
-import csv
-import json
-import math
-import pathlib
 import random
-import subprocess
 import sys
-import tempfile
 
 import numpy as np
 
-from random_scenes import MATERIALS, log_uniform, parser
+from random_scenes import MATERIALS, TIMED_OUT, history_of, judge_all, keys, log_uniform, parser, run, summary_of, table, \
+    wave_speed
 
 KINDS = ("2D", "3D", "cell")
 TOLERANCE = 0.05
@@ -35,14 +29,6 @@ OUTCOMES = ("hold", "tell", "stop", "limit", "slow", "BAD")
 PLANES = {2: [("left", (0, 0), (1, 0)), ("right", (1, 0), (-1, 0)), ("bottom", (0, 0), (0, 1)), ("top", (0, 1), (0, -1))],
           3: [("left", (0, 0, 0), (1, 0, 0)), ("right", (1, 0, 0), (-1, 0, 0)), ("front", (0, 0, 0), (0, 1, 0)),
               ("back", (0, 1, 0), (0, -1, 0)), ("bottom", (0, 0, 0), (0, 0, 1)), ("top", (0, 0, 1), (0, 0, -1))]}
-
-
-def table(header, /, **values):
-    return f"[[{header}]]\n" + "".join(f"{key} = {text(value)}\n" for key, value in values.items() if value is not None)
-
-
-def text(value):
-    return json.dumps(value) if isinstance(value, str | list | tuple | bool) else f"{value:.12g}"
 
 
 class Scene:
@@ -110,15 +96,13 @@ class Scene:
                      spacing=self.length(self.size))
 
     def duration(self):
-        speed = math.sqrt(self.youngs * (1 - self.nu) / ((1 + self.nu) * (1 - 2 * self.nu)) / self.density)
-        return self.passages * self.side() / speed
+        return self.passages * self.side() / wave_speed(self.density, self.youngs, self.nu)
 
     def stage(self, name, pressure):
         made = table("stage", name=name, kind="compact", duration=f"{self.duration():.12g} s")
         if self.kind == "cell":
-            given = dict(stress_xx=f"{-pressure:.12g} Pa", stress_yy=f"{-pressure:.12g} Pa", rise=self.rise,
-                         response=self.response, tolerance=TOLERANCE)
-            return made + "[stage.cell]\n" + "".join(f"{k} = {text(v)}\n" for k, v in given.items() if v is not None)
+            return made + "[stage.cell]\n" + keys(stress_xx=f"{-pressure:.12g} Pa", stress_yy=f"{-pressure:.12g} Pa",
+                                                  rise=self.rise, response=self.response, tolerance=TOLERANCE)
         speed = None if self.max_speed is None else f"{self.max_speed:.12g} m/s"
         return made + table("stage.servo", tool="top", force=f"{pressure * self.section():.12g} N", rise=self.rise,
                             response=self.response, max_speed=speed, tolerance=TOLERANCE)
@@ -153,15 +137,13 @@ class Scene:
             [(f"tool/top/force_{'z' if self.dimensions == 3 else 'y'}", 1)]
 
 
-def history_of(folder):
-    with open(folder / "history.csv", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    return dict(zip([cell.split(" [")[0] for cell in rows[0]], np.array(rows[1:], dtype=float).T))
+def series_of(folder):
+    return {name: np.array(series) for name, series in history_of(folder).items()}
 
 
 def errors(scene, folder):
     """Largest excess over the target, and largest error in the last tenth of a stage, relative to the target."""
-    history, excess, off = history_of(folder), 0.0, 0.0
+    history, excess, off = series_of(folder), 0.0, 0.0
     for name, sign in scene.series():
         force = sign * history[name]
         before = force[0]  # contact curves may overlap at the start
@@ -179,13 +161,15 @@ def errors(scene, folder):
 
 
 def judge(scene, code, message, folder):
+    if code == TIMED_OUT:
+        return "slow", message
     if code == 3:
         kind = "stop" if "tool_servo" in message or "mixed_control" in message else "limit"
         line = next(line for line in message.splitlines() if "the run failed" in line)
         return kind, line[:200]
     if code != 0:
         return "BAD", f"exit code {code}: {message.strip()[-300:]}"
-    quality = {row["name"]: row for row in json.loads((folder / "summary.json").read_text()).get("quality", [])}
+    quality = {row["name"]: row for row in summary_of(folder).get("quality", [])}
     excess, off = errors(scene, folder)
     figures = f"passed by {excess:.3g}, off by {off:.3g} at the end"
     if off > TOLERANCE * 1.02:
@@ -197,28 +181,14 @@ def judge(scene, code, message, folder):
     return ("tell" if beyond else "BAD"), figures
 
 
-def run(program, scene, place):
-    file, folder = place / f"{scene.name}.toml", place / scene.name
-    file.write_text(scene.text())
-    try:
-        done = subprocess.run([program, "run", file, "-o", folder, "--overwrite", "--threads", "1", "--quiet"],
-                              capture_output=True, text=True, check=False, timeout=600)
-    except subprocess.TimeoutExpired:
-        return "slow", "it takes longer than ten minutes"
-    return judge(scene, done.returncode, done.stderr, folder)
-
-
 def main():
     options = parser(__doc__, scenes=102).parse_args()
-    program, counts = options.program.resolve(), collections.Counter()
-    with tempfile.TemporaryDirectory() as scratch:
-        place = options.keep or pathlib.Path(scratch)
-        place.mkdir(parents=True, exist_ok=True)
-        for number in range(options.first, options.first + options.scenes):
-            scene = Scene(options.seed, number)
-            outcome, reason = run(program, scene, place)
-            counts[scene.kind, outcome] += 1
-            print(f"{outcome:5} {number}: {scene.describe()}\n      {reason}", flush=True)
+
+    def judged(scene, file, folder):
+        outcome, reason = judge(scene, *run(options.program, file, folder, 1, timeout=600), folder)
+        return outcome, [reason]
+
+    counts = judge_all(options, Scene, judged)
     print(f"{'':5}" + "".join(f"{outcome:>7}" for outcome in OUTCOMES))
     for kind in KINDS:
         print(f"{kind:5}" + "".join(f"{counts[kind, outcome]:7}" for outcome in OUTCOMES))

@@ -8,18 +8,13 @@ rounded squares, blocks; metals, hard and soft elastic ones), forces from gentle
 punch settles, loads, holds and, in some scenes, holds on while the plane below is drawn along or a wall is
 held at a force of its own. Nothing of the servo is tuned. All that is asked of a scene is in `faults`.
 """
-import csv
-import json
-import math
-import pathlib
 import random
-import subprocess
 import sys
-import tempfile
 
 import numpy as np
 
-from random_scenes import MATERIALS, log_uniform, parser
+from random_scenes import MATERIALS, history_of, judge_all, log_uniform, material, parser, run, summary_of, table, \
+    wave_speed
 
 MATERIAL_NAMES = ("316L", "Cu", "glass", "polymer")
 
@@ -65,9 +60,7 @@ class Scene:
         return (0.01 * strength, 1.5 * strength) if strength else (1e-5 * youngs, 5e-3 * youngs)
 
     def wave_time(self):
-        density, youngs, nu = MATERIALS[self.material][:3]
-        speed = math.sqrt(youngs * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) / density)
-        return max(self.width, self.height) / speed
+        return max(self.width, self.height) / wave_speed(*MATERIALS[self.material][:3])
 
     def force(self, share=1.0, across=None):
         return share * self.pressure * (across or self.width) * self.size[0]  # as thick as wide
@@ -92,14 +85,13 @@ class Scene:
                f'[particle.mesh]\ncolumns = {columns}\nrows = {across}\n'
 
     def tool(self, name, x, y, nx, ny):
-        return f'[[tool]]\nname = "{name}"\nshape = "plane"\npoint = ["{x:.17g} m", "{y:.17g} m"]\n' \
-               f'normal = [{nx}, {ny}]\n'
+        return table("tool", name=name, shape="plane", point=[f"{x:.17g} m", f"{y:.17g} m"], normal=[nx, ny])
 
     def servo(self, tool, force, more=""):
-        return f'[[stage.servo]]\ntool = "{tool}"\nforce = "{force:.17g} N"\n{more}'
+        return table("stage.servo", tool=tool, force=f"{force:.17g} N") + more
 
     def stage(self, name, kind, duration):
-        return f'[[stage]]\nname = "{name}"\nkind = "{kind}"\nduration = "{duration:.17g} s"\n'
+        return table("stage", name=name, kind=kind, duration=f"{duration:.17g} s")
 
     def stages(self):
         wave, rise = self.wave_time(), "rise = 0.8\n"
@@ -117,16 +109,13 @@ class Scene:
         return text
 
     def text(self):
-        density, youngs, nu, strength, hardening = MATERIALS[self.material]
-        flow = f'yield_stress = "{strength} Pa"\nhardening_modulus = "{hardening} Pa"\n' if strength else ""
         bodies = "".join(
             f'[[body]]\nparticle = "p"\nposition = ["{(i + 0.5) * self.apart * self.size[0]:.17g} m", '
             f'"{(k + 0.5) * self.apart * self.size[1]:.17g} m"]\n'
             for k in range(self.rows) for i in range(self.columns))
         return "".join([
             f'family = "compaction"\ntitle = "{self.name}"\nthickness = "{self.size[0]:.17g} m"\n'
-            f'[[material]]\nname = "m"\ndensity = "{density} kg/m^3"\nyoungs_modulus = "{youngs} Pa"\n'
-            f'poissons_ratio = {nu}\n{flow}[[particle]]\nname = "p"\nmaterial = "m"\n', self.particle(),
+            + material("m", self.material), '[[particle]]\nname = "p"\nmaterial = "m"\n', self.particle(),
             bodies, self.tool("left", 0, 0, 1, 0), self.tool("right", self.width, 0, -1, 0),
             self.tool("bottom", 0, 0, 0, 1), self.tool("top", 0, self.height, 0, -1), self.stages(),
             f"[contact]\nfriction = {self.friction}\nstiffness = {self.stiffness}\n"
@@ -134,13 +123,6 @@ class Scene:
 
 
 # ---- what is asked of a run ---------------------------------------------------------------------------
-def series(folder):
-    with open(folder / "history.csv", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    names = [cell.split(" [")[0] for cell in rows[0]]
-    return dict(zip(names, np.array(rows[1:], dtype=float).T))
-
-
 def force_errors(history, tool, axis):
     return np.abs(history[f"tool/{tool}/force_{axis}"]) - history[f"tool/{tool}/force_asked"]
 
@@ -148,7 +130,8 @@ def force_errors(history, tool, axis):
 def faults(scene, code, message, folder):
     if code != 0:
         return [f"exit code {code}: {message.strip()}"], {}
-    summary, history = json.loads((folder / "summary.json").read_text()), series(folder)
+    summary = summary_of(folder)
+    history = {name: np.array(series) for name, series in history_of(folder).items()}
     begin = history["time"][-1] - scene.hold if scene.after != "shear" else \
         history["time"][-1] - scene.hold - scene.load
     held = (history["time"] > begin + 0.25 * scene.hold) & (history["time"] <= begin + scene.hold)
@@ -175,16 +158,6 @@ def faults(scene, code, message, folder):
     return found, figures
 
 
-def run(options, scene, place):
-    file, folder = place / f"{scene.name}.toml", place / scene.name
-    file.write_text(scene.text())
-    words = [options.program, "run", file, "-o", folder, "--overwrite", "--threads", "1"]
-    for change in options.set:
-        words += ["--set", change]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    return faults(scene, done.returncode, done.stderr, folder)
-
-
 def told(figures):
     return ", ".join(f"{name} " + ("/".join(f"{v:.2g}" for v in value) if isinstance(value, tuple) else
                                     f"{value:.3g}") for name, value in figures.items())
@@ -198,17 +171,13 @@ def arguments():
 
 def main():
     options = arguments()
-    options.program = options.program.resolve()
-    bad = 0
-    with tempfile.TemporaryDirectory() as scratch:
-        place = options.keep or pathlib.Path(scratch)
-        place.mkdir(parents=True, exist_ok=True)
-        for number in range(options.first, options.first + options.scenes):
-            scene = Scene(options.seed, number)
-            found, figures = run(options, scene, place)
-            bad += bool(found)
-            print(f"{'NOT' if found else 'ok '} {number}: {scene.describe()}\n      {told(figures)}"
-                  + "".join(f"\n      {fault}" for fault in found), flush=True)
+    changes = [word for change in options.set for word in ("--set", change)]
+
+    def judged(scene, file, folder):
+        found, figures = faults(scene, *run(options.program, file, folder, 1, changes, timeout=None), folder)
+        return "NOT" if found else "ok", [told(figures), *found]
+
+    bad = judge_all(options, Scene, judged)["", "NOT"]
     print(f"{options.scenes - bad} of {options.scenes} scenes held their force")
     return 1 if bad else 0
 

@@ -13,7 +13,7 @@ import random
 import re
 import sys
 
-from random_scenes import MATERIALS, log_uniform, metres, try_all
+from random_scenes import MATERIALS, log_uniform, material, metres, try_all
 
 # What a physical limit says when it stops a run (exit code 3); an energy balance is no such limit.
 LIMITS = re.compile(r"penetration|inverted|det F|closest point|duration of stage")
@@ -185,11 +185,9 @@ class Scene:
         tools, stages = self.tools(), self.stages()
         materials = ""
         for name in self.materials:
-            density, youngs, nu, strength, hardening = MATERIALS[name]
-            materials += f'[[material]]\nname = "{name}"\ndensity = "{density} kg/m^3"\n' \
-                         f'youngs_modulus = "{youngs} Pa"\npoissons_ratio = {nu}\n'
-            materials += f'yield_stress = "{strength} Pa"\nhardening_modulus = "{hardening} Pa"\n' if strength else ""
+            materials += material(name)
             if self.mass_damping:
+                density, youngs = MATERIALS[name][:2]
                 rate = self.mass_damping * math.sqrt(youngs / density) / self.size
                 materials += f'[material.damping]\nmass_proportional = "{rate:.9g} 1/s"\n'
         stiffness = f"stiffness = {self.contact:.9g}\n" if self.contact else ""
@@ -208,7 +206,7 @@ class Scene:
 
 
 def density(summary, last):
-    return f", relative density {float(last.get('relative_density') or 'nan'):.3f}"
+    return f", relative density {float(last.get('relative_density', 'nan')):.3f}"
 
 
 if __name__ == "__main__":

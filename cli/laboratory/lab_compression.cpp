@@ -21,8 +21,8 @@ struct Change {
   Compliance machine;
 };
 
-std::vector<Change> changes_of(const CurveSpec& spec, const Settings& settings,
-                               const Compliance& machine) {
+std::vector<Change> changes_of(const PressRecord& record, const CurveSpec& spec,
+                               const Settings& settings, const Compliance& machine) {
   std::vector<Change> changes;
   if (const double error = settings.die.height_error; error > 0) {
     Change change{"height", spec, machine};
@@ -46,6 +46,11 @@ std::vector<Change> changes_of(const CurveSpec& spec, const Settings& settings,
     *change.machine.meeting += error.meeting;
     for (std::size_t k = 0; k < error.coefficients.size(); ++k)
       change.machine.coefficients[k] += error.coefficients[k];
+    changes.push_back(change);
+  }
+  if (spec.final_height) {
+    Change change{"last sample", spec, machine};
+    *change.filling.final_height += displacement_noise(record);
     changes.push_back(change);
   }
   return changes;
@@ -120,7 +125,7 @@ ReducedCurve reduce_curve(const PressRecord& record, const CurveSpec& spec,
   reduced.unloading = unloading_of(reduced.curve);
   reduced.range = range_of(reduced.curve, spec, c);
   reduced.laws = laws_of(reduced.range);
-  for (const Change& change : changes_of(spec, settings, machine)) {
+  for (const Change& change : changes_of(record, spec, settings, machine)) {
     const PressCurve curve = press_curve(record, change.filling, settings.die, c, change.machine);
     const std::vector<DensityFit> fits = fit_all(range_of(curve, spec, c));
     for (std::size_t l = 0; l < fits.size(); ++l)

@@ -2,8 +2,8 @@
 // confidence intervals, and comparison with a simulation.
 //
 // Interval  scatter of the samples about the law (scenes/results/density_fit_errors.hpp), and the effect of one
-//           standard uncertainty of height, mass, compliance and the fit to the empty press: the curve is reduced and
-//           fitted again with each
+//           standard uncertainty of height, mass, compliance, the fit to the empty press and, with `final_height`, the noise
+//           of the last sample: the curve is reduced and fitted again with each
 // Misfit    over the densities that both loadings cover, at evenly spaced densities: mean and root mean square of
 //           ln(P_simulated/P_measured); and of the density at equal pressures
 #pragma once

@@ -114,6 +114,17 @@ Compliance machine_of(const Settings& settings) {
   return compliance_of(read_press(settings.file.parent_path() / spec.empty, settings), spec);
 }
 
+double displacement_noise(const PressRecord& record) {
+  const std::vector<double>& u = record.displacement;
+  std::vector<double> bends;
+  for (std::size_t i = 1; i + 1 < u.size(); ++i)
+    bends.push_back(std::abs(u[i - 1] - 2 * u[i] + u[i + 1]));
+  if (bends.empty()) return 0;
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::ranges::nth_element(bends, middle);
+  return *middle / (0.6745 * std::sqrt(6.0));
+}
+
 PressCurve press_curve(const PressRecord& record, const Filling& filling, const DieSpec& die,
                        const CompressionSpec& spec, const Compliance& machine) {
   const std::size_t peak = peak_of(record.force);

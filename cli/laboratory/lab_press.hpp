@@ -8,6 +8,9 @@
 //          displacement u_0 at which the punches meet
 // u_0      one of three: the height at zero displacement, that of the unloaded compact at the end of the record, or that
 //          of the empty press, if both records measure displacement from the same zero
+// Noise    standard deviation of one displacement, which u_0 has where it comes from the last sample alone: from the median
+//          of |u_(i-1) - 2 u_i + u_(i+1)|, 0.6745 sqrt(6) times it if the noise is normal and independent (Gasser, Sroka &
+//          Jennen-Steinmetz 1986, with the median for the few samples where the loading turns)
 // Errors   of u_0 and g of the empty press: covariance of the fitted polynomial, s^2 (X'X)^-1 = L L'; the columns of L are
 //          independent. Correlated neighbouring residuals count as fewer (scenes/solve/least_squares.hpp)
 // Loading  from where the force exceeds compression.contact of its maximum, up to that; unloading from there on
@@ -40,6 +43,9 @@ struct Compliance {                  // g(F) = c[0] F + c[1] F^2 + ...
 Compliance compliance_of(const PressRecord& empty, const CompressionSpec& spec);
 // As specified in the settings: from the empty press's record, given, or rigid.
 Compliance machine_of(const Settings& settings);
+
+// m, see above; 0 if there are fewer than three samples.
+double displacement_noise(const PressRecord& record);
 
 struct PressCurve {  // one value per sample, from the start of the loading on
   std::vector<double> height, density, pressure;  // m, -, Pa

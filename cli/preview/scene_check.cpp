@@ -9,6 +9,7 @@
 
 #include "cli/pack.hpp"
 #include "cli/preview/estimate.hpp"
+#include "cli/setup_progress.hpp"
 #include "cli/tell.hpp"
 #include "engine/machine_memory.hpp"
 #include "engine/run_failure.hpp"
@@ -17,6 +18,7 @@
 #include "scenes/checks/lever_warnings.hpp"
 #include "scenes/checks/mesh_summary.hpp"
 #include "scenes/checks/overlaps.hpp"
+#include "scenes/checks/servo_warnings.hpp"
 #include "scenes/setup_warnings.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
@@ -40,6 +42,12 @@ std::string estimate_line(Simulation* simulation) {
   }
 }
 
+void add_servo_warnings(const Scene& scene, Simulation* simulation,
+                        std::vector<std::string>& lines) {
+  if (simulation != nullptr)
+    std::ranges::move(servo_warnings(scene, simulation->world()), std::back_inserter(lines));
+}
+
 std::string memory_line(const MemoryNeed& need) {
   return fmt::format("memory: about {}: particles {}, contacts {}, results {}, program {}",
                      bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
@@ -55,6 +63,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodyS
   if (simulation != nullptr && !scene.in_space() && has_bonds(scene))  // bonds are known only after a contact search
     std::ranges::move(bond_warnings(scene, simulation->world()), std::back_inserter(lines));
   std::ranges::move(setup_warnings(scene, bodies), std::back_inserter(lines));
+  add_servo_warnings(scene, simulation, lines);
   return lines;
 }
 
@@ -72,6 +81,25 @@ SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodie
                   counted(scene.stages.size(), "stage"));
   return findings;
 }
+
+namespace {
+
+SceneFindings findings_of_powder(const Scene& scene) {
+  const SetupProgress progress;
+  const std::vector<BodySpec> bodies = place_bodies(scene);
+  scene.in_space() ? space::check_overlaps(scene, bodies) : check_overlaps(scene, bodies);
+  const MemoryNeed need = memory_need(scene);
+  std::optional<Simulation> simulation;
+  if (need.total() <= available_memory()) simulation.emplace(scene);
+  return findings_of(scene, bodies, need, simulation ? &*simulation : nullptr);
+}
+
+SceneFindings findings_of_lever(const Scene& scene) {
+  const SetupProgress progress;
+  return findings_of(scene, build_afm(scene));
+}
+
+}  // namespace
 
 SceneFindings findings_of(const Scene& scene, const AfmModel& model) {
   std::size_t increments = 0;
@@ -101,18 +129,8 @@ void tell_lever_memory(const Scene& scene) {
 }
 
 ExitCode check_scene(const Scene& scene) {
-  if (scene.afm) {
-    tell_lever_memory(scene);
-    tell_findings(findings_of(scene, build_afm(scene)));
-    return ExitCode::done;
-  }
-  const std::vector<BodySpec> bodies =
-      place_bodies(scene);
-  scene.in_space() ? space::check_overlaps(scene, bodies) : check_overlaps(scene, bodies);
-  const MemoryNeed need = memory_need(scene);
-  std::optional<Simulation> simulation;
-  if (need.total() <= available_memory()) simulation.emplace(scene);
-  tell_findings(findings_of(scene, bodies, need, simulation ? &*simulation : nullptr));
+  if (scene.afm) tell_lever_memory(scene);
+  tell_findings(scene.afm ? findings_of_lever(scene) : findings_of_powder(scene));
   return ExitCode::done;
 }
 

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/interrupt.hpp"
 #include "cli/ranks/join_ranks.hpp"
@@ -12,6 +13,7 @@
 #include "cli/session/open_session.hpp"
 #include "cli/session/run_afm.hpp"
 #include "cli/session/session.hpp"
+#include "cli/setup_progress.hpp"
 #include "cli/shell_word.hpp"
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
@@ -188,9 +190,11 @@ ExitCode run_scene(const RunOptions& options) {
   leave_at_interrupts();
   RankOfRun rank(options);
   if (rank.follows()) return rank.follow();
+  std::optional<SetupProgress> progress(std::in_place, options.talks());
   const LoadedScene loaded = load_scene(options.scene, options.overrides);
   const std::filesystem::path folder = folder_of(options);
   if (loaded.scene.afm) {
+    progress.reset();
     if (rank.led() != nullptr) require_ranks_can_run(loaded.scene);
     require_free_folder(loaded, folder);
     return run_afm(loaded, options, folder, rank.threads());
@@ -198,7 +202,10 @@ ExitCode run_scene(const RunOptions& options) {
   const OpenSession run = open_session(loaded,
                                        {folder, rank.threads(), options.talks(),
                                         options.checkpoints, rank.led(), options.warns_on()},
-                                       options.overwrite, take_interrupts);
+                                       options.overwrite, [&] {
+                                         progress.reset();
+                                         take_interrupts();
+                                       });
   return complete(*run.session, options);
 }
 
@@ -215,10 +222,12 @@ ExitCode resume_run(const RunOptions& options) {
   if (loaded.scene.afm) return resume_afm(loaded, options, checkpoint, threads);
   require_memory(loaded.scene, machines_of(rank.led()));
   Ranks* ranks = rank.led() != nullptr ? &rank.led()->tell(loaded) : nullptr;
+  std::optional<SetupProgress> progress(std::in_place, options.talks());
   Session run(loaded,
               {options.folder, threads, options.talks(), options.checkpoints, rank.led(),
                options.warns_on()},
               std::make_unique<Simulation>(loaded.scene, threads, ranks));
+  progress.reset();
   take_interrupts();
   run.go_on_from(checkpoint);
   return complete(run, options);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "cli/report/report.hpp"
@@ -14,6 +15,7 @@
 #include "engine/run_failure.hpp"
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
+#include "scenes/checks/servo_warnings.hpp"
 #include "scenes/setup_warnings.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/place.hpp"
@@ -53,8 +55,10 @@ void check_limits(const Scene& scene, const Results& results, const World& world
     hold("kinetic_energy", results.kinetic_ratio(), *scene.limits.kinetic_energy);
 }
 
-std::vector<std::string> warnings_at_start(const Scene& scene) {
-  return setup_warnings(scene, place_bodies(scene));
+std::vector<std::string> warnings_at_start(const Scene& scene, const World& world) {
+  std::vector<std::string> lines = setup_warnings(scene, place_bodies(scene));
+  std::ranges::move(servo_warnings(scene, world), std::back_inserter(lines));
+  return lines;
 }
 
 }  // namespace
@@ -92,7 +96,7 @@ void Session::begin() {
   }
   if (std::FILE* to = options_.warns_on) {
     for (const std::string& line : bond_warnings_) tell(to, "warning: {}\n", line);
-    for (const std::string& line : warnings_at_start(loaded_.scene))
+    for (const std::string& line : warnings_at_start(loaded_.scene, simulation_->whole()))
       tell(to, "warning: {}\n", line);
   }
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks);

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "engine/activity.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/outlines/outline_reach.hpp"
 #include "scenes/outlines/portable.hpp"
@@ -68,6 +69,7 @@ class RandomPacking {
     if (packing_.density) order_.min_height = full / *packing_.density / unit_;
     if (packing_.height) order_.min_height = *packing_.height / unit_;
     order_.time_to_shake = packing_.dense == PackingSpec::Dense::touching ? 0 : 1;
+    const Activity packing(fmt::format("random packing of {} particles", mixture.count));
     const FilledDie die = fill_die(order_);
     if (die.min_gap < 0) return refuse_die();
     if (order_.min_height > 0 && die.height > order_.min_height)
@@ -114,8 +116,9 @@ class RandomPacking {
   // Some overlapped, however high the die.
   void refuse_die() {
     const std::string key = ".width";
-    problems_.add(origin(key), path_ + key,
-                  "the particles cannot be placed in this die without overlap, allowed: a wider one");
+    problems_.add(
+        origin(key), path_ + key,
+        "the particles cannot be placed in this die without overlap, allowed: a wider one");
   }
 
   void refuse_density(double wanted, double reached) {

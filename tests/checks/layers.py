@@ -62,7 +62,7 @@ ROOMS = {
         "lever/mesh": "spec language",
         "wedge": "solve",
         "lever": "solve wedge lever/mesh spec language",
-        "checks": "lever meshes packing space/packing tools results outlines spec language",
+        "checks": "lever meshes packing space/packing tools results results/parts outlines spec language",
         "space/meshes": "meshes spec language",
         "space/packing": "space/meshes packing outlines spec language",
         "space/tools": "space/packing tools spec language",

@@ -168,7 +168,7 @@ Json laws_table(const Compressions& all) {
   Json table{{"title", "Laws"},
              {"head",
               {"curve", "law", "parameter", "value", "due to scatter", "height", "mass",
-               "compliance", "empty press", "rms of density"}},
+               "compliance", "empty press", "last sample", "rms of density"}},
              {"rows", Json::array()}};
   for (const auto& curve : all.curves)
     for (const lab::LawFit& law : curve.laws) {
@@ -178,7 +178,8 @@ Json laws_table(const Compressions& all) {
       for (const lab::Measured& p : law.parameters) {
         Json row{curve.name, law_title(law.fit.law), for_page(p.name),
                  measured_cell(p, all.confidence)};
-        for (const char* source : {"scatter", "height", "mass", "compliance", "empty press"}) {
+        for (const char* source :
+             {"scatter", "height", "mass", "compliance", "empty press", "last sample"}) {
           const auto found = std::ranges::find(p.contributions, source, &lab::Contribution::source);
           row.push_back(found == p.contributions.end() || !std::isfinite(found->error)
                             ? Json(nullptr)

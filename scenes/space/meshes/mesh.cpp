@@ -1,9 +1,12 @@
 #include "scenes/space/meshes/mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
+#include "engine/activity.hpp"
 #include "engine/result_cache.hpp"
 #include "scenes/space/meshes/cubed_sphere.hpp"
 #include "scenes/space/meshes/element_constants.hpp"
@@ -163,6 +166,7 @@ bool has_free_axes(const ShapeKey& of) {
 
 Shape shape_of(const ShapeKey& of) {
   const auto& [true_shape, mesh] = of;
+  const Activity meshing(fmt::format("mesh of {} elements for a particle", mesh.hexahedra()));
   const std::unique_ptr<StarSurface> surface = star_surface(true_shape);
   if (has_free_axes(of)) return shape_on_fitting_cube(mesh, *surface);
   if (mesh.grid == HexMeshSpec::Grid::cube) return shape_on_cube(mesh, *surface, nullptr);

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "engine/activity.hpp"
 #include "engine/portable_math.hpp"
 #include "scenes/packing/class_of_size.hpp"
 #include "scenes/packing/mixture.hpp"
@@ -55,6 +56,7 @@ class RandomPacking {
     if (packing_.density) order_.min_height = full / *packing_.density / unit_;
     if (packing_.height) order_.min_height = *packing_.height / unit_;
     order_.shaken = packing_.dense != PackingSpec::Dense::touching;
+    const Activity packing(fmt::format("random packing of {} particles", mixture.count));
     const FilledDie die = fill_die(order_);
     if (die.min_gap < 0) return refuse_die();
     if (order_.min_height > 0 && die.height > order_.min_height)

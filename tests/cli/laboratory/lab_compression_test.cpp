@@ -128,7 +128,7 @@ TEST(LabCompression, AValueAtItsBoundHasNoInterval) {
   const Measured k1 = parameter(curve, "cooper_eaton", "k1");
   EXPECT_NEAR(k1.value, 1e-4 * curve.curve.pressure[curve.curve.peak], 1);
   EXPECT_FALSE(k1.has_interval());
-  EXPECT_EQ(k1.contributions.size(), 5U);
+  EXPECT_EQ(k1.contributions.size(), 6U);
   for (const Contribution& c : k1.contributions) EXPECT_TRUE(std::isinf(c.error)) << c.source;
   for (const char* name : {"a1", "a2", "k2"})
     EXPECT_TRUE(parameter(curve, "cooper_eaton", name).has_interval()) << name;
@@ -183,6 +183,14 @@ struct NoisyPress {
   std::normal_distribution<double> noise{0, 2e-6};  // m
   static constexpr double yield = 420e6, a = 1.05, meeting = 30e-3, mass = 9e-3;
 
+  // m, of the powder at a force.
+  static auto height(const DieSpec& die) {
+    return [&die](double force) {
+      const double density = 1 - std::exp(-(force / die.area() / yield + a));
+      return mass / (die.solid_density * die.area() * density);
+    };
+  }
+
   PressRecord record(const auto& height) {
     PressRecord made;
     for (int i = 0; i <= 300; ++i) {
@@ -207,11 +215,7 @@ TEST(LabCompression, IntervalsKnowTheNoiseOfTheEmptyPress) {
           "mass = \"9 g\"\ninitial_density = 0.5\n",
           "reduce.toml", {})
           .settings;
-  const double area = settings.die.area();
-  const auto height = [&](double force) {
-    const double density = 1 - std::exp(-(force / area / NoisyPress::yield + NoisyPress::a));
-    return NoisyPress::mass / (settings.die.solid_density * area * density);
-  };
+  const auto height = NoisyPress::height(settings.die);
   int yields = 0, without = 0;
   for (int i = 0; i < 200; ++i) {
     const PressRecord empty = press.record([](double) { return 0.0; });
@@ -227,6 +231,36 @@ TEST(LabCompression, IntervalsKnowTheNoiseOfTheEmptyPress) {
   EXPECT_GE(yields, 181);
   EXPECT_LE(yields, 199);
   EXPECT_LT(without, 181);  // or the test could not tell
+}
+
+// Without an empty press: all heights follow from the last sample, with its noise of 2 um.
+TEST(LabCompression, IntervalsKnowTheNoiseOfTheLastSample) {
+  NoisyPress press;
+  const Settings settings =
+      load_settings_text(
+          "[die]\nsolid_density = \"7990 kg/m^3\"\n[compression]\nfit_from = \"100 MPa\"\n"
+          "[[curve]]\nname = \"a\"\npress = \"p.csv\"\nmass = \"9 g\"\nfinal_height = \"1 mm\"\n"
+          "initial_density = 0.5\n",
+          "reduce.toml", {})
+          .settings;
+  const Compliance machine{{12e-9, -6e-14}, {}, 0, 0, 0, {}};
+  CurveSpec spec = settings.curves.front();
+  spec.final_height = NoisyPress::height(settings.die)(70e3);
+  int with = 0, without = 0;
+  for (int i = 0; i < 200; ++i) {
+    const PressRecord record = press.record(NoisyPress::height(settings.die));
+    EXPECT_NEAR(displacement_noise(record), 2e-6, 0.6e-6);
+    Measured found =
+        parameter(reduce_curve(record, spec, settings, machine), "heckel", "yield_pressure");
+    const double error = std::abs(found.value - NoisyPress::yield);
+    with += error <= found.half_width(0.95) ? 1 : 0;
+    ASSERT_EQ(found.contributions.back().source, "last sample");
+    found.contributions.pop_back();
+    without += error <= found.half_width(0.95) ? 1 : 0;
+  }
+  EXPECT_GE(with, 181);
+  EXPECT_LE(with, 199);
+  EXPECT_LT(without, 100);
 }
 
 TEST(LabCompression, ASimulationIsComparedWhereBothHaveBeen) {
