@@ -286,7 +286,8 @@ void add_check(CLI::App& app, Options& options, ExitCode& code) {
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);
   checks
-      ->add_option("--reference", options.reference,
+      ->add_option(
+          "--reference", options.reference,
           "print the reference of the scene language instead: text or schema, or materials "
           "for the material library")
       ->check(CLI::IsMember({"text", "schema", "materials"}));

@@ -24,8 +24,9 @@ std::string packing_summary(const Scene& scene) {
         "packing[{}]: {}, relative density {:.4f}, die {:.6g} m x {:.6g} "
         "m, mean gap to the three nearest neighbours {:.3g} diameters, mean contacts per particle "
         "{:.3g}\n",
-        i, counted(packing.placed.size(), "particle"), packing.reached.density, packing.container.width,
-        packing.top - packing.container.corner.y(), packing.reached.mean_gap,
+        i, counted(packing.placed.size(), "particle"), packing.reached.density,
+        packing.container.width, packing.top - packing.container.corner.y(),
+        packing.reached.mean_gap,
         2.0 * packing.reached.touches / static_cast<double>(packing.placed.size()));
   }
   return text;

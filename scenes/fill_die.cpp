@@ -97,9 +97,9 @@ class DieFiller {
   // The rest of the scene is still read, with walls that its stages can refer to: what the packing gets wrong is the
   // mistake, and the missing width its consequence.
   void stand_somewhere() {
-    missing_ = {origin_, fmt::format("required key is missing, allowed: a quantity in m{}; {}",
-                                     in_space() ? ", or the diameter of a round die" : "",
-                                     why_no_width())};
+    missing_ = {origin_,
+                fmt::format("required key is missing, allowed: a quantity in m{}; {}",
+                            in_space() ? ", or the diameter of a round die" : "", why_no_width())};
     lengths_[0] = 1;
   }
 
@@ -201,8 +201,7 @@ class DieFiller {
         for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(dimension_); ++k)
           fill_length(packing, length_keys[k], *lengths_[k], path);
     }
-    if (spec_.corner && !is_kind(packing, {"csv"}) &&
-        document::find(packing, "corner") == nullptr)
+    if (spec_.corner && !is_kind(packing, {"csv"}) && document::find(packing, "corner") == nullptr)
       packing.push_back({"corner", origin_, place_of(corner())});
   }
 
@@ -245,7 +244,9 @@ class DieFiller {
     return nullptr;
   }
 
-  bool is_upright(const Wall& wall) const { return wall.axis + 1 < static_cast<std::size_t>(dimension_); }
+  bool is_upright(const Wall& wall) const {
+    return wall.axis + 1 < static_cast<std::size_t>(dimension_);
+  }
 
   void stand(const Wall& wall) {
     const bool rests = !is_upright(wall) && wall.normal < 0;
@@ -294,7 +295,7 @@ class DieFiller {
       problems_.add(document::find(tool, "point")->origin, path + ".point",
                     fmt::format("is at {} = {:g} m, but this side of the die is at {:g} m, "
                                 "allowed: the same position, or no tool '{}'",
-                                "xyz"[wall.axis], point->vector3[axis], at, wall.name));
+                                "xyz"[wall.axis], point -> vector3[axis], at, wall.name));
   }
 
   Table& root_;

@@ -78,9 +78,9 @@ ExitCode draw_preview(const PreviewOptions& options) {
   require_another(scene.file, options.output);
   require_own_or_none(options.output, role::figure);
   SceneFindings findings;
-  json setup = scene.afm     ? of_lever(scene, findings)
+  json setup = scene.afm          ? of_lever(scene, findings)
                : scene.in_space() ? of_space(scene, findings)
-                             : of_powder(scene, findings);
+                                  : of_powder(scene, findings);
   tell_findings(findings);
   setup["title"] = scene.title;
   setup["file"] = scene.file.filename().string();

@@ -19,11 +19,11 @@
 #include "scenes/checks/mesh_summary.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/checks/servo_warnings.hpp"
-#include "scenes/setup_warnings.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/lever/afm_size.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/setup_warnings.hpp"
 #include "scenes/space/overlaps.hpp"
 #include "scenes/space/space_summary.hpp"
 #include "scenes/spec/afm_scene.hpp"
@@ -60,7 +60,8 @@ std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodyS
                                      Simulation* simulation) {
   std::vector<std::string> lines;
   if (!scene.in_space()) lines = bending_warnings(scene);
-  if (simulation != nullptr && !scene.in_space() && has_bonds(scene))  // bonds are known only after a contact search
+  if (simulation != nullptr && !scene.in_space() &&
+      has_bonds(scene))  // bonds are known only after a contact search
     std::ranges::move(bond_warnings(scene, simulation->world()), std::back_inserter(lines));
   std::ranges::move(setup_warnings(scene, bodies), std::back_inserter(lines));
   add_servo_warnings(scene, simulation, lines);
@@ -71,14 +72,13 @@ SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodie
                           const MemoryNeed& need, Simulation* simulation) {
   SceneFindings findings;
   findings.sizes = scene.in_space() ? space::packing_summary(scene) + space::mesh_summary(scene)
-                               : packing_summary(scene) + mesh_summary(scene);
+                                    : packing_summary(scene) + mesh_summary(scene);
   findings.warnings = warnings_of(scene, bodies, simulation);
   findings.memory = memory_line(need);
   findings.run = estimate_line(simulation);
   findings.verdict =
       fmt::format("{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
-                  counted(scene.tools.size(), "tool"),
-                  counted(scene.stages.size(), "stage"));
+                  counted(scene.tools.size(), "tool"), counted(scene.stages.size(), "stage"));
   return findings;
 }
 

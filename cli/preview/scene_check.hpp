@@ -9,7 +9,6 @@
 #include "scenes/memory_need.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/spec/scene.hpp"
-#include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 

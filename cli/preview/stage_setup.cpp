@@ -42,8 +42,7 @@ json move_setup(const Scene& scene, const StageSpec& stage, const MoveSpec& move
 
 json servo_setup(const Scene& scene, const ServoSpec& servo) {
   return {{"tool", tool_name(scene, servo.tool)},
-          {"direction",
-           vector_of(direction_of(servo, scene), scene)},
+          {"direction", vector_of(direction_of(servo, scene), scene)},
           {"force", servo.force}};
 }
 

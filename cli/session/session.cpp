@@ -16,10 +16,10 @@
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
 #include "scenes/checks/servo_warnings.hpp"
-#include "scenes/setup_warnings.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/bond_results.hpp"
+#include "scenes/setup_warnings.hpp"
 
 namespace pulvis {
 namespace {

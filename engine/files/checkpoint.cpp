@@ -250,7 +250,8 @@ void Checkpoint::require_same_parts(const World& world,
     if (unused.erase(name) == 0) throw BadState("it has no " + name);
   };
   for (const ColumnBase* column : world.columns())
-    if (!column->declared_transient && !left_alone.contains(column->entity + "/" + column->info.name))
+    if (!column->declared_transient &&
+        !left_alone.contains(column->entity + "/" + column->info.name))
       use(column_name(*column));
   for (const World::SavedResource& resource : world.saved_resources())
     if (!left_alone.contains(resource.name)) use("/resources/" + resource.name);
@@ -260,7 +261,8 @@ void Checkpoint::require_same_parts(const World& world,
 void Checkpoint::restore(World& world, const std::set<std::string>& left_alone) const {
   require_same_parts(world, left_alone);
   for (const ColumnBase* column : world.columns())
-    if (!column->declared_transient && !left_alone.contains(column->entity + "/" + column->info.name))
+    if (!column->declared_transient &&
+        !left_alone.contains(column->entity + "/" + column->info.name))
       world.set_column(*column, file_.read_bytes(column_name(*column)));
   for (const World::SavedResource& r : world.saved_resources())
     if (!left_alone.contains(r.name)) r.set_state(resource(r.name));

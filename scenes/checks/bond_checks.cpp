@@ -193,8 +193,9 @@ std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
         "bond[{}] between '{}' and '{}': the cohesive zone ahead of a crack spans {:.3g} {}, at "
         "least {} are needed to resolve it: use {} of {:.3g} m, they are up to {:.3g} m {}",
         law, entry(scene.bonds, law).first, entry(scene.bonds, law).second, worst.zone / worst.edge,
-        scene.in_space() ? "faces" : "boundary edges", edges_in_zone, scene.in_space() ? "faces" : "edges",
-        worst.zone / edges_in_zone, worst.edge, scene.in_space() ? "wide" : "long"));
+        scene.in_space() ? "faces" : "boundary edges", edges_in_zone,
+        scene.in_space() ? "faces" : "edges", worst.zone / edges_in_zone, worst.edge,
+        scene.in_space() ? "wide" : "long"));
   return lines;
 }
 

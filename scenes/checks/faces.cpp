@@ -20,8 +20,7 @@ std::optional<Face> face_of_outline(const ToolSpec& tool) {
   if (tool.shape == ToolSpec::Shape::constraint) return std::nullopt;
   Face face{0, tool.point, in_space(face_normal(tool))};
   for (const Vec2& corner : tool.points)
-    if (&corner == &tool.points.front() ||
-        (in_space(corner) - face.point).dot(face.normal) < 0)
+    if (&corner == &tool.points.front() || (in_space(corner) - face.point).dot(face.normal) < 0)
       face.point = in_space(corner);
   return face;
 }

@@ -29,18 +29,12 @@ std::int64_t count(const DiscMesh& mesh) {
   if (mesh.core == DiscMesh::Core::even) return with_core(mesh.boundary_edges, mesh.rings);
   return with_core(mesh.boundary_edges / 3, 4) + std::int64_t{mesh.rings} * mesh.boundary_edges;
 }
-std::int64_t count(const RectangleMesh& mesh) {
-  return std::int64_t{mesh.columns} * mesh.rows;
-}
+std::int64_t count(const RectangleMesh& mesh) { return std::int64_t{mesh.columns} * mesh.rows; }
 std::int64_t count(const RoundedRectangleMesh& mesh) {
   return with_core(mesh.boundary_edges, mesh.rings);
 }
-std::int64_t count(const StarMesh& mesh) {
-  return with_core(mesh.boundary_edges, mesh.rings);
-}
-std::int64_t count(const RingMesh& mesh) {
-  return std::int64_t{mesh.rings} * mesh.boundary_edges;
-}
+std::int64_t count(const StarMesh& mesh) { return with_core(mesh.boundary_edges, mesh.rings); }
+std::int64_t count(const RingMesh& mesh) { return std::int64_t{mesh.rings} * mesh.boundary_edges; }
 std::int64_t quads(const MeshSpec& mesh) {
   return std::visit([](const auto& m) { return count(m); }, mesh);
 }

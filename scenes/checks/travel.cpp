@@ -32,7 +32,9 @@ std::optional<Enclosed> enclosed_area(const Scene& scene) {
   const auto sides = die_sides(scene);
   if (!sides) return std::nullopt;
   return [sides](const Places& places) {
-    const auto at = [&](std::size_t side) { return places[static_cast<std::size_t>((*sides)[side])]; };
+    const auto at = [&](std::size_t side) {
+      return places[static_cast<std::size_t>((*sides)[side])];
+    };
     const double width = at(1).x() - at(0).x(), height = at(3).y() - at(2).y();
     return width > 0 && height > 0 ? width * height : 0.0;
   };

@@ -116,18 +116,17 @@ Key<PackingSpec> container_length(const char* name, double ContainerSpec::*membe
 }
 
 Key<PackingSpec> corner_key() {
-  return {{.name = "corner",
-           .kind = Kind::vector,
-           .unit = "m",
-           .range = within(-largest_size, largest_size),
-           .fallback = zero_vector("0 m"),
-           .only_for = with_corner,
-           .doc = "Lower left corner of the lattice cell of the first particle, or of the die.",
-           .in_3d = {.doc = "Corner with the smallest x, y and z of the first lattice cell or of "
-                            "the box; for a cylinder, the centre of its floor."}},
-          [](PackingSpec& packing, const Decoded& value) {
-            packing.container.corner = value.vector3;
-          }};
+  return {
+      {.name = "corner",
+       .kind = Kind::vector,
+       .unit = "m",
+       .range = within(-largest_size, largest_size),
+       .fallback = zero_vector("0 m"),
+       .only_for = with_corner,
+       .doc = "Lower left corner of the lattice cell of the first particle, or of the die.",
+       .in_3d = {.doc = "Corner with the smallest x, y and z of the first lattice cell or of "
+                        "the box; for a cylinder, the centre of its floor."}},
+      [](PackingSpec& packing, const Decoded& value) { packing.container.corner = value.vector3; }};
 }
 
 std::vector<Key<PackingSpec>> container_keys() {
@@ -171,9 +170,10 @@ Key<PackingSpec> density_key() {
               "Higher densities, up to the maximum, take longer; densities above the maximum "
               "are refused.",
        .fallback_doc = "from count and height",
-       .in_3d = {.doc = "Relative density up to the top: volume of the particles divided by that of "
-                        "the box or cylinder. Spheres settle at 0.55 to 0.64, less in a narrow "
-                        "box; higher densities are refused."}},
+       .in_3d = {.doc =
+                     "Relative density up to the top: volume of the particles divided by that of "
+                     "the box or cylinder. Spheres settle at 0.55 to 0.64, less in a narrow "
+                     "box; higher densities are refused."}},
       [](PackingSpec& packing, const Decoded& value) {
         using Dense = PackingSpec::Dense;
         if (value.is_word)

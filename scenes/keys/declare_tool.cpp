@@ -94,28 +94,28 @@ Key<ToolSpec> body_key() {
 
 Key<ToolSpec> shape_key() {
   constexpr Dimension two = Dimension::two, three = Dimension::three;
-  return {{.name = "shape",
-           .kind = Kind::choice,
-           .choices = words_of<ToolSpec::Shape>(
-               {{"plane", "fills the half-plane or half-space behind its surface"},
-                {"polyline", "fills the region to the right of a chain of points", "", two},
-                {"constraint",
-                 "prescribes the displacement of the nodes of one particle in a box or a "
-                 "circle; has no contact",
-                 "grip", two},
-                {"profile", "a target surface: fills the region below a relief along x", "", two},
-                {"die",
-                 "a round hole: fills everything outside a cylinder, up to `height` if it is given",
-                 "", three},
-                {"punch", "a body of revolution about its axis, whose face has a profile", "",
-                 three},
-                {"stl", "a closed surface from a file", "", three}}),
-           .required = true,
-           .doc = "Type of tool."},
-          [](ToolSpec& spec, const Decoded& value) {
-            spec.shape = value_for<ToolSpec::Shape>(value);
-            if (spec.shape >= ToolSpec::Shape::die) spec.normal = Vec3::UnitZ();
-          }};
+  return {
+      {.name = "shape",
+       .kind = Kind::choice,
+       .choices = words_of<ToolSpec::Shape>(
+           {{"plane", "fills the half-plane or half-space behind its surface"},
+            {"polyline", "fills the region to the right of a chain of points", "", two},
+            {"constraint",
+             "prescribes the displacement of the nodes of one particle in a box or a "
+             "circle; has no contact",
+             "grip", two},
+            {"profile", "a target surface: fills the region below a relief along x", "", two},
+            {"die",
+             "a round hole: fills everything outside a cylinder, up to `height` if it is given", "",
+             three},
+            {"punch", "a body of revolution about its axis, whose face has a profile", "", three},
+            {"stl", "a closed surface from a file", "", three}}),
+       .required = true,
+       .doc = "Type of tool."},
+      [](ToolSpec& spec, const Decoded& value) {
+        spec.shape = value_for<ToolSpec::Shape>(value);
+        if (spec.shape >= ToolSpec::Shape::die) spec.normal = Vec3::UnitZ();
+      }};
 }
 
 Key<ToolSpec> point_key() {
@@ -179,8 +179,8 @@ std::vector<Key<ToolSpec>> keys_of_plane_shapes() {
       corners_rounding_key(),
       body_key(),
       box_corner_key("low", &ToolSpec::low,
-                 "Lower left corner of the box. Nodes on the boundary are included; positions "
-                 "are those of the initial state."),
+                     "Lower left corner of the box. Nodes on the boundary are included; positions "
+                     "are those of the initial state."),
       box_corner_key("high", &ToolSpec::high, "Upper right corner of the box."),
       radius_key(),
       holds_key()};

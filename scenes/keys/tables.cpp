@@ -31,8 +31,10 @@ TableView of_both(TableView plane, const TableView& space) {
 
 const Language& scene_language() {
   namespace in_space = space::language;
-  static const Language tables{
-      view_of(top_level()), variables(),       view_of(material()), view_of(material_damping()),
+  static const Language tables{view_of(top_level()),
+                               variables(),
+                               view_of(material()),
+                               view_of(material_damping()),
                                view_of(hardening()),
                                view_of(rate()),
                                of_both(view_of(particle()), view_of(in_space::particle())),
@@ -45,11 +47,24 @@ const Language& scene_language() {
                                view_of(cell()),
                                view_of(tool()),
                                view_of(stage()),
-      view_of(move()),      view_of(servo()),  view_of(until()),    view_of(cell_drive()),
-      view_of(friction()),  view_of(bond()),   view_of(contact()),  view_of(element()),
-      view_of(time()),      view_of(output()), view_of(limits()),   view_of(lever()),
-      view_of(tip()),       view_of(laser()),  view_of(detector()), view_of(surface()),
-      view_of(action()),    view_of(expect())};
+                               view_of(move()),
+                               view_of(servo()),
+                               view_of(until()),
+                               view_of(cell_drive()),
+                               view_of(friction()),
+                               view_of(bond()),
+                               view_of(contact()),
+                               view_of(element()),
+                               view_of(time()),
+                               view_of(output()),
+                               view_of(limits()),
+                               view_of(lever()),
+                               view_of(tip()),
+                               view_of(laser()),
+                               view_of(detector()),
+                               view_of(surface()),
+                               view_of(action()),
+                               view_of(expect())};
   return tables;
 }
 

@@ -6,7 +6,6 @@
 #include "scenes/spec/afm_scene.hpp"
 #include "scenes/spec/die.hpp"
 #include "scenes/spec/scene.hpp"
-#include "scenes/spec/scene.hpp"
 
 namespace pulvis::schema {
 

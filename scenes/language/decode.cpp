@@ -306,6 +306,12 @@ const document::Array& list(const KeyInfo& key, const Value& value) {
   return *array;
 }
 
+void add_to_list(const KeyInfo& key, const Value& value, Decoded& result) {
+  if (key.kind == Kind::texts) result.texts.push_back(line_of_text(key, value, 10'000));
+  if (key.kind == Kind::integers) result.integers.push_back(integer(key, value));
+  if (key.kind == Kind::numbers) result.numbers.push_back(bare_number(key, value));
+}
+
 }  // namespace
 
 Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
@@ -357,13 +363,9 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       number_or_text(key, value, result);
       break;
     case Kind::texts:
-      for (const Value& one : list(key, value)) result.texts.push_back(line_of_text(key, one, 10'000));
-      break;
     case Kind::integers:
-      for (const Value& one : list(key, value)) result.integers.push_back(integer(key, one));
-      break;
     case Kind::numbers:
-      for (const Value& one : list(key, value)) result.numbers.push_back(bare_number(key, one));
+      for (const Value& one : list(key, value)) add_to_list(key, one, result);
       break;
   }
   return result;

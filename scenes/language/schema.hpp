@@ -36,8 +36,8 @@ enum class Kind {
   texts,      // one or more strings
   integers,   // one or more integers
   numbers,    // one or more dimensionless numbers
-  file,       // the path of a table, mesh or record, relative to the folder of the file that names it
-  scene,      // the same for another scene
+  file,   // the path of a table, mesh or record, relative to the folder of the file that names it
+  scene,  // the same for another scene
 };
 
 struct Range {
@@ -86,15 +86,16 @@ struct InThreeDimensions {
 
 struct KeyInfo {
   std::string name = {};
-  std::string formerly = {};  // its name in older scenes, which is refused with a pointer to the new one
+  std::string formerly =
+      {};  // its name in older scenes, which is refused with a pointer to the new one
   Kind kind = Kind::text;
   std::string unit = {};  // SI, of quantities
   Range range = {};       // of quantities in the SI unit; for vectors, of each component
   int multiple_of = 1;    // of integers
-  int components = 0;     // of vectors, points, directions, counts; 0: one per dimension of the scene
+  int components = 0;  // of vectors, points, directions, counts; 0: one per dimension of the scene
   std::vector<Choice> choices =
-      {};                      // of a number, or a vector's last component: keywords allowed instead
-  std::string word = {};       // Kind::phase: the keyword allowed instead of a quantity
+      {};                 // of a number, or a vector's last component: keywords allowed instead
+  std::string word = {};  // Kind::phase: the keyword allowed instead of a quantity
   std::string refers_to = {};  // Kind::reference: the table whose names are allowed
   std::optional<document::Value> fallback = {};  // the default
   bool required = false;
@@ -106,15 +107,16 @@ struct KeyInfo {
   Dimension dimension = Dimension::every;
   InThreeDimensions in_3d = {};
   std::size_t number = 0;  // in its declaration (view_of)
-  bool of_lever = false;          // in a table of levers, where lengths are in micrometres (view_of)
+  bool of_lever = false;   // in a table of levers, where lengths are in micrometres (view_of)
 };
 
 // A value as passed to its setter; its kind determines which members are set.
 struct Decoded {
   double number = 0;  // quantity in SI, number
   std::int64_t integer = 0;
-  int index = 0;         // choice, reference: index in the list
-  bool is_word = false;  // phase; number or vector (last component) with keywords: `index` says which
+  int index = 0;  // choice, reference: index in the list
+  bool is_word =
+      false;  // phase; number or vector (last component) with keywords: `index` says which
   bool flag = false;
   std::array<int, 2> counts = {};
   Vec2 vector = Vec2::Zero();

@@ -54,11 +54,12 @@ class RandomPacking {
   }
 
   void run() {
-    const Mixture mixture = mixture_of(
-        {packing_.classes, packing_.count, packing_.density, packing_.height,
-         packing_.dense != PackingSpec::Dense::given, packing_.container.width, 2, scene_.file.parent_path(),
-         [&](const MixtureClass& mixed) { return measure_of(scene_, mixed); }},
-        path_, origins_, problems_);
+    const Mixture mixture =
+        mixture_of({packing_.classes, packing_.count, packing_.density, packing_.height,
+                    packing_.dense != PackingSpec::Dense::given, packing_.container.width, 2,
+                    scene_.file.parent_path(),
+                    [&](const MixtureClass& mixed) { return measure_of(scene_, mixed); }},
+                   path_, origins_, problems_);
     if (mixture.count == 0) return;
     unit_ = 2 * std::sqrt(mixture.content / mixture.count / std::numbers::pi);
     for (const MixtureSize& size : mixture.sizes) add(size);

@@ -155,7 +155,7 @@ class Mixer {
     for (std::size_t c = 0; c < laws_.size(); ++c) {
       const MixtureClass& mixed = packing_.classes[c];
       shares.push_back(mixed.content_fraction ? *mixed.content_fraction / laws_[c].mean_content
-                                           : mixed.number_fraction.value_or(1));
+                                              : mixed.number_fraction.value_or(1));
     }
     return shares;
   }

@@ -146,8 +146,7 @@ double touching_spacing(Kind kind) {
 
 Vec3 size_of_lattice(const PackingSpec& packing) {
   if (!is_in_plane(packing))
-    return packing.spacing * reach_of_cells(packing) +
-           Vec3::Constant(neighbour_distance(packing));
+    return packing.spacing * reach_of_cells(packing) + Vec3::Constant(neighbour_distance(packing));
   const double rise = rise_of_rows(packing);
   return packing.spacing * Vec3(packing.cells[0], rise * (packing.cells[1] - 1) + 1, 0);
 }

@@ -21,12 +21,23 @@ namespace {
 
 // Set by the step, or by the root when results are taken, and not identical on all ranks.
 bool is_of_a_share(const std::string& resource) {
-  static const std::set<std::string> own{
-      "bodies",        "rank_link",          "contact_index",      "contact_network",
-      "density_grid",  "force_chains",       "fragments",
-      "contact_sums",  "tool_contact_sums",  "contact_blocks",     "tool_contact_blocks",
-      "face_pairs",    "face_tool_contact_blocks", "pair_loads",  "triangle_lists",
-      "bond_sums",     "tool_bond_sums"};
+  static const std::set<std::string> own{"bodies",
+                                         "rank_link",
+                                         "contact_index",
+                                         "contact_network",
+                                         "density_grid",
+                                         "force_chains",
+                                         "fragments",
+                                         "contact_sums",
+                                         "tool_contact_sums",
+                                         "contact_blocks",
+                                         "tool_contact_blocks",
+                                         "face_pairs",
+                                         "face_tool_contact_blocks",
+                                         "pair_loads",
+                                         "triangle_lists",
+                                         "bond_sums",
+                                         "tool_bond_sums"};
   return own.contains(resource);
 }
 
@@ -37,7 +48,7 @@ Gatherer::Gatherer(World& share, World* whole)
 
 // Joins the data of every chunk from all ranks, in chunk order; on the root.
 std::vector<std::byte> Gatherer::joined(std::span<const std::byte> own,
-                                         const std::vector<std::size_t>& bytes_of_chunk) {
+                                        const std::vector<std::size_t>& bytes_of_chunk) {
   const std::vector<Ranks::Bytes> all = ranks_.gather(own);
   if (whole_ == nullptr) return {};
   const std::vector<int>& owner = share_.resource<RankLink>().owner;
@@ -66,9 +77,8 @@ void Gatherer::column(std::size_t number) {
   // The ranges of a rank count from the start of its own list.
   if (whole_ != nullptr && share_.has<space::TriangleLists>() &&
       &own == &share_.column<space::TriangleRange>())
-    space::TriangleLists::make_consecutive(
-        {whole_->column<space::TriangleRange>().values(),
-         2 * static_cast<std::size_t>(begins.whole.back())});
+    space::TriangleLists::make_consecutive({whole_->column<space::TriangleRange>().values(),
+                                            2 * static_cast<std::size_t>(begins.whole.back())});
 }
 
 void Gatherer::part_of_column(std::size_t number, const RowBegins& begins, int first, int last) {
@@ -135,9 +145,8 @@ Gatherer::RowBegins Gatherer::row_begins(const std::string& entity) {
   bodies.for_own_lanes(
       [&](int slot) { counts.push_back(entry(begins.own, slot + 1) - entry(begins.own, slot)); });
   const std::vector<std::byte> all =
-      joined(bytes_of(counts),
-             std::vector<std::size_t>(static_cast<std::size_t>(bodies.chunks()),
-                                      lane_count * sizeof(std::int32_t)));
+      joined(bytes_of(counts), std::vector<std::size_t>(static_cast<std::size_t>(bodies.chunks()),
+                                                        lane_count * sizeof(std::int32_t)));
   if (whole_ == nullptr) return begins;
   begins.whole.assign(1, 0);
   for (const std::int32_t count : list_in<std::int32_t>(all))
@@ -211,8 +220,7 @@ void Gatherer::neighbours() {
     bodies.for_own_lanes([&](int) { counts.push_back(0); });
   const auto chunks = static_cast<std::size_t>(bodies.chunks());
   const std::vector<std::byte> all =
-      joined(bytes_of(counts),
-             std::vector<std::size_t>(chunks, lane_count * sizeof(std::int32_t)));
+      joined(bytes_of(counts), std::vector<std::size_t>(chunks, lane_count * sizeof(std::int32_t)));
   const auto of_slot = list_in<std::int32_t>(all);
   std::vector<std::size_t> of_chunk(chunks), images_of_chunk(chunks);
   for (std::size_t slot = 0; slot < of_slot.size(); ++slot) {
@@ -244,8 +252,8 @@ void Gatherer::common() {
   }
   for (const World::SavedResource& resource : whole_->saved_resources()) {
     if (is_of_a_share(resource.name)) continue;
-    const auto own = std::ranges::find(share_.saved_resources(), resource.name,
-                                       &World::SavedResource::name);
+    const auto own =
+        std::ranges::find(share_.saved_resources(), resource.name, &World::SavedResource::name);
     resource.set_state(own->state());
   }
 }
@@ -276,17 +284,16 @@ void take_rows(const Checkpoint& checkpoint, World& share, const char* entity) {
     for (std::size_t first = 0, last = 0; first < kept.size(); first = last) {
       while (last < kept.size() && kept[last] - kept[first] == static_cast<int>(last - first))
         ++last;
-      const std::vector<std::byte> rows = checkpoint.column(
-          entity + std::string("/") + column->info.name,
-          static_cast<std::uint64_t>(kept[first]) * column->row_bytes,
-          (last - first) * column->row_bytes);
+      const std::vector<std::byte> rows =
+          checkpoint.column(entity + std::string("/") + column->info.name,
+                            static_cast<std::uint64_t>(kept[first]) * column->row_bytes,
+                            (last - first) * column->row_bytes);
       own.insert(own.end(), rows.begin(), rows.end());
     }
     share.set_column(*column, own);
   }
   ContactIndex& index = share.resource<ContactIndex>();
-  std::vector<std::int32_t>& begin =
-      is_with_tools(entity) ? index.tool_begin : index.sampled_begin;
+  std::vector<std::int32_t>& begin = is_with_tools(entity) ? index.tool_begin : index.sampled_begin;
   if (!begin.empty()) begin = begins_of(keys_of(share, entity), bodies.slots.size());
 }
 

@@ -150,8 +150,9 @@ constexpr const char* mean_damage = "mean of its bonded points, 0 ... 1";
 constexpr const char* other_meaning =
     "number of the other particle; for a tool: -1 - its position in the scene";
 const char* damage_meaning(const Scene& scene) {
-  return scene.in_space() ? "broken share of the area bonded at the start; NaN if nothing was bonded"
-                     : "broken share of the length bonded at the start; NaN if nothing was bonded";
+  return scene.in_space()
+             ? "broken share of the area bonded at the start; NaN if nothing was bonded"
+             : "broken share of the length bonded at the start; NaN if nothing was bonded";
 }
 
 // Where the bonds and cracks are: lines in two dimensions; in three one entry per bonded face, and points of the cracks.

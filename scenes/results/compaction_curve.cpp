@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/tools/die_room.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/tools/contact_rules.hpp"
+#include "scenes/tools/die_room.hpp"
 
 namespace pulvis {
 namespace {

@@ -48,10 +48,11 @@ std::string of_hourglass(const Scene& scene) {
 
 std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
   if (contacts.stiffness_to_do() <= scene.contact.stiffness)
-    return scene.in_space() ? "use smaller faces (particle.mesh.divisions): the contacts are already as "
-                         "stiff as possible"
-                       : "use shorter boundary edges (boundary_edges): the contacts are already as "
-                         "stiff as possible";
+    return scene.in_space()
+               ? "use smaller faces (particle.mesh.divisions): the contacts are already as "
+                 "stiff as possible"
+               : "use shorter boundary edges (boundary_edges): the contacts are already as "
+                 "stiff as possible";
   // For powders: soft springs offset the extra force due to coarse faces (docs/accuracy.md).
   return fmt::format(
       "use contact.stiffness = {:g}{}", contacts.stiffness_to_do(),

@@ -4,11 +4,11 @@
 #include <array>
 
 #include "components/run_state.hpp"
-#include "scenes/space/contact_columns.hpp"
 #include "scenes/checks/travel.hpp"
+#include "scenes/packing/place.hpp"
+#include "scenes/space/contact_columns.hpp"
 #include "scenes/space/layout.hpp"
 #include "scenes/space/overlaps.hpp"
-#include "scenes/packing/place.hpp"
 #include "scenes/space/results/observe.hpp"
 #include "scenes/space/tools/drives.hpp"
 #include "systems/laws/flow_law.hpp"

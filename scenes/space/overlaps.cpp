@@ -9,11 +9,11 @@
 
 #include "scenes/checks/far_away.hpp"
 #include "scenes/language/problem.hpp"
+#include "scenes/packing/place.hpp"
 #include "scenes/space/meshes/directions.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
 #include "scenes/space/packing/container.hpp"
 #include "scenes/space/packing/near_pairs.hpp"
-#include "scenes/packing/place.hpp"
 #include "scenes/space/tools/tool_depth.hpp"
 #include "scenes/space/tools/tool_shapes.hpp"
 
@@ -184,14 +184,13 @@ class OverlapReport {
     add(overlap,
         fmt::format("{} is outside the die: it reaches {:.6g} m behind tool '{}', allowed: "
                     "particles in front of every tool",
-                    described(overlap.particle), overlap.depth,
-                    scene_.tools[overlap.other].name));
+                    described(overlap.particle), overlap.depth, scene_.tools[overlap.other].name));
   }
   void inside(const Overlap& overlap) {
-    add(overlap, fmt::format("{} reaches {:.6g} m into tool '{}', allowed: particles outside of "
-                             "every tool",
-                             described(overlap.particle), overlap.depth,
-                             scene_.tools[overlap.other].name));
+    add(overlap,
+        fmt::format("{} reaches {:.6g} m into tool '{}', allowed: particles outside of "
+                    "every tool",
+                    described(overlap.particle), overlap.depth, scene_.tools[overlap.other].name));
   }
   void turned_away(std::size_t number) {
     const ToolSpec& tool = scene_.tools[number];
@@ -232,8 +231,8 @@ class OverlapReport {
     const BodySpec& body = bodies_[i];
     const Vec3& p = body.position;
     return fmt::format("particle {} ('{}' at ({:.6g}, {:.6g}, {:.6g}) m)", i,
-                       scene_.particles[static_cast<std::size_t>(body.particle)].name, p.x(),
-                       p.y(), p.z());
+                       scene_.particles[static_cast<std::size_t>(body.particle)].name, p.x(), p.y(),
+                       p.z());
   }
 
   const Scene& scene_;

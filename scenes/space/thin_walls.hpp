@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scenes/spec/scene.hpp"
-#include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 

@@ -25,10 +25,10 @@ struct CellDriveSpec {
   std::optional<double> stress_ratio;  // -, of xx to yy, instead of strain or stress xx
   std::optional<double> mean_stress;   // Pa, of xx and yy, likewise
   double rotation = 0;                 // rad, over the stage
-  double ramp = 0.1;                   // -, fraction of the stage in which the rate rises, and falls
-  double rise = 0.2;                   // -, fraction of the stage until a stress is prescribed in full
-  double response = 0.1;               // -, inertia of the cell relative to that of the powder
-  double tolerance = 0.05;             // -, of the largest stress, at the end of the stage
+  double ramp = 0.1;        // -, fraction of the stage in which the rate rises, and falls
+  double rise = 0.2;        // -, fraction of the stage until a stress is prescribed in full
+  double response = 0.1;    // -, inertia of the cell relative to that of the powder
+  double tolerance = 0.05;  // -, of the largest stress, at the end of the stage
   SourceMark mark;
 };
 

@@ -17,10 +17,10 @@
 #include "scenes/language/source_mark.hpp"
 #include "scenes/language/vectors.hpp"
 #include "scenes/spec/cell_spec.hpp"
+#include "scenes/spec/particle_shape.hpp"
 #include "scenes/spec/profile_spec.hpp"
 #include "scenes/spec/results_spec.hpp"
 #include "scenes/spec/rotation.hpp"
-#include "scenes/spec/particle_shape.hpp"
 
 namespace pulvis {
 
@@ -45,7 +45,8 @@ struct MaterialSpec {
 struct DiscMesh {
   int boundary_edges = 40;  // a multiple of 4, with a coarse core of 12
   int rings = 1;  // of quads between the core and the outline; 0: the core's rim is the outline
-  double refinement = 1;  // >= 1: edges at top and bottom are finer than at the sides by this factor
+  double refinement =
+      1;  // >= 1: edges at top and bottom are finer than at the sides by this factor
   enum class Core {
     even,  // (boundary_edges/4)^2 quads
     coarse,  // (boundary_edges/12)^2, and a ring of transition quads: one core edge for three outline edges
@@ -103,22 +104,22 @@ struct SuperellipseOutline {  // |2x/width|^exponent + |2y/height|^exponent = 1
 // Given by its corners, or regular: `sides` sides in a circle of this diameter, one side at the bottom.
 struct PolygonOutline {
   using Mesh = StarMesh;
-  int sides = 0;                   // 0: given by corners
-  double diameter = 0;             // m
-  std::vector<Vec2> corners = {};  // m, in either order of rotation; the centroid becomes the origin
-  double rounding = 0;             // m, radius of all corners; 0: sharp
-  bool mirrored = false;           // x -> -x
+  int sides = 0;        // 0: given by corners
+  double diameter = 0;  // m
+  std::vector<Vec2> corners =
+      {};                 // m, in either order of rotation; the centroid becomes the origin
+  double rounding = 0;    // m, radius of all corners; 0: sharp
+  bool mirrored = false;  // x -> -x
 };
 // A closed C2 curve (periodic cubic spline) through or near measured points.
 struct PointsOutline {
   using Mesh = StarMesh;
-  std::string file = {};          // CSV, relative to the scene
-  std::string unit = {};          // of its numbers, if its header gives none
-  std::string layer = {};         // of a drawing: the layer with the outline; empty: all of it
-  std::vector<Vec2> points = {};  // m, as in the file
-  double smoothing = 0;           // m, root mean square distance of the curve from the points
-  std::optional<double> width =
-      {};  // m, size to scale to, at most one of these: the extent in x,
+  std::string file = {};             // CSV, relative to the scene
+  std::string unit = {};             // of its numbers, if its header gives none
+  std::string layer = {};            // of a drawing: the layer with the outline; empty: all of it
+  std::vector<Vec2> points = {};     // m, as in the file
+  double smoothing = 0;              // m, root mean square distance of the curve from the points
+  std::optional<double> width = {};  // m, size to scale to, at most one of these: the extent in x,
   std::optional<double> diameter = {};  // m, the diameter of the circle of equal area,
   std::optional<double> area = {};      // m^2
   bool mirrored = false;                // x -> -x
@@ -170,7 +171,7 @@ struct GrainPlace {
 struct ParticleSpec {  // a class of identical particles
   std::string name;
   int material = 0;  // index in Scene::materials
-  Outline outline;  // in two dimensions
+  Outline outline;   // in two dimensions
   MeshSpec mesh;
   bool random_mesh_phase =
       false;  // rotate every particle's mesh by its own random angle (disc, ring), or rotation (sphere)
@@ -186,13 +187,13 @@ struct ParticleSpec {  // a class of identical particles
   HexMeshSpec hex_mesh = {};
 };
 
-struct BodySpec {                // one particle, placed individually
-  int particle = 0;              // index in Scene::particles
-  Vec3 position = Vec3::Zero();  // m, centre of the outline or of the volume
-  double angle = 0;              // rad, counter-clockwise; in two dimensions
+struct BodySpec {                            // one particle, placed individually
+  int particle = 0;                          // index in Scene::particles
+  Vec3 position = Vec3::Zero();              // m, centre of the outline or of the volume
+  double angle = 0;                          // rad, counter-clockwise; in two dimensions
   Rotation rotation = Rotation::Identity();  // from its local frame to the scene's; in three
-  Vec3 velocity = Vec3::Zero();                // m/s
-  Vec3 angular_velocity = Vec3::Zero();        // rad/s, in the scene's frame
+  Vec3 velocity = Vec3::Zero();              // m/s
+  Vec3 angular_velocity = Vec3::Zero();      // rad/s, in the scene's frame
   SourceMark mark;
   int parent = -1;  // of a grain: the particle's number in the order of placement
 };
@@ -210,19 +211,19 @@ struct SizeLaw {
 
 // Part of a random packing: particles of one class and their sizes.
 struct MixtureClass {
-  int particle = 0;                       // index in Scene::particles
-  std::optional<int> number;              // one of these three
-  std::optional<double> number_fraction;  // -, of all particles
+  int particle = 0;                        // index in Scene::particles
+  std::optional<int> number;               // one of these three
+  std::optional<double> number_fraction;   // -, of all particles
   std::optional<double> content_fraction;  // -, of their total area or volume
   SizeLaw size;
   SourceMark mark;
 };
 
 struct PackingReached {  // the result of a random packing
-  double density = 0;    // -, area of the particles over that of the die up to the top of the packing
-  double mean_gap = 0;   // -, to the three nearest neighbours, in diameters
-  double min_gap = 0;    // m, between any two particles, or a particle and the die
-  int touches = 0;       // pairs of particles with a gap below a thousandth of a diameter
+  double density = 0;  // -, area of the particles over that of the die up to the top of the packing
+  double mean_gap = 0;  // -, to the three nearest neighbours, in diameters
+  double min_gap = 0;   // m, between any two particles, or a particle and the die
+  int touches = 0;      // pairs of particles with a gap below a thousandth of a diameter
 };
 
 // Where a packing stands: a box (in two dimensions a die), or a cylinder along z.
@@ -244,7 +245,8 @@ struct PackingSpec {
   Kind kind = Kind::square;
   int particle = 0;
   std::array<int, 3> cells{1, 1, 0};  // along x, y, z; in two dimensions columns, rows, 0
-  double spacing = 0;  // m, centre to centre; in three dimensions, except hexagonal: edge of the cell
+  double spacing =
+      0;  // m, centre to centre; in three dimensions, except hexagonal: edge of the cell
   double perturbation = 0;  // -, of the spacing: maximum offset of a centre from its lattice site
   ContainerSpec container;  // of lattices: only the corner of the first cell
   std::optional<double> height;   // m
@@ -268,25 +270,28 @@ struct ToolSpec {
   enum class Shape { plane, polyline, constraint, profile, die, punch, stl };
   enum class Holds { x, y, both, radial };
   std::string name;
-  Vec3 point = Vec3::Zero();    // m; for a radial constraint, and one with a radius: its centre
-  bool on_packing = false;      // point's last component is the top of the highest packing
-  Vec3 normal = Vec3::UnitY();  // unit vector, from the tool into the powder; of dies and punches: the axis
+  Vec3 point = Vec3::Zero();  // m; for a radial constraint, and one with a radius: its centre
+  bool on_packing = false;    // point's last component is the top of the highest packing
+  Vec3 normal =
+      Vec3::UnitY();  // unit vector, from the tool into the powder; of dies and punches: the axis
   SourceMark mark;
   Shape shape = Shape::plane;
   std::vector<Vec2> points = {};  // m, of a polyline, or of a profile generated from `relief`
-  std::string file = {};          // of a drawing, a measured profile, an STL tool: relative to the scene
-  std::string unit = {};          // of its numbers, if it gives none
-  std::string layer = {};         // of a drawing: the layer to use
-  ProfileSpec relief = {};        // of a profile whose crests are at the height of `point`
-  double rounding = 0;            // m, radius of a polyline's convex corners, of the edge of a die's mouth
-  int body = 0;                   // of a constraint, in the order of placement
-  Vec2 low = Vec2::Zero();        // m, corners of a constraint's box
+  std::string file = {};    // of a drawing, a measured profile, an STL tool: relative to the scene
+  std::string unit = {};    // of its numbers, if it gives none
+  std::string layer = {};   // of a drawing: the layer to use
+  ProfileSpec relief = {};  // of a profile whose crests are at the height of `point`
+  double rounding = 0;  // m, radius of a polyline's convex corners, of the edge of a die's mouth
+  int body = 0;         // of a constraint, in the order of placement
+  Vec2 low = Vec2::Zero();  // m, corners of a constraint's box
   Vec2 high = Vec2::Zero();
   std::optional<double> radius = {};  // m, about `point`, instead of the box
   Holds holds = Holds::both;
-  double diameter = 0;                // m, of a die, of a punch
-  std::optional<double> height = {};  // m, of a die whose hole ends: its mouth, from `point` along the normal
-  std::vector<Vec2> profile = {};     // m, of a punch: radius, height along the normal; from the axis outward
+  double diameter = 0;  // m, of a die, of a punch
+  std::optional<double> height =
+      {};  // m, of a die whose hole ends: its mouth, from `point` along the normal
+  std::vector<Vec2> profile =
+      {};  // m, of a punch: radius, height along the normal; from the axis outward
   // m, relative to `point`, of an STL tool, set once it has been read.
   std::vector<std::array<Vec3, 3>> triangles = {};
 };
@@ -342,9 +347,11 @@ struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names 
   std::string first, second;
   double coefficient = 0;                    // -, the dynamic one if there is a static one
   std::optional<double> static_coefficient;  // -, before sliding
-  std::optional<double> decay_length;    // m, sliding distance over which the difference decays to 1/e
+  std::optional<double>
+      decay_length;  // m, sliding distance over which the difference decays to 1/e
   std::optional<double> shear_strength;  // Pa
-  std::optional<double> rate, reference_speed;  // -, m/s: increases by rate ln(1 + v/reference_speed)
+  std::optional<double> rate,
+      reference_speed;  // -, m/s: increases by rate ln(1 + v/reference_speed)
   SourceMark mark;
 };
 
@@ -354,14 +361,14 @@ struct BondSpec {  // for one pair of names (materials or tools)
   std::optional<double> strength, shear_strength;                // Pa
   std::optional<double> fracture_energy, shear_fracture_energy;  // J/m^2
   double mixed_mode_exponent = 2;                                // -
-  double stiffness = 20;                                         // -, relative to the contact spring's
-  double reach = 0.01;                                           // -, relative to the boundary edge
-  std::optional<double> weibull_modulus;                         // -
-  double threshold = 0;                                          // Pa
-  double growth = 0;                                             // -
-  double work = 0;                                               // J/m^2, of adhesion
-  double range = 0;                                              // m
-  bool inside = false;  // only between grains of one particle
+  double stiffness = 20;                  // -, relative to the contact spring's
+  double reach = 0.01;                    // -, relative to the boundary edge
+  std::optional<double> weibull_modulus;  // -
+  double threshold = 0;                   // Pa
+  double growth = 0;                      // -
+  double work = 0;                        // J/m^2, of adhesion
+  double range = 0;                       // m
+  bool inside = false;                    // only between grains of one particle
   SourceMark mark;
 };
 

@@ -71,7 +71,8 @@ bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
                        "node in it",
                        tool.body));
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Vec2& place : places) nearest = std::min(nearest, (place - in_plane(tool.point)).norm());
+  for (const Vec2& place : places)
+    nearest = std::min(nearest, (place - in_plane(tool.point)).norm());
   refuse(scene, number, "radius",
          fmt::format("no node of particle {} lies within it, allowed: at least {:.6g} m, the "
                      "distance of the nearest one",

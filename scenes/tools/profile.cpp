@@ -116,8 +116,7 @@ std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {
   const double last = std::ceil((extent.high - from) / relief.pitch) + pitches_beyond;
   std::vector<Vec2> points{at + Vec2((first - 1) * relief.pitch, 0)};  // flat extension
   for (double k = first; k < last; ++k)
-    for (const Vec2& corner : pitch)
-      points.push_back(at + corner + Vec2(k * relief.pitch, 0));
+    for (const Vec2& corner : pitch) points.push_back(at + corner + Vec2(k * relief.pitch, 0));
   points.push_back(at + Vec2(last * relief.pitch, 0));
   points.push_back(at + Vec2((last + 1) * relief.pitch, 0));
   return points;
@@ -232,8 +231,8 @@ class ProfileChecks {
 // One tool's polyline, and what is wrong with it.
 class ProfileMaker {
  public:
-  ProfileMaker(Scene& scene, std::size_t tool, const PowderSpan& powder, const schema::Origins& origins,
-               Problems& problems)
+  ProfileMaker(Scene& scene, std::size_t tool, const PowderSpan& powder,
+               const schema::Origins& origins, Problems& problems)
       : scene_(scene),
         tool_(scene.tools[tool]),
         extent_(covered(scene, static_cast<int>(tool), powder)),

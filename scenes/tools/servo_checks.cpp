@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "scenes/tools/die_room.hpp"
 #include "scenes/tools/die_cell.hpp"
+#include "scenes/tools/die_room.hpp"
 
 namespace pulvis {
 namespace {
@@ -64,8 +64,7 @@ class ServoChecks {
                     fmt::format("required key is missing: only planes and punches have a normal, "
                                 "allowed: {} numbers, not all 0",
                                 scene_.in_space() ? "three" : "two"));
-    if (has_face(tool(servo)) &&
-        pulls_off(scene_, tool(servo).name, direction, tool(servo).normal))
+    if (has_face(tool(servo)) && pulls_off(scene_, tool(servo).name, direction, tool(servo).normal))
       refuse(path, "direction", fmt::format(pulled_off, tool(servo).name));
     for (const MoveSpec& move : stage_.moves)
       if (move.tool == servo.tool && !move.stiffness &&

@@ -36,12 +36,12 @@ diameter = "1 mm"
 
 std::string moved_by(const std::string& kind, const std::string& displacement,
                      const std::string& keys = "") {
-  return "[[stage]]\nname = \"" + kind + "\"\nkind = \"" + kind +
-         "\"\nduration = \"15 us\"\n" + keys +
-         "[[stage.move]]\ntool = \"top\"\ndisplacement = " + displacement + "\n";
+  return "[[stage]]\nname = \"" + kind + "\"\nkind = \"" + kind + "\"\nduration = \"15 us\"\n" +
+         keys + "[[stage.move]]\ntool = \"top\"\ndisplacement = " + displacement + "\n";
 }
 std::string held_at(const std::string& force) {
-  return "[[stage]]\nname = \"hold\"\nkind = \"hold\"\nduration = \"15 us\"\n[[stage.servo]]\ntool = "
+  return "[[stage]]\nname = \"hold\"\nkind = \"hold\"\nduration = \"15 us\"\n[[stage.servo]]\ntool "
+         "= "
          "\"top\"\nforce = \"" +
          force + "\"\ntolerance = 1\n";
 }

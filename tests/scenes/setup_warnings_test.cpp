@@ -75,8 +75,7 @@ TEST(SetupWarnings, AStageOfCompactionThatLoadsNothingIsTold) {
     const Scene scene =
         read_scene(paths::source_dir() + "/scenes/compaction-3d/one-sphere.toml", overrides);
     std::string all;
-    for (const std::string& line : setup_warnings(scene, place_bodies(scene)))
-      all += line + "\n";
+    for (const std::string& line : setup_warnings(scene, place_bodies(scene))) all += line + "\n";
     return all;
   };
   const char* away = "tool 'top' moves away from the powder, and no tool moves towards it";

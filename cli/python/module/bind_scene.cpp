@@ -10,11 +10,11 @@
 #include "cli/save_scene.hpp"
 #include "engine/interruption.hpp"
 #include "scenes/checks/lever_warnings.hpp"
-#include "scenes/setup_warnings.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
+#include "scenes/setup_warnings.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis::python {

@@ -8,8 +8,8 @@
 #include "scenes/results/observables/enclosure.hpp"
 #include "scenes/results/observables/result_rows.hpp"
 #include "scenes/space/results/die_wall.hpp"
-#include "scenes/tools/die_room.hpp"
 #include "scenes/spec/yield.hpp"
+#include "scenes/tools/die_room.hpp"
 
 namespace pulvis {
 namespace {

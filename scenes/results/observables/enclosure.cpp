@@ -4,8 +4,8 @@
 
 #include "components/cell.hpp"
 #include "components/contact.hpp"
-#include "scenes/tools/die_room.hpp"
 #include "scenes/tools/die_relief.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "systems/tools/relief_kernel.hpp"
 
 namespace pulvis {

@@ -12,9 +12,9 @@
 #include "engine/portable_math.hpp"
 #include "scenes/packing/class_of_size.hpp"
 #include "scenes/packing/mixture.hpp"
+#include "scenes/packing/place.hpp"
 #include "scenes/space/packing/die_filling.hpp"
 #include "scenes/space/packing/packing_file.hpp"
-#include "scenes/packing/place.hpp"
 #include "scenes/space/packing/widths.hpp"
 
 namespace pulvis::space {

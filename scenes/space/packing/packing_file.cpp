@@ -32,8 +32,7 @@ std::string header(const Scene& scene) {
         "{:.3g} m, {}\n",
         packing.placed.size(), r.density, r.mean_gap, r.min_gap, described(packing));
   }
-  if (!scene.packings.empty())
-    text += fmt::format("# top: {} m\n", top_of_packings(scene));
+  if (!scene.packings.empty()) text += fmt::format("# top: {} m\n", top_of_packings(scene));
   return text;
 }
 

@@ -11,7 +11,8 @@ namespace pulvis::space {
 struct RigidShape {
   enum class Core { point, ellipsoid, superquadric, cylinder, points } core = Core::point;
   V3 half;  // ellipsoid, superquadric: half axes; cylinder: radius, radius, half height
-  double exponent_xy = 2, exponent_z = 2;  // for a superquadric's support function: e/(e-1), f/(f-1)
+  double exponent_xy = 2,
+         exponent_z = 2;  // for a superquadric's support function: e/(e-1), f/(f-1)
   SupportTable table;
   double radius = 0;  // of the sphere around every point of the core
   double reach = 0;   // of the sphere around the centre of volume that encloses the shape

@@ -6,8 +6,8 @@
 #include "components/space/contact.hpp"
 #include "components/space/observed.hpp"
 #include "engine/entry.hpp"
-#include "scenes/tools/die_room.hpp"
 #include "scenes/spec/scene.hpp"
+#include "scenes/tools/die_room.hpp"
 
 namespace pulvis::space {
 namespace {

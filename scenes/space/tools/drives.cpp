@@ -10,9 +10,9 @@
 #include "components/servo.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
-#include "scenes/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
 #include "scenes/spec/tool_motion.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/tools/servo_checks.hpp"
 #include "scenes/tools/tool_drive.hpp"
 

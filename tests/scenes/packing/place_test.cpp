@@ -1,9 +1,9 @@
 // Placement: where particles stand, that touching is accepted, and that overlaps are found with
 // their depth. Depths are compared with closed forms.
 #include "scenes/packing/place.hpp"
-#include "scenes/space/overlaps.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/read.hpp"
+#include "scenes/space/overlaps.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -172,7 +172,9 @@ TEST(PlaceBodies, HexagonalRowsLieInTheGapsOfThoseBelow) {
   const Vec2 corner(1, 2);
   const auto bodies = place_bodies(hexagonal(4, 3, corner));
   ASSERT_EQ(bodies.size(), 10U);  // 3 + 2 + 3 + 2
-  const auto position = [&](std::size_t i) { return Vec2((in_plane(bodies[i].position) - corner) / size); };
+  const auto position = [&](std::size_t i) {
+    return Vec2((in_plane(bodies[i].position) - corner) / size);
+  };
   const double rise = std::sqrt(0.75);
   EXPECT_TRUE(position(0).isApprox(Vec2(0.5, 0.5), 1e-12));
   EXPECT_TRUE(position(3).isApprox(Vec2(1, 0.5 + rise), 1e-12));

@@ -215,15 +215,16 @@ TEST(DieInSpace, TouchesTheOutermostParticlesOfEveryLattice) {
 
 TEST(DieInSpace, GivesARandomPackingItsContainer) {
   const std::string bed =
-      "[[packing]]\nkind = \"random\"\ndensity = 0.4\nclass = [{ particle = \"ball\", number = 4 }]\n";
+      "[[packing]]\nkind = \"random\"\ndensity = 0.4\nclass = [{ particle = \"ball\", number = 4 "
+      "}]\n";
   const Scene box = in_space_with(bed + "[die]\nwidth = \"6 mm\"\ndepth = \"5 mm\"\n");
   EXPECT_DOUBLE_EQ(box.packings[0].container.depth, 0.005);
   EXPECT_DOUBLE_EQ(box.tools[1].point.x(), 0.006);
   EXPECT_DOUBLE_EQ(box.tools[3].point.y(), 0.005);
   const Scene square = in_space_with(bed + "[die]\nwidth = \"6 mm\"\n");
   EXPECT_DOUBLE_EQ(square.packings[0].container.depth, 0.006);
-  const Scene round = in_space_with(
-      bed + "[die]\ndiameter = \"6 mm\"\ncorner = [\"1 mm\", \"0 mm\", \"2 mm\"]\n");
+  const Scene round =
+      in_space_with(bed + "[die]\ndiameter = \"6 mm\"\ncorner = [\"1 mm\", \"0 mm\", \"2 mm\"]\n");
   EXPECT_THAT(names_of(round), testing::ElementsAre("die", "bottom", "top"));
   EXPECT_EQ(round.tools[0].shape, ToolSpec::Shape::die);
   EXPECT_EQ(round.tools[0].normal, Vec3(0, 0, 1));
@@ -241,11 +242,12 @@ TEST(WrongDieInSpace, IsRefusedAtItsPlace) {
   EXPECT_THAT(problem_in_space_with("[die]\n"),
               HasSubstr("die.width: required key is missing, allowed: a quantity in m, or the "
                         "diameter of a round die"));
-  EXPECT_THAT(problem_in_space_with(
-                  lattice_in_space("cubic") +
-                  "[die]\n[[tool]]\nname = \"back\"\nshape = \"plane\"\npoint = [\"0 mm\", \"9 mm\", "
-                  "\"0 mm\"]\nnormal = [0, -1, 0]\n"),
-              HasSubstr("tool[0].point: is at y = 0.009 m, but this side of the die is at 0.006 m"));
+  EXPECT_THAT(
+      problem_in_space_with(
+          lattice_in_space("cubic") +
+          "[die]\n[[tool]]\nname = \"back\"\nshape = \"plane\"\npoint = [\"0 mm\", \"9 mm\", "
+          "\"0 mm\"]\nnormal = [0, -1, 0]\n"),
+      HasSubstr("tool[0].point: is at y = 0.009 m, but this side of the die is at 0.006 m"));
 }
 
 }  // namespace
