@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
 #include "scenes/results/history_series.hpp"
 #include "tests/helpers/experiment.hpp"
 
@@ -74,6 +79,50 @@ TEST_F(ObservablesTest, SeriesOfAWorldAreThoseKnownBeforeItExists) {
   ASSERT_EQ(before.size(), e.results.series().size());
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_EQ(before[i].name, e.results.series()[i].name);
+}
+
+// The words of pages and figures, cli/python/pulvis/figures/name_table.py: JSON from its first brace on.
+class Words {
+ public:
+  Words() {
+    std::stringstream text;
+    text << std::ifstream(paths::source_dir() + "/cli/python/pulvis/figures/name_table.py").rdbuf();
+    table_ = nlohmann::json::parse(text.str().substr(text.str().find('{')));
+    for (const auto& pattern : table_["patterns"])  // ECMAScript here has no named groups
+      patterns_.emplace_back(
+          std::regex_replace(pattern[0].get<std::string>(), std::regex(R"(\(\?<\w+>)"), "("));
+  }
+  bool has(const std::string& name) const {
+    const std::string energy = "energy/";
+    return table_["keys"].contains(name) ||
+           (name.starts_with(energy) && table_["energies"].contains(name.substr(energy.size()))) ||
+           std::ranges::any_of(patterns_,
+                               [&](const std::regex& one) { return std::regex_match(name, one); });
+  }
+
+ private:
+  nlohmann::json table_;
+  std::vector<std::regex> patterns_;
+};
+
+TEST(SeriesNames, AllHaveWordsForPagesAndFigures) {
+  const Words words;
+  const std::vector<std::string> observed{"output.contacts=true", "output.particle_stress=true"};
+  for (const auto& [file, changes] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"basic/damped-strut.toml", {}},
+           {"compaction/unit-cell.toml", {observed[0], observed[1], "output.density_cells=[2,2]"}},
+           {"compaction/biaxial.toml", {}},
+           {"periodic/shear.toml", observed},
+           {"shear/flat-16.toml", observed},
+           {"bonds/pulled-blocks.toml", {}},
+           {"compaction-3d/unit-cell-sc.toml",
+            {observed[0], observed[1], "output.density_cells=[2,2,2]"}},
+           {"compaction-3d/tablet-bonded.toml", {}}}) {
+    const Scene scene = read_scene(paths::source_dir() + "/scenes/" + file, changes);
+    for (const auto& all : {history_series(scene), momentum_series(scene)})
+      for (const SeriesInfo& series : all)
+        EXPECT_TRUE(words.has(series.name)) << series.name << " of " << file;
+  }
 }
 
 }  // namespace
