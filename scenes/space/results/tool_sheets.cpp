@@ -75,8 +75,12 @@ const ToolSpec* die_across(const SpaceScene& scene, const ToolSpec& plane) {
 }  // namespace
 
 FieldInfo ToolSheets::field() {
-  return {"tools/outline", "m", "corners of the tools' surfaces, connected by /tools/quads",
-          FieldPlace::list, 3};
+  return {"tools/outline",
+          "m",
+          "outlines of the tools $x$",
+          "corners of the tools' surfaces, connected by /tools/quads",
+          FieldPlace::list,
+          3};
 }
 
 ToolSheets::ToolSheets(const SpaceScene& scene, const Box& powder) : box_(powder) {
