@@ -29,6 +29,7 @@ class Reader {
     read_scene();
     read_history();
     add_pictures(budget);
+    read_labels();
     add_images(file_, head, sections);
   }
 
@@ -84,12 +85,29 @@ class Reader {
     head["summary"] = summary;
     if (!summary.contains("values") || !summary["values"].is_object()) return;
     for (const SeriesInfo& info : afm_figures())
-      if (summary["values"].contains(info.name)) head["units"][info.name] = info.unit;
+      if (summary["values"].contains(info.name)) {
+        head["units"][info.name] = info.unit;
+        head["labels"][info.name] = info.label;
+      }
   }
 
   void read_scene() {
     const std::string scene = text_of("scene.toml");
     if (!scene.empty()) head["scene"] = scene;
+  }
+
+  // Of fields and series; runs of older versions have none.
+  void read_labels() {
+    const std::vector<std::string> frames = complete_frames(file_);
+    if (!frames.empty()) keep_labels("/frames/" + frames.back());
+    if (file_.contains("/particles")) keep_labels("/particles");
+    keep_labels("/history");
+  }
+
+  void keep_labels(const std::string& group) {
+    for (const std::string& name : file_.datasets_below(group))
+      if (file_.has_attribute(group + "/" + name, "label"))
+        head["labels"][name] = file_.text_attribute(group + "/" + name, "label");
   }
 
   void read_history() {

@@ -24,7 +24,7 @@ namespace pulvis {
 namespace {
 
 // A lever's programme has no physical time.
-const SeriesInfo actions_done{"actions", "-",
+const SeriesInfo actions_done{"actions", "-", "actions completed",
                               "actions completed, including the part of the current one"};
 
 RunMesh mesh_of(const AfmSimulation& simulation) {
@@ -54,10 +54,13 @@ void write_load_cases(const std::filesystem::path& folder, const LoadedScene& lo
       folder,
       {program_version(), program_commit(), loaded.scene.title, fmt::format("{:016x}", loaded.hash),
        loaded.scene.seed, threads},
-      mesh, {{"tip/displacement", "m", "of the tip's end, as drawn"}},
-      {{"position", "m", "deformed, displacements exaggerated", FieldPlace::node, 3},
-       {"displacement", "m", "as drawn", FieldPlace::node, 3}},
-      {"load_case", "-", "0 at rest, then a force normal to, across and along the lever"});
+      mesh,
+      {{"tip/displacement", "m", "displacement of the tip $u$", "of the tip's end, as drawn"}},
+      {{"position", "m", "position $x$", "deformed, displacements exaggerated", FieldPlace::node,
+        3},
+       {"displacement", "m", "displacement $u$", "as drawn", FieldPlace::node, 3}},
+      {"load_case", "-", "load case",
+       "0 at rest, then a force normal to, across and along the lever"});
   const double drawn = 0.1 * loaded.scene.afm->lever.length;
   const std::array<Vec3, 4> directions{Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitY(), Vec3::UnitX()};
   for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -136,8 +139,10 @@ void AfmSession::write_to(const std::filesystem::path& folder, const CheckpointO
 bool AfmSession::yields() { return simulation_.world().has<SolidMemory>(); }
 
 std::vector<FieldInfo> AfmSession::fields() {
-  std::vector<FieldInfo> all{{"position", "m", "of the node", FieldPlace::node, 3}};
-  if (yields()) all.push_back({"plastic_strain", "-", "accumulated, mean over the element"});
+  std::vector<FieldInfo> all{{"position", "m", "position $x$", "of the node", FieldPlace::node, 3}};
+  if (yields())
+    all.push_back({"plastic_strain", "-", "plastic strain $\\bar\\varepsilon_p$",
+                   "accumulated, mean over the element"});
   return all;
 }
 

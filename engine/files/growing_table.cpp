@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
+#include "engine/files/describe.hpp"
 #include "engine/files/output_error.hpp"
 
 namespace pulvis {
@@ -27,8 +27,7 @@ void GrowingTable::write(hdf5::File& file, const std::string& group) const {
     file.write_series(dataset, this->group() + "/" + column.name,
                       static_cast<std::uint64_t>(written_), waiting_[i],
                       column.whole ? hdf5::Stored::whole : hdf5::Stored::real);
-    file.set_attribute(dataset, "unit", std::string_view(column.unit));
-    file.set_attribute(dataset, "meaning", std::string_view(column.meaning));
+    describe(file, dataset, column.unit, column.meaning, column.label);
   }
 }
 

@@ -1,5 +1,7 @@
-// What a run tells the recorder about itself: names, units and meanings of its results, the
+// What a run tells the recorder about itself: names, units, labels and meanings of its results, the
 // mesh they are defined on, and where they came from.
+//
+// A label is what axes and tables show: words, and the symbol, if there is one, as mathtext: "pressure $p$".
 #pragma once
 
 #include <cstdint>
@@ -11,9 +13,10 @@
 
 namespace pulvis {
 
-struct SeriesInfo {     // one series of the history: one number per sample
-  std::string name;     // slashes create groups: "tool/top/force_y"
-  std::string unit;     // SI, "-" if dimensionless
+struct SeriesInfo {  // one series of the history: one number per sample
+  std::string name;  // slashes create groups: "tool/top/force_y"
+  std::string unit;  // SI, "-" if dimensionless
+  std::string label;
   std::string meaning;  // one line for the reader
   bool whole = false;   // integers, and stored as such: only in tables
 };
@@ -30,7 +33,7 @@ struct TableInfo {
 };
 
 // The sampling variable: the first column of history.csv; /history/time of run.h5 has its unit.
-inline const SeriesInfo simulated_time{"time", "s", "simulated time"};
+inline const SeriesInfo simulated_time{"time", "s", "time $t$", "simulated time"};
 
 // `list`: separate rows, whose number may change over time.
 enum class FieldPlace { node, cell, particle, list };
@@ -38,6 +41,7 @@ enum class FieldPlace { node, cell, particle, list };
 struct FieldInfo {  // one field of the frames: `components` numbers per place
   std::string name;
   std::string unit;
+  std::string label;
   std::string meaning;
   FieldPlace place = FieldPlace::cell;
   int components = 1;
@@ -69,7 +73,7 @@ struct FieldWriters {
 // A constant integer per particle: /particles/<name>. If the numbers are positions in a list
 // of names, its attribute `names` holds that list, one per line.
 struct ParticleTag {
-  std::string name, meaning;
+  std::string name, label, meaning;
   std::vector<std::int32_t> values;  // [particles]
   std::vector<std::string> names;
 };

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/files/describe.hpp"
 #include "engine/files/file_descriptor.hpp"
 #include "engine/files/output_error.hpp"
 #include "engine/files/own_files.hpp"
@@ -256,12 +257,6 @@ Recorder::~Recorder() {
   }
 }
 
-void Recorder::describe(const std::string& object, const std::string& unit,
-                        const std::string& meaning) {
-  file_.set_attribute(object, "unit", std::string_view(unit));
-  file_.set_attribute(object, "meaning", std::string_view(meaning));
-}
-
 void Recorder::write_attributes(const RunAttributes& attributes) {
   file_.set_attribute("/", "format", std::int64_t{1});
   file_.set_attribute("/", "run", std::string_view(run_id_));
@@ -278,7 +273,7 @@ void Recorder::write_history(const std::string& group, std::uint64_t kept) {
   const auto write = [&](const SeriesInfo& series, const std::string& name,
                          const std::vector<double>& values) {
     file_.write_series(group + "/" + name, "/history/" + name, kept, values);
-    describe(group + "/" + name, series.unit, series.meaning);
+    describe(file_, group + "/" + name, series.unit, series.meaning, series.label);
   };
   for (std::size_t i = 0; i < series_.size(); ++i) write(series_[i], series_[i].name, pending_[i]);
   write(abscissa_, "time", pending_time_);
@@ -400,7 +395,7 @@ void Recorder::write_field(const std::string& group, const FieldInfo& field,
 }
 
 void Recorder::describe_field(const std::string& dataset, const FieldInfo& field) {
-  describe(dataset, field.unit, field.meaning);
+  describe(file_, dataset, field.unit, field.meaning, field.label);
   file_.set_attribute(dataset, "place", std::string_view(name_of(field.place)));
   file_.set_attribute(dataset, "components", std::int64_t{field.components});
 }
@@ -411,7 +406,7 @@ void Recorder::image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t 
   begin_change();
   const std::string dataset = "/images/" + info.name;
   file_.write(dataset, values, {lines, pixels});
-  describe(dataset, info.unit, info.meaning);
+  describe(file_, dataset, info.unit, info.meaning, info.label);
   if (!(spacing.along > 0)) return;
   file_.set_attribute(dataset, "pixel_width", spacing.along);
   file_.set_attribute(dataset, "pixel_height", spacing.across);

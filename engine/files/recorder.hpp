@@ -123,7 +123,6 @@ class Recorder {
   void write_field(const std::string& group, const FieldInfo& field,
                    const std::vector<double>& values);
   void describe_field(const std::string& dataset, const FieldInfo& field);
-  void describe(const std::string& object, const std::string& unit, const std::string& meaning);
 
   std::vector<SeriesInfo> series_;
   std::vector<FieldInfo> fields_;

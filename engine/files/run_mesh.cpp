@@ -5,14 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/describe.hpp"
+
 namespace pulvis {
 namespace {
-
-void describe(hdf5::File& file, const std::string& object, const std::string& unit,
-              const std::string& meaning) {
-  file.set_attribute(object, "unit", std::string_view(unit));
-  file.set_attribute(object, "meaning", std::string_view(meaning));
-}
 
 std::string one_a_line(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, "\n"));
@@ -21,7 +17,7 @@ std::string one_a_line(const std::vector<std::string>& names) {
 void write_tag(hdf5::File& file, const RunMesh& mesh, const ParticleTag& tag) {
   const auto write = [&](const std::string& name, const std::vector<std::int32_t>& values) {
     file.write(name, values, {values.size()}, hdf5::Packing::shuffle_gzip);
-    describe(file, name, "-", tag.meaning);
+    describe(file, name, "-", tag.meaning, tag.label);
     if (is_named(tag)) file.set_attribute(name, "names", std::string_view(one_a_line(tag.names)));
   };
   const std::string of_particles = "/particles/" + tag.name;

@@ -10,15 +10,16 @@ namespace pulvis {
 namespace {
 
 struct Channel {
-  const char *name, *series, *unit, *meaning;
+  const char *name, *series, *unit, *label, *meaning;
   double sign;
   bool turns;  // changes its sign with the direction of a trace across the lever
 };
 constexpr Channel channels[] = {
-    {"topography", "scanner/z", "m",
+    {"topography", "scanner/z", "m", "topography $z$",
      "distance by which the scanner was lowered to follow the surface", -1, false},
-    {"deflection", "detector/normal", "V", "normal signal of the detector", 1, false},
-    {"friction", "detector/lateral", "V",
+    {"deflection", "detector/normal", "V", "deflection $U_n$", "normal signal of the detector", 1,
+     false},
+    {"friction", "detector/lateral", "V", "friction signal $U_l$",
      "lateral signal of the detector, with the sign of the force that drags the probe along a "
      "trace across the lever",
      -1, true}};
@@ -35,7 +36,7 @@ AfmImage image_of(const AfmHistory& history, const Channel& channel, std::size_t
                   const PixelSpacing& spacing) {
   AfmImage image{
       {fmt::format("action_{}/{}_{}", action, channel.name, retrace ? "retrace" : "trace"),
-       channel.unit, channel.meaning},
+       channel.unit, channel.label, channel.meaning},
       lines,
       pixels,
       spacing,

@@ -115,43 +115,6 @@ std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
   return calibrated_like(*first, seen, pull_off_force(scene));
 }
 
-std::vector<SeriesInfo> afm_series() {
-  return {
-      {"scanner/x", "m", "displacement of the sample along x"},
-      {"scanner/y", "m", "displacement of the sample along y"},
-      {"scanner/z", "m", "rise of the sample from first contact"},
-      {"probe/force_x", "N", "force of the sample on the probe"},
-      {"probe/force_y", "N", "force of the sample on the probe: lateral"},
-      {"probe/force_z", "N", "force of the sample on the probe: vertical"},
-      {"probe/displacement_x", "m", "of the tip's end"},
-      {"probe/displacement_y", "m", "of the tip's end"},
-      {"probe/displacement_z", "m", "of the tip's end"},
-      {"foot/displacement_y", "m", "of the lever's middle plane above the tip: lateral bending"},
-      {"foot/twist", "rad", "of the lever above the tip"},
-      {"clamp/force_x", "N", "of the clamp on the lever"},
-      {"clamp/force_y", "N", "of the clamp on the lever"},
-      {"clamp/force_z", "N", "of the clamp on the lever"},
-      {"slope/normal", "rad", "of the lever's back at the laser spot, > 0: its end is up"},
-      {"slope/lateral", "rad", "of the lever's back at the laser spot, > 0: its +y side is up"},
-      {"detector/normal", "V", "normal gain times slope"},
-      {"detector/lateral", "V", "lateral gain times slope"},
-      {"contact/points", "-", "points of the probe in contact"},
-      {"contact/radius", "m",
-       "of a ball: square root of 5/2 times the mean square distance of the contact forces from "
-       "their centre, equal to the contact radius of Hertz; of an adhesive ball the radius of its "
-       "law"},
-      {"contact/pressure", "Pa",
-       "of a ball: the largest nodal value; of an adhesive ball the value at the centre"},
-      {"contact/slides", "-", "share of the contact points that slide"},
-      {"energy/elastic", "J", "stored in lever and probe"},
-      {"energy/released", "J", "released so far by jumps of the probe onto and off the surface"},
-      {"newton/iterations", "-", "of the increment, including its subdivisions"},
-      {"probe/lowest_force_z", "N",
-       "lowest vertical force of the increment, including its subdivisions"},
-      {"energy/pulling", "J",
-       "area below the zero-force line so far, over the scanner's way down"}};
-}
-
 double AfmHistory::value(std::size_t sample, const std::string& series) const {
   static const std::vector<SeriesInfo> all = afm_series();
   const auto found = std::ranges::find(all, series, &SeriesInfo::name);

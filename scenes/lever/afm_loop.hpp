@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/record.hpp"
-#include "scenes/wedge/wedge_calibration.hpp"
+#include "scenes/lever/afm_series.hpp"
 #include "scenes/spec/scene.hpp"
+#include "scenes/wedge/wedge_calibration.hpp"
 
 namespace pulvis {
 
@@ -52,9 +52,7 @@ struct FrictionLoop {
   bool full() const { return slides > 1 - 1e-3 && turned > 1 - 1e-3 && drift < 0.01; }
 };
 
-// Series of a programme's history, in the order of AfmProgramme's rows.
-std::vector<SeriesInfo> afm_series();
-
+// Of a programme: a row of afm_series for every sample.
 struct AfmHistory {
   std::vector<double> times;
   std::vector<std::vector<double>> rows;

@@ -10,6 +10,7 @@
 #include "engine/run_failure.hpp"
 #include "scenes/lever/adhesion.hpp"
 #include "scenes/lever/afm_curve.hpp"
+#include "scenes/lever/afm_series.hpp"
 #include "scenes/lever/target_shape.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "systems/lever/jkr_kernel.hpp"
@@ -165,40 +166,39 @@ double AfmProgramme::vertical_force() const {
 
 bool AfmProgramme::tell() {
   const World& world = *model_.world;
-  const Target& target = world.resource<Target>();
   const double* u = world.column<Displacement>().values();
-  std::vector<double> row;
-  const auto add = [&](const Vec3& v) {
-    for (int k = 0; k < 3; ++k) row.push_back(v[k]);
-  };
-  add(Vec3(target.travel.data()));
-  Vec3 force = Vec3::Zero();
+  AfmIncrement now;
+  now.scanner = Vec3(world.resource<Target>().travel.data());
   const auto& points = world.column<ProbeForce>();
   const double* state = world.column<ProbeState>().values();
-  double touching = 0, sliding = 0;
+  double sliding = 0;
   for (std::size_t i = 0; i < points.table.rows; ++i) {
-    force += Vec3(points.values() + 3 * i);
+    now.force += Vec3(points.values() + 3 * i);
     const double kind = state[ProbeState::count * i + 3];
-    touching += kind > 0 ? 1 : 0;
+    now.points += kind > 0 ? 1 : 0;
     sliding += kind > 1 ? 1 : 0;
   }
-  add(force);
-  add(read(model_.end, u));
-  row.push_back(read(model_.foot, u).y());
-  row.push_back(slopes(model_, {model_.foot_slope}, u).lateral);
-  add(clamp_force(model_));
+  now.sliding = now.points > 0 ? sliding / now.points : 0;
+  now.end = read(model_.end, u);
+  now.foot = read(model_.foot, u).y();
+  now.twist = slopes(model_, {model_.foot_slope}, u).lateral;
+  now.clamp = clamp_force(model_);
   const ContactPatch patch = contact_patch(model_);
+  now.radius = patch.radius;
+  now.pressure = patch.pressure;
   const Slopes spot = slopes(model_, model_.spot, u);
-  const DetectorSpec& detector = scene_.afm->detector;
-  for (const double value :
-       {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
-        detector.lateral_gain * spot.lateral, touching, patch.radius, patch.pressure,
-        touching > 0 ? sliding / touching : 0, elastic_energy(model_), position_.released,
-        static_cast<double>(iterations_), std::min(lowest_, force.z()), position_.pulling})
-    row.push_back(value);
+  now.slope_normal = spot.normal;
+  now.slope_lateral = spot.lateral;
+  now.volts_normal = scene_.afm->detector.normal_gain * spot.normal;
+  now.volts_lateral = scene_.afm->detector.lateral_gain * spot.lateral;
+  now.elastic = elastic_energy(model_);
+  now.released = position_.released;
+  now.pulling = position_.pulling;
+  now.iterations = iterations_;
+  now.lowest_force = std::min(lowest_, now.force.z());
   lowest_ = std::numeric_limits<double>::infinity();
   position_.told += 1;
-  return record_(time_, row);
+  return record_(time_, afm_row(now));
 }
 
 bool AfmProgramme::skip() {

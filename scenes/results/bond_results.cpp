@@ -161,17 +161,19 @@ void add_places_in_space(FrameFields& all) {
   constexpr auto list = FieldPlace::list;
   all.add(
       [](const Observation& now) { return space::bonded_faces(now.world); },
-      {{{"bonds/ids", "-", std::string("number of the particle whose face it is; ") + other_meaning,
-         list, 2, true},
+      {{{"bonds/ids", "-", "bonded particles",
+         std::string("number of the particle whose face it is; ") + other_meaning, list, 2, true},
         &BondedFaces::ids},
-       {{"bonds/area", "m^2", "as in bonds/area: half of it where the other side is listed as well",
-         list, 1},
+       {{"bonds/area", "m^2", "bonded area $A$",
+         "as in bonds/area: half of it where the other side is listed as well", list, 1},
         &BondedFaces::area},
-       {{"bonds/damage", "-", mean_damage, list, 1}, &BondedFaces::damage},
-       {{"bonds/position", "m", "mean of its bonded points", list, 3}, &BondedFaces::position}});
-  all.add(
-      {{{"cracks/position", "m", "of every row of /cracks so far: where its point is now", list, 3},
-        [](const Observation& now) { return space::crack_positions(now.world); }}});
+       {{"bonds/damage", "-", "damage of the bonds $D$", mean_damage, list, 1},
+        &BondedFaces::damage},
+       {{"bonds/position", "m", "centre of the bond $x$", "mean of its bonded points", list, 3},
+        &BondedFaces::position}});
+  all.add({{{"cracks/position", "m", "position of the crack $x$",
+             "of every row of /cracks so far: where its point is now", list, 3},
+            [](const Observation& now) { return space::crack_positions(now.world); }}});
 }
 
 void add_places_in_the_plane(FrameFields& all) {
@@ -180,20 +182,20 @@ void add_places_in_the_plane(FrameFields& all) {
   const char* of_crack = "of every row of /cracks so far: its part of the edge, where it is now";
   all.add(
       [](const Observation& now) { return bond_lines(now.world); },
-      {{{"bonds/ids", "-", std::string("number of the particle whose edge it is; ") + other_meaning,
-         list, 2, true},
+      {{{"bonds/ids", "-", "bonded particles",
+         std::string("number of the particle whose edge it is; ") + other_meaning, list, 2, true},
         &BondLines::ids},
-       {{"bonds/length", "m",
+       {{"bonds/length", "m", "bonded length $\\ell$",
          "as in bonds/area: half of it where the other side has a line as well", list, 1},
         &BondLines::length},
-       {{"bonds/damage", "-", mean_damage, list, 1}, &BondLines::damage},
-       {{"bonds/start", "m", along_edge, list, 2},
+       {{"bonds/damage", "-", "damage of the bonds $D$", mean_damage, list, 1}, &BondLines::damage},
+       {{"bonds/start", "m", "start of the bond $x$", along_edge, list, 2},
         [](BondLines&& bonds) { return std::move(bonds.lines.start); }},
-       {{"bonds/end", "m", along_edge, list, 2},
+       {{"bonds/end", "m", "end of the bond $x$", along_edge, list, 2},
         [](BondLines&& bonds) { return std::move(bonds.lines.end); }}});
   all.add([](const Observation& now) { return crack_lines(now.world); },
-          {{{"cracks/start", "m", of_crack, list, 2}, &Lines::start},
-           {{"cracks/end", "m", of_crack, list, 2}, &Lines::end}});
+          {{{"cracks/start", "m", "start of the crack $x$", of_crack, list, 2}, &Lines::start},
+           {{"cracks/end", "m", "end of the crack $x$", of_crack, list, 2}, &Lines::end}});
 }
 
 struct BondFigures {
@@ -243,13 +245,15 @@ void add_bond_series(const Scene& scene, Observables& all) {
   if (!has_bonds(scene)) return;
   const bool space = scene.in_space();
   all.add(bond_figures,
-          {{"bonds/area", "m^2", "of the bonded surfaces", &BondFigures::area},
+          {{"bonds/area", "m^2", "bonded area $A$", "of the bonded surfaces", &BondFigures::area},
            {space ? "bonds/crack_area" : "bonds/crack_length", space ? "m^2" : "m",
-            "of all cracks so far", &BondFigures::crack_size},
-           {"bonds/damage", "-", damage_meaning(scene), &BondFigures::damage},
-           {"bonds/fragments", "-", "pieces held together by bonds, including loose particles",
-            &BondFigures::fragments},
-           {"bonds/largest_fragment", "-",
+            space ? "crack area $A$" : "crack length $\\ell$", "of all cracks so far",
+            &BondFigures::crack_size},
+           {"bonds/damage", "-", "damage of the bonds $D$", damage_meaning(scene),
+            &BondFigures::damage},
+           {"bonds/fragments", "-", "fragments",
+            "pieces held together by bonds, including loose particles", &BondFigures::fragments},
+           {"bonds/largest_fragment", "-", "share of the largest fragment",
             space ? "volume of the largest fragment / volume of the particles"
                   : "area of the largest fragment / area of the particles",
             &BondFigures::largest_share}});
@@ -264,22 +268,25 @@ void add_bond_fields(const Scene& scene, FrameFields& all) {
     add_places_in_space(all);
   else
     add_places_in_the_plane(all);
-  all.add(fragment_lists,
-          {{{"fragments/number", "-", "lowest particle number of each fragment", list, 1, true},
-            &FragmentLists::number},
-           {{"fragments/particles", "-", "number of its particles", list, 1, true},
-            &FragmentLists::particles},
-           {{space ? "fragments/volume" : "fragments/area", space ? "m^3" : "m^2",
-             "of its particles, undeformed", list, 1},
-            &FragmentLists::size}});
-  all.add({{{"fragment", "-", "lowest particle number of its fragment", particle, 1, true},
-            fragment_of_particles},
-           {{"damage", "-", damage_meaning(scene), particle, 1}, damage_of_particles},
-           {{"parent", "-",
-             "lowest number of the grains of its particle; its own number if it has none", particle,
-             1, true},
-            [](const Observation& now) { return parents_of(now.world.resource<Bodies>()); },
-            !space}});  // no grains there
+  all.add(fragment_lists, {{{"fragments/number", "-", "fragment",
+                             "lowest particle number of each fragment", list, 1, true},
+                            &FragmentLists::number},
+                           {{"fragments/particles", "-", "particles of the fragment",
+                             "number of its particles", list, 1, true},
+                            &FragmentLists::particles},
+                           {{space ? "fragments/volume" : "fragments/area", space ? "m^3" : "m^2",
+                             space ? "volume of the fragment $V$" : "area of the fragment $A$",
+                             "of its particles, undeformed", list, 1},
+                            &FragmentLists::size}});
+  all.add(
+      {{{"fragment", "-", "fragment", "lowest particle number of its fragment", particle, 1, true},
+        fragment_of_particles},
+       {{"damage", "-", "damage $D$", damage_meaning(scene), particle, 1}, damage_of_particles},
+       {{"parent", "-", "parent particle",
+         "lowest number of the grains of its particle; its own number if it has none", particle, 1,
+         true},
+        [](const Observation& now) { return parents_of(now.world.resource<Bodies>()); },
+        !space}});  // no grains there
 }
 
 // ---- cracks -------------------------------------------------------------------------------------------
@@ -308,31 +315,34 @@ std::vector<CrackColumn> crack_columns(bool space, bool resumes) {
   };
   const char* place = "where it was then";
   std::vector<CrackColumn> all{
-      {{"time", "s",
+      {{"time", "s", "time of breakage $t$",
         resumes ? "when the point broke; <= 0: before the initial state was saved"
                 : "when the point broke"},
        value(&Crack::time)},
-      {{"x", "m", place}, value(&Crack::x)},
-      {{"y", "m", place}, value(&Crack::y)},
-      {{"z", "m", place}, value(&Crack::z), space},
-      {{"particle", "-",
+      {{"x", "m", "position $x$", place}, value(&Crack::x)},
+      {{"y", "m", "position $y$", place}, value(&Crack::y)},
+      {{"z", "m", "position $z$", place}, value(&Crack::z), space},
+      {{"particle", "-", "particle",
         space ? "number of the particle whose face it is on"
               : "number of the particle whose edge it is on",
         true},
        [](const Bodies& bodies, const Crack& crack) { return number_in_slot(bodies, crack.slot); }},
-      {{"other", "-", other_meaning, true},
+      {{"other", "-", "other particle or tool", other_meaning, true},
        [](const Bodies& bodies, const Crack& crack) {
          return number_in_slot(bodies, crack.other);
        }},
-      {{"bond", "-", "position of its [[bond]] in the scene", true},
+      {{"bond", "-", "bond of the scene", "position of its [[bond]] in the scene", true},
        [](const Bodies&, const Crack& crack) { return crack.law - 1.0; }},
       {{space ? "area" : "length", space ? "m^2" : "m",
+        space ? "crack area $A$" : "crack length $\\ell$",
         "half of it where the points of the other side break as well"},
        value(&Crack::size)},
-      {{"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"}, value(&Crack::shear)},
-      {{"energy", "J", "fracture energy of the bond law in the mode at breakage, times the area"},
+      {{"shear", "-", "share of shear", "share of shear when it broke: 0 mode I, 1 mode II"},
+       value(&Crack::shear)},
+      {{"energy", "J", "fracture energy $E$",
+        "fracture energy of the bond law in the mode at breakage, times the area"},
        value(&Crack::energy)},
-      {{"inside", "-", "1 between grains of one particle, otherwise 0", true},
+      {{"inside", "-", "inside a particle", "1 between grains of one particle, otherwise 0", true},
        [](const Bodies& bodies, const Crack& crack) {
          return is_inside_a_particle(bodies, crack) ? 1.0 : 0.0;
        },

@@ -37,50 +37,56 @@ void add_energy_series(const Scene& scene, Observables& all) {
   const bool bonded = has_bonds(scene);
   all.add(
       [](const Observation& now) -> const Energies& { return now.energies; },
-      {{"energy/kinetic", "J", "of all nodes", &Energies::kinetic},
-       {"energy/elastic", "J", "stored in the elements", &Energies::elastic},
-       {"energy/plastic", "J", "dissipated by plastic flow", &Energies::plastic},
-       {"energy/hourglass", "J", "stored and dissipated in hourglass modes; zero with four points",
-        &Energies::hourglass},
-       {"energy/contact", "J", "stored in the contact springs", &Energies::contact},
-       {"energy/friction", "J", "dissipated by friction", &Energies::friction},
-       {"energy/damping", "J", "dissipated by contact damping", &Energies::damping},
-       {"energy/bulk_damping", "J", "dissipated by material damping", &Energies::bulk_damping,
-        damped},
-       {"energy/bonds", "J", "stored in the bonds", &Energies::bonds, bonded},
-       {"energy/fracture", "J", "dissipated in breaking bonds", &Energies::fracture, bonded},
-       {"energy/external", "J", scene.cell ? "work of the cell" : "work of the tools",
-        &Energies::external},
-       {"energy/balance", "J", "sum of all energies minus the external work and the initial energy",
-        &Energies::balance}});
+      {{"energy/kinetic", "J", "kinetic energy $E$", "of all nodes", &Energies::kinetic},
+       {"energy/elastic", "J", "elastic energy $E$", "stored in the elements", &Energies::elastic},
+       {"energy/plastic", "J", "plastic energy $E$", "dissipated by plastic flow",
+        &Energies::plastic},
+       {"energy/hourglass", "J", "hourglass energy $E$",
+        "stored and dissipated in hourglass modes; zero with four points", &Energies::hourglass},
+       {"energy/contact", "J", "contact energy $E$", "stored in the contact springs",
+        &Energies::contact},
+       {"energy/friction", "J", "friction energy $E$", "dissipated by friction",
+        &Energies::friction},
+       {"energy/damping", "J", "contact damping energy $E$", "dissipated by contact damping",
+        &Energies::damping},
+       {"energy/bulk_damping", "J", "material damping energy $E$", "dissipated by material damping",
+        &Energies::bulk_damping, damped},
+       {"energy/bonds", "J", "bond energy $E$", "stored in the bonds", &Energies::bonds, bonded},
+       {"energy/fracture", "J", "fracture energy $E$", "dissipated in breaking bonds",
+        &Energies::fracture, bonded},
+       {"energy/external", "J", "external work $E$",
+        scene.cell ? "work of the cell" : "work of the tools", &Energies::external},
+       {"energy/balance", "J", "balance error $E$",
+        "sum of all energies minus the external work and the initial energy", &Energies::balance}});
 }
 
 void add_contact_series(const Scene& scene, Observables& all) {
   const bool space = scene.in_space();
-  all.add({{"contacts", "-",
-            space ? "faces in contact with another particle or a tool"
-                  : "boundary edges in contact with another particle or a tool",
-            [](const Observation& now) {
-              return static_cast<double>(now.world.resource<Totals>().touching);
-            }},
-           {"penetration", "-",
-            space ? "deepest so far, relative to the size of a face"
-                  : "deepest so far, relative to the boundary edge length",
-            [](const Observation& now) { return now.world.resource<Totals>().worst_penetration; }},
-           {"contact_overlap", "-", "area in which outlines overlap / area of the particles",
-            overlap_of_particles, !space},
-           {"narrow_contacts", "-",
-            space ? "share of the contact force carried by contacts narrower than two faces"
-                  : "share of the contact force carried by contacts narrower than two boundary "
-                    "edges",
-            share_of_narrow_contacts}});
+  all.add(
+      {{"contacts", "-", space ? "faces in contact" : "boundary edges in contact",
+        space ? "faces in contact with another particle or a tool"
+              : "boundary edges in contact with another particle or a tool",
+        [](const Observation& now) {
+          return static_cast<double>(now.world.resource<Totals>().touching);
+        }},
+       {"penetration", "-", space ? "penetration over face size" : "penetration over edge length",
+        space ? "deepest so far, relative to the size of a face"
+              : "deepest so far, relative to the boundary edge length",
+        [](const Observation& now) { return now.world.resource<Totals>().worst_penetration; }},
+       {"contact_overlap", "-", "overlap over particle area",
+        "area in which outlines overlap / area of the particles", overlap_of_particles, !space},
+       {"narrow_contacts", "-", "share of force on narrow contacts",
+        space ? "share of the contact force carried by contacts narrower than two faces"
+              : "share of the contact force carried by contacts narrower than two boundary "
+                "edges",
+        share_of_narrow_contacts}});
 }
 
 void add_cell_fields(const Scene& scene, FrameFields& all) {
   if (!scene.cell) return;
-  all.add(
-      {{{"cell", "m", "corner, first and second vector of the periodic cell", FieldPlace::list, 2},
-        corner_and_vectors}});
+  all.add({{{"cell", "m", "periodic cell $x$",
+             "corner, first and second vector of the periodic cell", FieldPlace::list, 2},
+            corner_and_vectors}});
 }
 
 Observables observables(const Scene& scene) {
@@ -91,9 +97,9 @@ Observables observables(const Scene& scene) {
   add_energy_series(scene, all);
   add_contact_series(scene, all);
   add_bond_series(scene, all);
-  all.add({{"min_jacobian", "-", "smallest det F so far",
+  all.add({{"min_jacobian", "-", "smallest Jacobian $\\min J$", "smallest det F so far",
             [](const Observation& now) { return now.min_jacobian; }},
-           {"dt", "s", "time step",
+           {"dt", "s", "time step $\\Delta t$", "time step",
             [](const Observation& now) { return now.world.resource<Clock>().dt; }}});
   add_stress_series(scene, all);
   add_network_series(scene, all);

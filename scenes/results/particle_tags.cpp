@@ -34,9 +34,9 @@ std::int32_t position_of(std::vector<std::string>& names, const std::string& nam
 std::vector<ParticleTag> particle_tags(const Scene& scene, const World& world) {
   const auto& bodies = world.resource<Bodies>();
   const auto& classes = world.resource<ParticleClasses>().of_shape;
-  ParticleTag number{"number", "of the particle, from 0", {}, {}};
-  ParticleTag material{"material", "position in `names`", {}, {}};
-  ParticleTag of_class{"class", "position in `names`", {}, {}};
+  ParticleTag number{"number", "particle", "of the particle, from 0", {}, {}};
+  ParticleTag material{"material", "material", "position in `names`", {}, {}};
+  ParticleTag of_class{"class", "class", "position in `names`", {}, {}};
   for (const MaterialSpec& m : scene.materials) material.names.push_back(m.name);
   std::vector<std::int32_t> class_of_shape;
   for (const int position : classes)

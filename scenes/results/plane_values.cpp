@@ -81,21 +81,24 @@ template <class F>
 std::vector<MeshField> fields_of(const World& world) {
   using Out = std::vector<double>;
   std::vector<MeshField> all{
-      {{"position", "m", "of the node", FieldPlace::node, 2}, of_nodes<Position<TwoD>>},
-      {{"velocity", "m/s", "of the node, half a step later", FieldPlace::node, 2},
+      {{"position", "m", "position $x$", "of the node", FieldPlace::node, 2},
+       of_nodes<Position<TwoD>>},
+      {{"velocity", "m/s", "velocity $v$", "of the node, half a step later", FieldPlace::node, 2},
        of_nodes<Velocity<TwoD>>},
-      {{"effective_stress", "Pa", "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
+      {{"effective_stress", "Pa", "effective stress $\\sigma_\\mathrm{eff}$",
+        "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
        of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.effective); })},
-      {{"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
+      {{"pressure", "Pa", "pressure $p$", "minus the mean stress; compression > 0",
+        FieldPlace::cell, 1},
        of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.pressure); })},
-      {{"stress", "Pa", "Cauchy: xx yy zz xy", FieldPlace::cell, 4},
+      {{"stress", "Pa", "stress $\\sigma$", "Cauchy: xx yy zz xy", FieldPlace::cell, 4},
        of_stress<F>([](const CellStress& c, Out& out) {
          out.insert(out.end(), {c.xx, c.yy, c.zz, c.xy});
        })}};
   if (world.has<PlasticStrain<F::points>>())
-    all.push_back(
-        {{"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1},
-         plastic_strain<F>});
+    all.push_back({{"plastic_strain", "-", "plastic strain $\\bar\\varepsilon_p$",
+                    "accumulated, mean of the Gauss points", FieldPlace::cell, 1},
+                   plastic_strain<F>});
   return all;
 }
 

@@ -109,31 +109,34 @@ void add_shear_series(const Scene& scene, Observables& all) {
   const bool width = setup->width > 0, punch = setup->punch >= 0, wall = setup->wall >= 0;
   all.add(
       [](const Observation& now) -> const ShearSample& { return now.shear.now(); },
-      {{"shear/distance", "m",
+      {{"shear/distance", "m", "sliding distance $s$",
         "displacement of the target along itself since the first shear stage began",
         &ShearSample::distance},
-       {"shear/friction", "-", "lateral over normal force on the target; NaN where it carries none",
+       {"shear/friction", "-", "friction coefficient $\\mu$",
+        "lateral over normal force on the target; NaN where it carries none",
         &ShearSample::friction},
-       {"shear/work", "J", "work of the target against friction and grooves", &ShearSample::work},
-       {"shear/locked", "-", "particles that touch the target and move with it, within 10%",
-        &ShearSample::locked},
-       {"shear/plastic_work", "J", "dissipated by plastic flow since the first shear stage began",
-        &ShearSample::plastic_work},
-       {"shear/ploughing", "-",
+       {"shear/work", "J", "work of the target $W$",
+        "work of the target against friction and grooves", &ShearSample::work},
+       {"shear/locked", "-", "particles moving with the target",
+        "particles that touch the target and move with it, within 10%", &ShearSample::locked},
+       {"shear/plastic_work", "J", "plastic work during shear $W_p$",
+        "dissipated by plastic flow since the first shear stage began", &ShearSample::plastic_work},
+       {"shear/ploughing", "-", "contribution of ploughing",
         "shear/plastic_work over the normal force on the target, integrated over the distance: "
         "contribution of ploughing to the mean coefficient; NaN before the target has moved by 2% "
         "of the distance planned for its first shear stage",
         &ShearSample::ploughing},
-       {"shear/normal_stress", "Pa", "on the target: normal force / width x thickness",
-        &ShearSample::normal_stress, width},
-       {"shear/lateral_stress", "Pa", "on the target, against its motion",
-        &ShearSample::lateral_stress, width},
-       {"shear/punch_lateral_stress", "Pa", "on the punch, along the target's motion",
-        &ShearSample::punch_lateral_stress, width && punch},
-       {"shear/dilation", "m",
+       {"shear/normal_stress", "Pa", "normal stress on the target $\\sigma_n$",
+        "on the target: normal force / width x thickness", &ShearSample::normal_stress, width},
+       {"shear/lateral_stress", "Pa", "shear stress on the target $\\tau$",
+        "on the target, against its motion", &ShearSample::lateral_stress, width},
+       {"shear/punch_lateral_stress", "Pa", "shear stress on the punch $\\tau$",
+        "on the punch, along the target's motion", &ShearSample::punch_lateral_stress,
+        width && punch},
+       {"shear/dilation", "m", "dilation $\\Delta h$",
         "displacement of the punch away from the target since the first shear stage began",
         &ShearSample::dilation, punch},
-       {"shear/wall_share", "-",
+       {"shear/wall_share", "-", "lateral force carried by the walls",
         "force on the wall that the powder is dragged against / lateral force on the "
         "target; NaN where the latter is zero",
         &ShearSample::wall_share, wall}});
@@ -141,7 +144,7 @@ void add_shear_series(const Scene& scene, Observables& all) {
 
 void add_shear_fields(const Scene& scene, FrameFields& all) {
   if (!shear_setup(scene)) return;
-  all.add({{{"target_slip", "m",
+  all.add({{{"target_slip", "m", "slip of the target $s$",
              "displacement of the target past the particle while they touch, since the first "
              "shear stage began, summed up over samples",
              FieldPlace::particle, 1},

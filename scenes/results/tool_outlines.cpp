@@ -26,8 +26,12 @@ bool is_wall(const Vec2& normal) { return std::abs(normal.x()) > std::abs(normal
 }  // namespace
 
 FieldInfo ToolOutlines::field() {
-  return {"tools/outline", "m", "corners of the tools' outlines, connected by /tools/lines",
-          FieldPlace::list, 2};
+  return {"tools/outline",
+          "m",
+          "outlines of the tools $x$",
+          "corners of the tools' outlines, connected by /tools/lines",
+          FieldPlace::list,
+          2};
 }
 
 ToolOutlines::ToolOutlines(const Scene& scene, const World& world, const std::vector<double>& nodes)

@@ -61,7 +61,7 @@ ROOMS = {
         "results": "results/parts results/observables solve space/results space/tools tools spec language",
         "lever/mesh": "spec language",
         "wedge": "solve",
-        "lever": "solve wedge lever/mesh spec language",
+        "lever": "solve wedge lever/mesh results/parts spec language",
         "checks": "lever meshes packing space/packing tools results results/parts outlines spec language",
         "space/meshes": "meshes spec language",
         "space/packing": "space/meshes packing outlines spec language",

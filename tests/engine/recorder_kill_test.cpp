@@ -170,10 +170,12 @@ class RecorderKill : public ::testing::Test {
             .reference = {0, 0, 1, 0, 1, 1, 0, 1}};
   }
   static std::vector<FieldInfo> fields() {
-    return {{"position", "m", "where the node is", FieldPlace::node, 2},
-            {"contacts/force", "N", "of the first", FieldPlace::list, 2}};
+    return {{"position", "m", "position $x$", "where the node is", FieldPlace::node, 2},
+            {"contacts/force", "N", "contact force $F$", "of the first", FieldPlace::list, 2}};
   }
-  static std::vector<SeriesInfo> series() { return {{"tool/top/force_y", "N", "on the punch"}}; }
+  static std::vector<SeriesInfo> series() {
+    return {{"tool/top/force_y", "N", "force on top $F_y$", "on the punch"}};
+  }
 
   // Frames `first` to `last`, each after `samples` samples. What is seen after each is what a commit left.
   void go_on(Recorder& recorder, int first, int last, int samples = 2) {
@@ -279,7 +281,8 @@ TEST_F(RecorderKill, AResumedRunIsCutAndGoesOnAtOneBlowEach) {
     committed();
     if (round % 2 == 1) position = reached;
     if (round == 3)
-      recorder.image({"map/height", "m", "of the flank"}, 8, 100, std::vector<double>(800, round));
+      recorder.image({"map/height", "m", "height $z$", "of the flank"}, 8, 100,
+                     std::vector<double>(800, round));
     recorder.finish(round == 3 ? "done" : "stopped");
     committed();
   }

@@ -32,15 +32,17 @@ RunMesh two_squares() {
 }
 
 std::vector<FieldInfo> four_fields() {
-  return {{"position", "m", "where the node is", FieldPlace::node, 2},
-          {"velocity", "m/s", "how fast it moves", FieldPlace::node, 2},
-          {"effective_stress", "Pa", "von Mises", FieldPlace::cell, 1},
-          {"contacts", "-", "edges in contact", FieldPlace::particle, 1}};
+  return {
+      {"position", "m", "position $x$", "where the node is", FieldPlace::node, 2},
+      {"velocity", "m/s", "velocity $v$", "how fast it moves", FieldPlace::node, 2},
+      {"effective_stress", "Pa", "effective stress $\\sigma_\\mathrm{eff}$", "von Mises",
+       FieldPlace::cell, 1},
+      {"contacts", "-", "edges or faces in contact", "edges in contact", FieldPlace::particle, 1}};
 }
 
 std::vector<SeriesInfo> two_series() {
-  return {{"tool/top/force_y", "N", "force on the punch"},
-          {"relative_density", "-", "solid share"}};
+  return {{"tool/top/force_y", "N", "force on top $F_y$", "force on the punch"},
+          {"relative_density", "-", "relative density $\\rho$", "solid share"}};
 }
 
 constexpr double third = 1.0 / 3.0;
@@ -111,7 +113,7 @@ TEST_F(RecorderTest, WritesTheAttributesOfTheRun) {
   EXPECT_EQ(file.number_attribute("/", "threads"), 2);
 }
 
-TEST_F(RecorderTest, GivesEveryDatasetAUnitAndAMeaning) {
+TEST_F(RecorderTest, GivesEveryDatasetAUnitAndAMeaningAndResultsALabel) {
   record(2);
   const auto file = hdf5::File::open(folder / "run.h5");
   const auto datasets = file.datasets_below("/");
@@ -121,6 +123,8 @@ TEST_F(RecorderTest, GivesEveryDatasetAUnitAndAMeaning) {
     EXPECT_FALSE(file.text_attribute("/" + dataset, "meaning").empty()) << dataset;
   }
   EXPECT_EQ(file.text_attribute("/history/tool/top/force_y", "unit"), "N");
+  EXPECT_EQ(file.text_attribute("/history/tool/top/force_y", "label"), "force on top $F_y$");
+  EXPECT_EQ(file.text_attribute("/frames/000001/velocity", "label"), "velocity $v$");
   EXPECT_EQ(file.text_attribute("/frames/000001/velocity", "unit"), "m/s");
   EXPECT_EQ(file.text_attribute("/history/time", "unit"), "s");
 }
@@ -336,7 +340,8 @@ TEST_F(RecorderTest, AResumedRunTakesFramesThatItCutsOutOfTheXdmf) {
 // Rows come between frames, none is lost or twice where a run was stopped, and whole numbers are stored as such.
 TEST_F(RecorderTest, TablesGrowAndGoOnWhereTheRunWasSaved) {
   const std::vector<TableInfo> tables{
-      {"cracks", {{"time", "s", "when"}, {"particle", "-", "its number", true}}}};
+      {"cracks",
+       {{"time", "s", "time $t$", "when"}, {"particle", "-", "particle", "its number", true}}}};
   RecorderPosition position;
   open_run_folder(folder);
   {
@@ -368,8 +373,10 @@ TEST_F(RecorderTest, TablesGrowAndGoOnWhereTheRunWasSaved) {
 TEST_F(RecorderTest, WritesListsWhoseLengthChanges) {
   open_run_folder(folder);
   auto fields = four_fields();
-  fields.push_back({"contacts/ids", "-", "who touches", FieldPlace::list, 2, true});
-  fields.push_back({"contacts/force", "N", "of the first", FieldPlace::list, 2});
+  fields.push_back(
+      {"contacts/ids", "-", "bodies in contact", "who touches", FieldPlace::list, 2, true});
+  fields.push_back(
+      {"contacts/force", "N", "contact force $F$", "of the first", FieldPlace::list, 2});
   fields.front().name = "position";
   fields[3].name = "touching";
   Recorder recorder(folder, {}, two_squares(), two_series(), fields);

@@ -28,12 +28,13 @@ class RunMeshTest : public ::testing::Test {
         .cell_particle = {0, 0, 1},
         .node_particle = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1},
         .reference = {0, 0, 1, 0, 0, 1, 1, 1, 0, 2, 1, 2, 2, 0, 3, 0, 2, 1, 3, 1},
-        .tags = {{"number", "of the particle", {0, 1}, {}},
-                 {"material", "position", {1, 0}, {"iron", "copper & <tin>"}}},
+        .tags = {{"number", "particle", "of the particle", {0, 1}, {}},
+                 {"material", "material", "position", {1, 0}, {"iron", "copper & <tin>"}}},
         .tools = {{"left", "top"}, {0, 1, 1, 2, 2, 0, 3, 4, 4, 5, 5, 3}, {0, 0, 0, 1, 1, 1}}};
-    Recorder recorder(folder, {"0.1.0", "abc", "tagged", "f00d", 1, 1}, mesh, {},
-                      {{"position", "m", "of the node", FieldPlace::node, 2},
-                       {"tools/outline", "m", "corners", FieldPlace::list, 2}});
+    Recorder recorder(
+        folder, {"0.1.0", "abc", "tagged", "f00d", 1, 1}, mesh, {},
+        {{"position", "m", "position $x$", "of the node", FieldPlace::node, 2},
+         {"tools/outline", "m", "outlines of the tools $x$", "corners", FieldPlace::list, 2}});
     for (int k = 0; k < 3; ++k) {
       recorder.sample(k, {});
       recorder.frame(k, k,
@@ -73,12 +74,13 @@ TEST_F(RunMeshTest, ShowsParticlesAndToolsInSpaceToMeshio) {
   mesh.node_particle.assign(8, 0);
   mesh.reference = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
   mesh.hexahedra = {0, 1, 2, 3, 4, 5, 6, 7};
-  mesh.tags = {{"material", "position", {1}, {"iron", "tin"}}};
+  mesh.tags = {{"material", "material", "position", {1}, {"iron", "tin"}}};
   mesh.tool_faces = {{"floor", "wall"}, {"plane", "stl"}, {0, 1, 2, 3, 4, 5, 6, 6}, {0, 1}, 7};
   {
-    Recorder recorder(folder, {"0.1.0", "abc", "in space", "f00d", 1, 1}, mesh, {},
-                      {{"position", "m", "of the node", FieldPlace::node, 3},
-                       {"tools/outline", "m", "corners", FieldPlace::list, 3}});
+    Recorder recorder(
+        folder, {"0.1.0", "abc", "in space", "f00d", 1, 1}, mesh, {},
+        {{"position", "m", "position $x$", "of the node", FieldPlace::node, 3},
+         {"tools/outline", "m", "outlines of the tools $x$", "corners", FieldPlace::list, 3}});
     for (int k = 0; k < 2; ++k) {
       const double x = 1.0 + k;
       recorder.frame(k, k, {mesh.reference, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,  //

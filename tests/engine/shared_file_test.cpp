@@ -146,10 +146,10 @@ class SharedRun : public SharedFileTest {
     return mesh;
   }
   static std::vector<FieldInfo> fields() {
-    return {{"position", "m", "where the node is", FieldPlace::node, 2},
-            {"velocity", "m/s", "how fast it moves", FieldPlace::node, 2},
-            {"stress", "Pa", "in the plane", FieldPlace::cell, 4},
-            {"contacts/force", "N", "of the first", FieldPlace::list, 1}};
+    return {{"position", "m", "position $x$", "where the node is", FieldPlace::node, 2},
+            {"velocity", "m/s", "velocity $v$", "how fast it moves", FieldPlace::node, 2},
+            {"stress", "Pa", "stress $\\sigma$", "in the plane", FieldPlace::cell, 4},
+            {"contacts/force", "N", "contact force $F$", "of the first", FieldPlace::list, 1}};
   }
   static std::vector<double> values_of(std::size_t field, int frame) {
     constexpr std::array<std::size_t, 4> sizes{24 * quads, 24 * quads, 12 * quads, 5};
@@ -187,7 +187,7 @@ class SharedRun : public SharedFileTest {
 
   void record(const fs::path& place, bool shares) {
     open_run_folder(place);
-    Recorder recorder(place, {}, mesh(), {{"force", "N", "on the punch"}}, fields());
+    Recorder recorder(place, {}, mesh(), {{"force", "N", "force $F$", "on the punch"}}, fields());
     if (shares) recorder.share(writers());
     for (frame_ = 0; frame_ < 130; ++frame_) {  // the last ones without a commit each
       recorder.sample(frame_, std::vector{0.5 * frame_});
@@ -222,7 +222,7 @@ TEST_F(SharedRun, HoldsTheSameAsThatOfOneProcess) {
 TEST_F(SharedRun, AFrameThatAWriterCouldNotWriteIsNotThere) {
   open_run_folder(folder);
   {
-    Recorder recorder(folder, {}, mesh(), {{"force", "N", "on the punch"}}, fields());
+    Recorder recorder(folder, {}, mesh(), {{"force", "N", "force $F$", "on the punch"}}, fields());
     FieldWriters failing = writers();
     failing.write = [this, write = failing.write](std::size_t field, const FieldRoom& room) {
       if (frame_ == 2 && field == 1) throw OutputError(room.at.file, "write its part", "full");

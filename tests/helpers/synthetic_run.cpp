@@ -48,9 +48,9 @@ const std::vector<std::string> tool_names{"top", "bottom", "left", "right"};
 
 // Columns of steel and of copper, one class; four tools of four corners each.
 void add_tags(const SyntheticRun& run, RunMesh& mesh) {
-  ParticleTag number{"number", "of the particle", {}, {}};
-  ParticleTag material{"material", "position in `names`", {}, {"steel", "copper"}};
-  ParticleTag of_class{"class", "position in `names`", {}, {"disc"}};
+  ParticleTag number{"number", "particle", "of the particle", {}, {}};
+  ParticleTag material{"material", "material", "position in `names`", {}, {"steel", "copper"}};
+  ParticleTag of_class{"class", "class", "position in `names`", {}, {"disc"}};
   for (int disc = 0; disc < run.rows * run.columns; ++disc) {
     number.values.push_back(disc);
     material.values.push_back(disc % run.columns % 2);
@@ -106,14 +106,16 @@ std::vector<double> stresses(const SyntheticRun& run, double share) {
 
 std::vector<FieldInfo> fields(const SyntheticRun& run) {
   std::vector<FieldInfo> all{
-      {"position", "m", "position of the node", FieldPlace::node, 2},
-      {"velocity", "m/s", "velocity of the node", FieldPlace::node, 2},
-      {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
-      {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
-      {"stress", "Pa", "Cauchy stress xx, yy, zz, xy", FieldPlace::cell, 4}};
+      {"position", "m", "position $x$", "position of the node", FieldPlace::node, 2},
+      {"velocity", "m/s", "velocity $v$", "velocity of the node", FieldPlace::node, 2},
+      {"effective_stress", "Pa", "effective stress $\\sigma_\\mathrm{eff}$", "von Mises stress",
+       FieldPlace::cell, 1},
+      {"plastic_strain", "-", "plastic strain $\\bar\\varepsilon_p$", "accumulated plastic strain",
+       FieldPlace::cell, 1},
+      {"stress", "Pa", "stress $\\sigma$", "Cauchy stress xx, yy, zz, xy", FieldPlace::cell, 4}};
   const auto add = [&](const std::string& name, const char* unit, FieldPlace place, int components,
                        bool whole = false) {
-    all.push_back({name, unit, "made up", place, components, whole});
+    all.push_back({name, unit, "", "made up", place, components, whole});
   };
   if (run.cell) add("cell", "m", FieldPlace::list, 2);
   if (run.bonds) {
@@ -206,7 +208,7 @@ std::vector<TableInfo> tables(const SyntheticRun& run) {
   if (!run.bonds) return {};
   std::vector<SeriesInfo> columns;
   for (const char* name : {"time", "length", "shear", "energy"})
-    columns.push_back({name, "SI", "made up"});
+    columns.push_back({name, "SI", "", "made up"});
   return {{"cracks", columns}};
 }
 
@@ -229,12 +231,13 @@ std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share)
 }
 
 std::vector<SeriesInfo> series(bool tools, bool bonds) {
-  std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy"},
-                                 {"energy/elastic", "J", "elastic energy"},
-                                 {"energy/plastic", "J", "plastic work"},
-                                 {"energy/hourglass", "J", "energy of hourglass modes"},
-                                 {"energy/balance", "J", "energy made or lost"},
-                                 {"contacts", "-", "edges in contact"}};
+  std::vector<SeriesInfo> all = {
+      {"energy/kinetic", "J", "kinetic energy $E$", "kinetic energy"},
+      {"energy/elastic", "J", "elastic energy $E$", "elastic energy"},
+      {"energy/plastic", "J", "plastic energy $E$", "plastic work"},
+      {"energy/hourglass", "J", "hourglass energy $E$", "energy of hourglass modes"},
+      {"energy/balance", "J", "energy balance error $E$", "energy made or lost"},
+      {"contacts", "-", "boundary edges in contact", "edges in contact"}};
   if (bonds)
     for (const auto& [name, unit] : {std::pair("energy/bonds", "J"),
                                      {"energy/fracture", "J"},
@@ -242,17 +245,25 @@ std::vector<SeriesInfo> series(bool tools, bool bonds) {
                                      {"bonds/fragments", "-"},
                                      {"bonds/damage", "-"},
                                      {"bonds/largest_fragment", "-"}})
-      all.push_back({name, unit, "made up"});
+      all.push_back({name, unit, "", "made up"});
   if (!tools) return all;
   for (const std::string tool : {"top", "bottom"}) {
-    all.push_back({"tool/" + tool + "/position_x", "m", "position of the tool"});
-    all.push_back({"tool/" + tool + "/position_y", "m", "position of the tool"});
-    all.push_back({"tool/" + tool + "/force_x", "N", "force on the tool"});
-    all.push_back({"tool/" + tool + "/force_y", "N", "force on the tool"});
+    all.push_back({"tool/" + tool + "/position_x", "m", "position of " + tool + " $x$",
+                   "position of the tool"});
+    all.push_back({"tool/" + tool + "/position_y", "m", "position of " + tool + " $y$",
+                   "position of the tool"});
+    all.push_back(
+        {"tool/" + tool + "/force_x", "N", "force on " + tool + " $F_x$", "force on the tool"});
+    all.push_back(
+        {"tool/" + tool + "/force_y", "N", "force on " + tool + " $F_y$", "force on the tool"});
   }
-  all.push_back({"relative_density", "-", "solid share of the die"});
-  all.push_back({"stress_ratio/axial", "-", "axial stress over the yield stress"});
-  all.push_back({"stress_ratio/lateral", "-", "lateral stress over the yield stress"});
+  all.push_back({"relative_density", "-", "relative density $\\rho$", "solid share of the die"});
+  all.push_back({"stress_ratio/axial", "-",
+                 "axial stress over yield stress $\\sigma_\\mathrm{ax}/\\sigma_y$",
+                 "axial stress over the yield stress"});
+  all.push_back({"stress_ratio/lateral", "-",
+                 "lateral stress over yield stress $\\sigma_\\mathrm{lat}/\\sigma_y$",
+                 "lateral stress over the yield stress"});
   return all;
 }
 

@@ -46,7 +46,7 @@ void append_bond_fields_in_space(const SyntheticSpaceRun& run, std::vector<Field
   if (!run.bonds) return;
   const auto add = [&](const char* name, const char* unit, FieldPlace place, int components,
                        bool whole = false) {
-    all.push_back({name, unit, "made up", place, components, whole});
+    all.push_back({name, unit, "", "made up", place, components, whole});
   };
   add("bonds/area", "m^2", FieldPlace::list, 1);
   for (const char* name : {"bonds/position", "cracks/position"})
@@ -65,7 +65,7 @@ void append_bond_series_in_space(const SyntheticSpaceRun& run, std::vector<Serie
                                    {"bonds/fragments", "-"},
                                    {"bonds/damage", "-"},
                                    {"bonds/largest_fragment", "-"}})
-    all.push_back({name, unit, "made up"});
+    all.push_back({name, unit, "", "made up"});
 }
 
 nlohmann::ordered_json bond_summary_in_space(const SyntheticSpaceRun& run) {
@@ -138,7 +138,7 @@ std::vector<TableInfo> bond_tables_in_space(const SyntheticSpaceRun& run) {
                                    {"area", "m^2"},
                                    {"shear", "-"},
                                    {"energy", "J"}})
-    columns.push_back({name, unit, "made up"});
+    columns.push_back({name, unit, "", "made up"});
   return {{"cracks", columns}};
 }
 

@@ -180,9 +180,9 @@ std::vector<double> space_tool_corners(const SyntheticSpaceRun& run, double shar
 }
 
 std::vector<ParticleTag> tags_of(const SyntheticSpaceRun& run) {
-  ParticleTag number{"number", "of the particle", {}, {}};
-  ParticleTag material{"material", "position in `names`", {}, {"steel", "copper"}};
-  ParticleTag of_class{"class", "position in `names`", {}, {"ball"}};
+  ParticleTag number{"number", "particle", "of the particle", {}, {}};
+  ParticleTag material{"material", "material", "position in `names`", {}, {"steel", "copper"}};
+  ParticleTag of_class{"class", "class", "position in `names`", {}, {"ball"}};
   for (int sphere = 0; sphere < spheres(run); ++sphere) {
     number.values.push_back(sphere);
     material.values.push_back((sphere % run.columns + sphere / run.columns) % 2);
@@ -222,26 +222,32 @@ std::vector<double> space_stresses(const SyntheticSpaceRun& run, const Ball& bal
 
 std::vector<FieldInfo> space_fields(const SyntheticSpaceRun& run) {
   std::vector<FieldInfo> all{
-      {"position", "m", "position of the node", FieldPlace::node, 3},
-      {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
-      {"pressure", "Pa", "made up", FieldPlace::cell, 1},
-      {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
-      {"coordination", "-", "made up", FieldPlace::particle, 1, true}};
+      {"position", "m", "position $x$", "position of the node", FieldPlace::node, 3},
+      {"effective_stress", "Pa", "effective stress $\\sigma_\\mathrm{eff}$", "von Mises stress",
+       FieldPlace::cell, 1},
+      {"pressure", "Pa", "pressure $p$", "made up", FieldPlace::cell, 1},
+      {"plastic_strain", "-", "plastic strain $\\bar\\varepsilon_p$", "accumulated plastic strain",
+       FieldPlace::cell, 1},
+      {"coordination", "-", "coordination number $Z$", "made up", FieldPlace::particle, 1, true}};
   if (run.densities) {
-    all.push_back({"local_density", "-", "made up", FieldPlace::list, 3});
+    all.push_back(
+        {"local_density", "-", "local relative density $\\rho$", "made up", FieldPlace::list, 3});
     for (const std::string axis : {"x", "y", "z"})
-      all.push_back({"density_grid/" + axis, "m", "made up", FieldPlace::list, 1});
+      all.push_back({"density_grid/" + axis, "m", "", "made up", FieldPlace::list, 1});
   }
   if (run.contacts) {
-    all.push_back({"particle_centre", "m", "made up", FieldPlace::particle, 3});
+    all.push_back(
+        {"particle_centre", "m", "centre of the particle $x$", "made up", FieldPlace::particle, 3});
     for (const std::string group : {"contacts/", "tool_contacts/"}) {
-      all.push_back({group + "ids", "-", "made up", FieldPlace::list, 2, true});
-      all.push_back({group + "point", "m", "made up", FieldPlace::list, 3});
-      all.push_back({group + "normal_force", "N", "made up", FieldPlace::list, 1});
+      all.push_back({group + "ids", "-", "", "made up", FieldPlace::list, 2, true});
+      all.push_back({group + "point", "m", "", "made up", FieldPlace::list, 3});
+      all.push_back({group + "normal_force", "N", "", "made up", FieldPlace::list, 1});
     }
   }
   append_bond_fields_in_space(run, all);
-  if (run.tools) all.push_back({"tools/outline", "m", "made up", FieldPlace::list, 3});
+  if (run.tools)
+    all.push_back(
+        {"tools/outline", "m", "outlines of the tools $x$", "made up", FieldPlace::list, 3});
   return all;
 }
 
@@ -319,17 +325,19 @@ std::vector<std::vector<double>> space_frame_of(const SyntheticSpaceRun& run, co
 }
 
 std::vector<SeriesInfo> space_series(const SyntheticSpaceRun& run) {
-  std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy"},
-                                 {"energy/elastic", "J", "elastic energy"},
-                                 {"energy/plastic", "J", "plastic work"}};
+  std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy $E$", "kinetic energy"},
+                                 {"energy/elastic", "J", "elastic energy $E$", "elastic energy"},
+                                 {"energy/plastic", "J", "plastic energy $E$", "plastic work"}};
   append_bond_series_in_space(run, all);
   if (!run.tools) return all;
   for (const std::string tool : {"top", "bottom"})
     for (const std::string axis : {"x", "y", "z"}) {
-      all.push_back({"tool/" + tool + "/position_" + axis, "m", "position of the tool"});
-      all.push_back({"tool/" + tool + "/force_" + axis, "N", "force on the tool"});
+      all.push_back({"tool/" + tool + "/position_" + axis, "m",
+                     "position of " + tool + " $" + axis + "$", "position of the tool"});
+      all.push_back({"tool/" + tool + "/force_" + axis, "N",
+                     "force on " + tool + " $F_" + axis + "$", "force on the tool"});
     }
-  all.push_back({"relative_density", "-", "solid share of the room"});
+  all.push_back({"relative_density", "-", "relative density $\\rho$", "solid share of the room"});
   return all;
 }
 

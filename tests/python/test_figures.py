@@ -29,7 +29,7 @@ class FiguresTest(unittest.TestCase):
     def test_curves_of_a_figure_differ_in_colour_or_dash(self):
         x = "time", np.linspace(0, 1, 5), "s"
         lines = [(f"energy {i}", i * x[1], "J") for i in range(12)]
-        axes = look.draw_lines(types.SimpleNamespace(title=""), x, lines, "energy", "Energies").axes[0]
+        axes = look.draw_lines(types.SimpleNamespace(title="", labels={}), x, lines, "energy", "Energies").axes[0]
         looks = {(line.get_color(), line.get_linestyle()) for line in axes.lines if len(line.get_xdata()) == 5}
         self.assertEqual(len(looks), 12)
         self.assertEqual(len({line.get_color() for line in axes.lines[:9]}), 9)
@@ -38,7 +38,7 @@ class FiguresTest(unittest.TestCase):
         """The dashes of curves in one figure, with a sample of the picture along each."""
         x = "time", np.linspace(0, 1, 300), "s"
         lines = [(f"{i}", values(x[1]), "N") for i, values in enumerate(curves)]
-        figure = look.draw_lines(types.SimpleNamespace(title=""), x, lines, ("force", "F"), "Forces")
+        figure = look.draw_lines(types.SimpleNamespace(title="", labels={}), x, lines, ("force", "F"), "Forces")
         figure.canvas.draw()
         picture, axes = np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int), figure.axes[0]
         return [line for line in axes.lines if len(line.get_xdata()) == 300], picture, axes
@@ -67,7 +67,7 @@ class FiguresTest(unittest.TestCase):
         lines = [{"variation": f"{n} samples", "runs": 1, "x": np.linspace(0.1, 1, n).tolist(),
                   "y": (np.linspace(0.1, 1, n) ** 2).tolist()} for n in (60, 97)]
         curve = {"x": "time", "x_unit": "s", "y": "energy/kinetic", "y_unit": "J", "title": "Energies", "lines": lines}
-        axes = study.draw(curve, "A study", look.Options()).axes[0]
+        axes = study.draw(curve, {"title": "A study"}, look.Options()).axes[0]
         self.assertEqual([line.get_linestyle() for line in axes.lines], ["-", "--"])
 
     def test_ticks_of_the_rose_stand_where_they_say(self):
@@ -112,7 +112,7 @@ class FiguresTest(unittest.TestCase):
 
     def test_fragments_are_counted_in_whole_numbers(self):
         series = {"time": np.linspace(0, 1, 5), "bonds/fragments": np.ones(5)}
-        run = types.SimpleNamespace(title="", in_space=False, has=lambda _: True, series=lambda name: series.get(name, np.zeros(5)))
+        run = types.SimpleNamespace(title="", labels={}, in_space=False, has=lambda _: True, series=lambda name: series.get(name, np.zeros(5)))
         figure = bonds.breaking(run)
         figure.canvas.draw()
         ticks = figure.axes[-1].get_yticks()

@@ -330,30 +330,31 @@ def test_a_study_is_drawn_by_the_same_command(study, tmp_path):
     assert [line.get_color() for line in axes.lines if line.get_label().startswith("friction")] == colours
 
 
-def test_names_come_from_one_table():
-    assert label("effective_stress", "MPa") == r"Effective stress $\sigma_\mathrm{eff}$ / MPa"
-    assert label("tool/upper punch/force_y", "kN") == "Force on upper punch $F_y$ / kN"
-    assert label("stress:4", "Pa", 4) == r"Stress $\sigma_{xy}$ / Pa"
-    assert label("stress:6", "Pa", 6) == r"Stress $\sigma_{zx}$ / Pa"
-    assert label("peak/top_force", "N").startswith("Top force at peak density")
-    for part in ("xx", "yy", "zz", "xy", "yz", "zx"):
-        assert label(f"stress/{part}", "MPa") == rf"Mean stress $\sigma_{{{part}}}$ / MPa"
-    for side in ("left", "right", "front", "back"):
-        assert name_of(f"stress/radial_{side}").words == f"lateral stress on the {side} wall"
-    assert name_of("contacts").words == "edges or faces in contact"
-    assert name_of("something/of_mine").words == "something, of mine"
+def test_labels_have_words_and_a_symbol():
+    labels = {"stress": r"stress $\sigma$", "tool/upper punch/force_y": "force on upper punch $F_y$", "contacts": "boundary edges in contact"}
+    for key, components, shown in (("tool/upper punch/force_y", 1, "Force on upper punch $F_y$ / kN"),
+                                   ("stress:4", 4, r"Stress $\sigma_{xy}$ / kN"), ("stress:6", 6, r"Stress $\sigma_{zx}$ / kN"),
+                                   ("contacts", 1, "Boundary edges in contact / kN"), ("peak/top_force", 1, "Top force at peak density $F$ / kN")):
+        assert label(name_of(key, labels, components), "kN") == shown
+    assert name_of("something/of_mine", labels).words == "something, of mine"
     assert over("Energy", "J/m^3") == "Energy / (J/m³)"
     assert plain(r"axial $\sigma_\mathrm{ax}$") == "axial σax"
 
 
-def test_every_recorded_series_and_field_has_a_name(compact, loop):
+def test_every_recorded_series_and_field_has_a_label(compact, loop):
     for folder in (compact, loop):
         run = pulvis.open(folder)
-        for name in (*run.names, *(run.frame(-1).fields if not run.is_solid else ())):
-            words = name_of(name).words
-            assert "_" not in words and "/" not in words, name
-            if "/" in name:
-                assert words != name.replace("_", " ").replace("/", ", "), f"no words for {name}"
+        assert set(run.names) | set(run.frame(-1).fields) <= set(run.labels)
+
+
+def test_a_run_without_labels_is_drawn_with_words_from_its_names(compact, tmp_path):
+    shutil.copytree(compact, tmp_path / "old")
+    with h5py.File(tmp_path / "old/run.h5", "r+") as file:
+        file.visititems(lambda _, item: item.attrs.__delitem__("label") if "label" in item.attrs else None)
+    old = pulvis.open(tmp_path / "old")
+    assert old.labels == {}
+    assert old.plot.field("stress:2")[1].get_title("left").startswith("Stress")
+    assert old.plot.series("relative_density")[1].get_ylabel() == "Relative density"
 
 
 def test_lengths_and_ranges_are_read_with_their_units():

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
 #include "cli/csv_cell.hpp"
 
 namespace pulvis {
@@ -21,6 +25,33 @@ Json parameters_json(const std::vector<FittedParameter>& parameters) {
 
 bool is_weibull(const FittedLaw& law) { return law.fit->law == StudyFit::Law::weibull; }
 
+double parameter(const FittedGroup& group, const std::string& name) {
+  return std::ranges::find(group.parameters, name, &FittedParameter::name)->value;
+}
+
+// The fitted law over the range of the points, as pages and figures draw it: columns named as in the points.
+Json line_json(const FittedLaw& law, const FittedGroup& group) {
+  const auto column = is_power(law)     ? &FittedPoint::key
+                      : is_weibull(law) ? &FittedPoint::strength
+                                        : &FittedPoint::porosity;
+  const auto of = [&](const char* name) { return parameter(group, name); };
+  const auto y = [&](double x) {
+    if (is_power(law)) return of("value") * std::pow(x / of("at"), of("exponent"));
+    if (is_weibull(law)) return 1 - std::exp(-std::pow(x / of("scale"), of("modulus")));
+    return of("dense_strength") * std::exp(-of("k") * x);
+  };
+  const auto [low, high] = std::ranges::minmax(group.points | std::views::transform(column));
+  Json xs = Json::array(), ys = Json::array();
+  constexpr int pieces = 60;
+  for (int i = 0; i <= pieces; ++i) {
+    xs.push_back(low + (high - low) * i / pieces);
+    ys.push_back(y(xs.back().get<double>()));
+  }
+  if (is_power(law)) return {{"key", xs}, {"value", ys}};
+  if (is_weibull(law)) return {{"strength", xs}, {"failure_probability", ys}};
+  return {{"porosity", xs}, {"strength", ys}};
+}
+
 Json group_json(const FittedLaw& law, const FittedGroup& group) {
   Json points = Json::array();
   for (const FittedPoint& point : group.points) {
@@ -39,6 +70,7 @@ Json group_json(const FittedLaw& law, const FittedGroup& group) {
   if (!group.not_fitted.empty()) json["not_fitted"] = group.not_fitted;
   json["parameters"] = parameters_json(group.parameters);
   json["points"] = points;
+  if (group.not_fitted.empty()) json["line"] = line_json(law, group);
   return json;
 }
 

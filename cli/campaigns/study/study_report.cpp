@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "cli/campaigns/study/analysis/study_series.hpp"
 #include "cli/campaigns/study/study_curves.hpp"
 #include "cli/campaigns/study/study_fit_files.hpp"
 #include "cli/campaigns/study/study_quality.hpp"
@@ -57,6 +58,13 @@ Json verdicts_json(const std::vector<Verdict>& verdicts) {
   return list;
 }
 
+Json labels_json(const Study& study) {
+  Json labels = Json::object();
+  for (const StudyRun& run : study.runs)
+    for (const SeriesInfo& series : study_series(run.scene)) labels[series.name] = series.label;
+  return labels;
+}
+
 std::string title_of(const Study& study) {
   return study.spec.title.empty() ? study.file.stem().string() : study.spec.title;
 }
@@ -70,6 +78,7 @@ Json study_json(const Study& study, const std::vector<StudyResult>& results,
   for (const StudyResult& result : results) json["runs"].push_back(run_json(study, result));
   json["expectations"] = verdicts_json(findings.verdicts);
   if (!findings.fits.empty()) json["fits"] = fits_json(findings.fits);
+  json["labels"] = labels_json(study);
   return json;
 }
 

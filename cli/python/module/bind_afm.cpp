@@ -286,7 +286,7 @@ py::list curves_of(const PythonLever& lever) {
 py::list series_of_levers() {
   py::list all;
   for (const SeriesInfo& one : afm_series())
-    all.append(py::make_tuple(one.name, one.unit, one.meaning));
+    all.append(py::make_tuple(one.name, one.unit, one.label, one.meaning));
   return all;
 }
 

@@ -42,11 +42,11 @@ bool take_steps(PythonRun& run, std::int64_t count) {
       {.step = taken + std::min(count, std::numeric_limits<std::int64_t>::max() - taken)});
 }
 
-// Name, unit and meaning of every series except time.
+// Name, unit, label and meaning of every series except time.
 py::list series_of(PythonRun& run) {
   py::list all;
   for (const SeriesInfo& one : run.session().results().series())
-    all.append(py::make_tuple(one.name, one.unit, one.meaning));
+    all.append(py::make_tuple(one.name, one.unit, one.label, one.meaning));
   return all;
 }
 

@@ -135,7 +135,7 @@ class Lever:
         """Arrays [increments] by series name, SI units: dict; ``actions`` counts the completed actions."""
         rows = self._core.samples
         series = {"actions": np.asarray(self._core.sample_times)}
-        series.update({name: rows[:, i] for i, (name, _, _) in enumerate(_core.afm_series())})
+        series.update({name: rows[:, i] for i, (name, *_) in enumerate(_core.afm_series())})
         return Named("series", series)
 
     @property

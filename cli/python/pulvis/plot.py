@@ -180,10 +180,11 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
     """[(label, text)]: the main results of a run."""
     mesh, facts = run.mesh, [("outcome", run.outcome)]
     if run.is_solid:
-        facts += [(name_of(key).words, with_unit(run.calibration[key], "N/m")) for key in ("k_n", "k_l") if run.calibration]
-        facts += [(name_of(f"loop/{key}").words, with_unit(loop.values[key], unit)) for loop in run.loops[:1]
-                  for key, unit in (("half_width", "N"), ("friction", "")) if loop.values.get(key) is not None]
-        facts += [(name_of("curve/pull_off").words, with_unit(curve.values["pull_off"], "N"))
+        facts += [(words, with_unit(run.calibration[key], "N/m")) for key, words in (("k_n", "normal stiffness"), ("k_l", "lateral stiffness"))
+                  if run.calibration]
+        facts += [(f"{words} of the loop", with_unit(loop.values[key], unit)) for loop in run.loops[:1]
+                  for key, words, unit in (("half_width", "half-width", "N"), ("friction", "friction coefficient", "")) if loop.values.get(key) is not None]
+        facts += [("pull-off force", with_unit(curve.values["pull_off"], "N"))
                   for curve in run.force_curves[:1]]
     else:
         facts.append(("particles", f"{mesh.node_particle.max() + 1:,}"))
@@ -193,7 +194,7 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
         facts.append(("simulated time", with_unit(samples[-1], "s")))
     for name in () if run.is_solid else ("relative_density", "stress_ratio/axial", "stress_ratio/lateral"):
         if run.has(name) and len(samples):
-            facts.append((name_of(name).words, f"{run.series(name)[-1]:.4g}"))
+            facts.append((name_of(name, run.labels).words, f"{run.series(name)[-1]:.4g}"))
     facts.append(("frames", str(len(run.frames))))
     if "wall_seconds" in run.summary:
         facts.append(("computed in", f"{run.summary['wall_seconds']:.3g} s"))

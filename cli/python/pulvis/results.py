@@ -102,6 +102,7 @@ class Run:
         self.frames = [Frame(self, name, number) for number, name in enumerate(whole)]
         self._series: dict[str, h5py.Dataset] = {}
         self._units: dict[str, str] = {}
+        self._labels: dict[str, str] = {}
         self._values: dict[str, np.ndarray] = {}  # for a run in progress: its history moves within the file
         self._mesh: Mesh | None = None
         if "history" in self.file:
@@ -160,6 +161,8 @@ class Run:
         if isinstance(item, h5py.Dataset):
             self._series[name] = item
             self._units[name] = item.attrs["unit"]
+            if "label" in item.attrs:  # not in runs of older versions
+                self._labels[name] = item.attrs["label"]
             if self.outcome == "running":
                 self._values[name] = item[()]
 
@@ -216,6 +219,12 @@ class Run:
     def units(self) -> dict[str, str]:
         """Unit of each series."""
         return dict(self._units)
+
+    @property
+    def labels(self) -> dict[str, str]:
+        r"""Words and symbol of each series and field for axes, as "relative density $\rho$"; empty for runs of older versions."""
+        fields = [*self.file.get("particles", {}).items(), *(self.frames[-1].group.items() if self.frames else ())]
+        return {name: item.attrs["label"] for name, item in fields if "label" in item.attrs} | self._labels
 
     def has(self, name: str) -> bool:
         """Whether a series of this name exists."""

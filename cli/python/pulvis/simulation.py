@@ -325,16 +325,18 @@ class Servo:
 
 
 class History(Mapping[str, np.ndarray]):
-    """Sampled series by name, including ``"time"``. `units` and `meanings` have the same names."""
+    """Sampled series by name, including ``"time"``. `units`, `labels` (for axes) and `meanings` have the same names."""
 
     def __init__(self, run: _core.Run) -> None:
         self.units = {"time": "s"}
+        self.labels = {"time": "time $t$"}
         self.meanings = {"time": "simulated time"}
         self._arrays = Named("series", {"time": run.sample_times})
         rows = run.samples
-        for i, (name, unit, meaning) in enumerate(run.series):
+        for i, (name, unit, label, meaning) in enumerate(run.series):
             self._arrays[name] = rows[:, i]
             self.units[name] = unit
+            self.labels[name] = label
             self.meanings[name] = meaning
 
     def __getitem__(self, name: str) -> np.ndarray:

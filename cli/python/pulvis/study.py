@@ -165,7 +165,7 @@ class Study:
         if not 0 <= number < len(curves):
             raise RunError(f"{self.folder}: chart {number}: there are 0 to {len(curves) - 1}", self.folder)
         with plt.rc_context(options.context(ax)):
-            figure = draw(curves[number], self.title, options, ax)
+            figure = draw(curves[number], self.summary, options, ax)
         if figure is None:
             raise RunError(f"{self.folder}: no run has the data of chart {number} shows", self.folder)
         return figure, ax if ax is not None else figure.axes[0]

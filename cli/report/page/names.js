@@ -1,28 +1,19 @@
-// Names shown in pages instead of keys: words and a symbol, from the same table as for figures
-// (cli/python/pulvis/figures/name_table.py), embedded in the page as NAMES.
+// Names shown in pages instead of keys: words and a symbol. Results have theirs in run.h5; other keys in the same table as for
+// figures (cli/python/pulvis/figures/name_table.py), embedded in the page as NAMES.
 "use strict";
 
-const PATTERNS = NAMES.patterns.map(([pattern, ...name]) => [new RegExp(`^(?:${pattern})$`), ...name]);
+const LABELS = new Map(Object.entries(NAMES.keys));  // "relative density $\\rho$"
+const keepLabels = (labels = {}) => Object.entries(labels).forEach(one => LABELS.set(...one));
 
-// {words, symbol}; a key that is not in the table is shown unchanged.
+// {words, symbol}; a key without a label is shown as words.
 function nameOf(key) {
-  if (Object.hasOwn(NAMES.keys, key)) {
-    const [words, symbol] = NAMES.keys[key];
+  if (LABELS.has(key)) {
+    const [, words, symbol = ""] = /^(.*?)(?: \$([^$]*)\$)?$/s.exec(LABELS.get(key));
     return {words, symbol};
   }
   if (key.startsWith("peak/")) {
     const {words, symbol} = nameOf(key.slice("peak/".length));
     return {words: `${words} at peak density`, symbol};
-  }
-  if (key.startsWith("energy/")) {
-    const kind = key.slice("energy/".length), isWhole = kind === "external" || kind === "balance";
-    return {words: (NAMES.energies[kind] || words(kind)) + (isWhole ? "" : " energy"), symbol: "E"};
-  }
-  for (const [pattern, told, symbol] of PATTERNS) {
-    const found = pattern.exec(key);
-    if (!found) continue;
-    const filled = text => Object.entries(found.groups || {}).reduce((one, [part, value]) => one.replaceAll(`{${part}}`, value), text);
-    return {words: filled(told), symbol: filled(symbol)};
   }
   return {words: words(key).replaceAll("/", ", "), symbol: ""};
 }

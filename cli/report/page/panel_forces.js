@@ -71,7 +71,7 @@ addPanel({
   when: run => run.named(/^energy\//).some(series => largest(series.values) > 0),
   draw(report, host) {
     const lines = report.run.named(/^energy\//).filter(series => largest(series.values) > 0)
-      .map(series => ({...series, label: NAMES.energies[series.name.slice("energy/".length)] || words(series.name.slice("energy/".length))})).sort(bySize);
+      .map(series => ({...series, label: nameOf(series.name).words.replace(/ energy$/, "")})).sort(bySize);
     report.chart(host, {x: timeAxis(report.run), y: "energy", lines});
   },
 });

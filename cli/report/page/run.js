@@ -11,6 +11,7 @@ const loadCase = number => LOAD_CASES[Math.round(number)] || `load case ${digits
 class Run {
   static async load(head, prefix = "") {
     const run = new Run();
+    keepLabels(head.labels);
     Object.assign(run, {head, prefix, summary: head.summary, kept: new Map(), keptBytes: 0});
     const all = await floats(prefix + "history"), count = head.samples;
     run.history = new Map(head.series.map((series, k) =>

@@ -87,58 +87,32 @@ function fillStrength(head) {
   fillTexts("strength", ["fit", "of", "diameter", "runs", "found"], rows);
 }
 
-const spread = (values, count = 60) => {
-  const low = Math.min(...values), high = Math.max(...values);
-  return Array.from({length: count}, (_, i) => low + (high - low) * i / (count - 1));
-};
-const parameterOf = (group, name) => group.parameters.find(parameter => parameter.name === name).value;
+// Points and line of a fitted law: what is drawn against what, as named in summary.json.
+const DRAWN = {weibull: ["failure_probability", "strength"], ryshkewitch_duckworth: ["strength", "porosity"], power: ["value", "key"]};
 
-function markedLine(law, group, unit, x, values, fit) {
-  return {label: law.groups.length > 1 ? group.name : counted(group.points.length, "run"), unit, x, values, low: values,
-          high: values, isMarks: true, fit: group.not_fitted ? null : fit()};
+function lawLines(law, groups, unit, toX = x => x, toY = y => y) {
+  const [y, x] = DRAWN[law.law];
+  return groups.map(({name, points, line}) => {
+    const values = points.map(point => toY(point[y]));
+    return {label: law.groups.length > 1 ? name : counted(points.length, "run"), unit, x: points.map(point => toX(point[x])), values,
+            low: values, high: values, isMarks: true, fit: line ? {x: line[x].map(toX), values: line[y].map(toY)} : null};
+  });
 }
 
 function weibullPlot(law) {
   const [unit, factor] = law.unit === "Pa" ? ["MPa", 1e-6] : [law.unit, 1];
-  const lines = law.groups.filter(group => !group.not_fitted).map(group => {
-    const x = group.points.map(point => Math.log(point.strength * factor));
-    const values = group.points.map(point => Math.log(-Math.log(1 - point.failure_probability)));
-    return markedLine(law, group, "-", x, values, () => {
-      const modulus = parameterOf(group, "modulus"), middle = Math.log(parameterOf(group, "scale") * factor);
-      const along = spread(x, 2);
-      return {x: along, values: along.map(v => modulus * (v - middle))};
-    });
-  });
-  return {title: law.title, x: {label: unit === "-" ? "ln(strength)" : `ln(strength / ${unit})`, unit: "-", values: []},
+  const lines = lawLines(law, law.groups.filter(group => !group.not_fitted), "-", x => Math.log(x * factor), y => Math.log(-Math.log(1 - y)));
+  return {title: titled(titleOfChart(law.title)), x: {label: unit === "-" ? "ln(strength)" : `ln(strength / ${unit})`, unit: "-", values: []},
           y: "ln(−ln(1 − P))", lines};
 }
 
-function porosityPlot(law) {
-  const lines = law.groups.filter(group => group.points.length).map(group => {
-    const x = group.points.map(point => point.porosity), values = group.points.map(point => point.strength);
-    return markedLine(law, group, law.unit, x, values, () => {
-      const dense = parameterOf(group, "dense_strength"), k = parameterOf(group, "k"), along = spread(x);
-      return {x: along, values: along.map(porosity => dense * Math.exp(-k * porosity))};
-    });
-  });
-  return {title: law.title, x: {label: "porosity", unit: "-", values: []}, y: "strength", lines};
+function lawPlot(law) {
+  const [x, unit, y] = law.law === "power" ? [toldName(law.key), law.key_unit, toldName(law.series)] : ["porosity", "-", "strength"];
+  return {title: titled(titleOfChart(law.title)), x: {label: x, unit, values: []}, y, lines: lawLines(law, law.groups.filter(group => group.points.length), law.unit)};
 }
 
-function powerPlot(law) {
-  const lines = law.groups.filter(group => group.points.length).map(group => {
-    const x = group.points.map(point => point.key), values = group.points.map(point => point.value);
-    return markedLine(law, group, law.unit, x, values, () => {
-      const [exponent, value, at] = ["exponent", "value", "at"].map(name => parameterOf(group, name));
-      const along = spread(x);
-      return {x: along, values: along.map(key => value * (key / at) ** exponent)};
-    });
-  });
-  return {title: law.title, x: {label: law.key, unit: law.key_unit, values: []}, y: law.series, lines};
-}
-
-const PLOTS = {weibull: weibullPlot, ryshkewitch_duckworth: porosityPlot, power: powerPlot};
 const strengthPlots = head => strengthLaws(head)
-  .map(law => PLOTS[law.law](law))
+  .map(law => (law.law === "weibull" ? weibullPlot : lawPlot)(law))
   .filter(plot => plot.lines.length);
 
 function lineData(line, numbers) {
@@ -165,6 +139,7 @@ function overlay(curve, numbers, leftOut) {
 
 async function main() {
   const head = JSON.parse(document.getElementById("head").textContent);
+  keepLabels(head.labels);
   const numbers = await floats("numbers");
   document.getElementById("lead").textContent = leadText(head);
   const units = [...head.runs.flatMap(run => run.values), ...head.curves.flatMap(({x_unit, y_unit}) => [{unit: x_unit}, {unit: y_unit}])];

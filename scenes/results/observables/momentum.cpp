@@ -69,14 +69,18 @@ void add_momentum(const Scene& scene, Observables& all) {
   };
   const char* of_nodes = "of all nodes";
   const char* about_origin = "of all nodes, about the origin";
-  all.add(space ? momentum_in_space : momentum_in_the_plane,
-          {{"momentum/x", "kg m/s", of_nodes, linear(0)},
-           {"momentum/y", "kg m/s", of_nodes, linear(1)},
-           {"momentum/z", "kg m/s", of_nodes, linear(2), space},
-           {"momentum/angular", "kg m^2/s", about_origin, angular(2), !space},
-           {"momentum/angular_x", "kg m^2/s", about_origin, angular(0), space},
-           {"momentum/angular_y", "kg m^2/s", about_origin, angular(1), space},
-           {"momentum/angular_z", "kg m^2/s", about_origin, angular(2), space}});
+  all.add(
+      space ? momentum_in_space : momentum_in_the_plane,
+      {{"momentum/x", "kg m/s", "momentum $p_x$", of_nodes, linear(0)},
+       {"momentum/y", "kg m/s", "momentum $p_y$", of_nodes, linear(1)},
+       {"momentum/z", "kg m/s", "momentum $p_z$", of_nodes, linear(2), space},
+       {"momentum/angular", "kg m^2/s", "angular momentum $L$", about_origin, angular(2), !space},
+       {"momentum/angular_x", "kg m^2/s", "angular momentum $L_x$", about_origin, angular(0),
+        space},
+       {"momentum/angular_y", "kg m^2/s", "angular momentum $L_y$", about_origin, angular(1),
+        space},
+       {"momentum/angular_z", "kg m^2/s", "angular momentum $L_z$", about_origin, angular(2),
+        space}});
 }
 
 }  // namespace pulvis

@@ -131,10 +131,14 @@ void add_density_series(const Scene& scene, Observables& all) {
   const auto grid = scene.in_space() ? space_grid : plane_grid;
   const GridWords& words = scene.in_space() ? space_grid_words : plane_grid_words;
   all.add([grid](const Observation& now) { return grid(now.world).figures(); },
-          {{"density/compact", "-", words.compact, &DensityFigures::mean},
-           {"density/minimum", "-", words.extremes, &DensityFigures::minimum},
-           {"density/maximum", "-", words.maximum, &DensityFigures::maximum},
-           {"density/deviation", "-", words.deviation, &DensityFigures::deviation}});
+          {{"density/compact", "-", "relative density of the compact $\\rho$", words.compact,
+            &DensityFigures::mean},
+           {"density/minimum", "-", "lowest local density $\\rho_\\min$", words.extremes,
+            &DensityFigures::minimum},
+           {"density/maximum", "-", "highest local density $\\rho_\\max$", words.maximum,
+            &DensityFigures::maximum},
+           {"density/deviation", "-", "standard deviation of local densities $s_\\rho$",
+            words.deviation, &DensityFigures::deviation}});
 }
 
 void add_density_fields(const Scene& scene, FrameFields& all) {
@@ -148,13 +152,13 @@ void add_density_fields(const Scene& scene, FrameFields& all) {
   const GridWords& words = space ? space_grid_words : plane_grid_words;
   const int columns = space ? scene.output.density_cells3[0] : scene.output.density_cells[0];
   constexpr auto list = FieldPlace::list;
-  all.add({{{"local_density", "-", words.cells, list, columns},
+  all.add({{{"local_density", "-", "local relative density $\\rho$", words.cells, list, columns},
             [grid](const Observation& now) { return grid(now.world).cells(); }},
-           {{"density_profile", "-", words.profile, list, 1},
+           {{"density_profile", "-", "relative density $\\rho$", words.profile, list, 1},
             [grid](const Observation& now) { return grid(now.world).profile(); }},
-           {{"density_grid/x", "m", words.x, list, 1}, lines(0)},
-           {{"density_grid/y", "m", words.y, list, 1}, lines(1)},
-           {{"density_grid/z", "m", words.y, list, 1}, lines(2), space}});
+           {{"density_grid/x", "m", "grid lines $x$", words.x, list, 1}, lines(0)},
+           {{"density_grid/y", "m", "grid lines $y$", words.y, list, 1}, lines(1)},
+           {{"density_grid/z", "m", "grid lines $z$", words.y, list, 1}, lines(2), space}});
 }
 
 }  // namespace pulvis

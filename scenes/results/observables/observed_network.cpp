@@ -85,42 +85,45 @@ std::vector<Observable<NetworkFigures>> network_rows(bool space) {
   using Fabric = space::kernels::Fabric;
   const char* tensor = "fabric tensor of the contacts between particles";
   return {
-      {"network/coordination", "-", "mean number of other particles that a particle touches",
-       &NetworkFigures::coordination},
-      {"network/tools", "-", "mean number of tools that a particle touches",
-       &NetworkFigures::tools},
-      {"network/rattlers", "-", "share of particles that touch fewer than two others or tools",
-       &NetworkFigures::rattlers},
-      {"network/fabric_xx", "-", tensor, fabric(&Fabric::xx)},
-      {"network/fabric_xy", "-", tensor, fabric(&Fabric::xy), !space},
-      {"network/fabric_yy", "-", tensor, fabric(&Fabric::yy)},
-      {"network/fabric_zz", "-", tensor, fabric(&Fabric::zz), space},
-      {"network/fabric_xy", "-", tensor, fabric(&Fabric::xy), space},
-      {"network/fabric_yz", "-", tensor, fabric(&Fabric::yz), space},
-      {"network/fabric_zx", "-", tensor, fabric(&Fabric::zx), space},
-      {"network/anisotropy", "-",
+      {"network/coordination", "-", "coordination number $Z$",
+       "mean number of other particles that a particle touches", &NetworkFigures::coordination},
+      {"network/tools", "-", "tools a particle touches",
+       "mean number of tools that a particle touches", &NetworkFigures::tools},
+      {"network/rattlers", "-", "share of rattlers",
+       "share of particles that touch fewer than two others or tools", &NetworkFigures::rattlers},
+      {"network/fabric_xx", "-", "fabric tensor $F_{xx}$", tensor, fabric(&Fabric::xx)},
+      {"network/fabric_xy", "-", "fabric tensor $F_{xy}$", tensor, fabric(&Fabric::xy), !space},
+      {"network/fabric_yy", "-", "fabric tensor $F_{yy}$", tensor, fabric(&Fabric::yy)},
+      {"network/fabric_zz", "-", "fabric tensor $F_{zz}$", tensor, fabric(&Fabric::zz), space},
+      {"network/fabric_xy", "-", "fabric tensor $F_{xy}$", tensor, fabric(&Fabric::xy), space},
+      {"network/fabric_yz", "-", "fabric tensor $F_{yz}$", tensor, fabric(&Fabric::yz), space},
+      {"network/fabric_zx", "-", "fabric tensor $F_{zx}$", tensor, fabric(&Fabric::zx), space},
+      {"network/anisotropy", "-", "anisotropy of the fabric $a$",
        space ? "of the fabric tensor: 0 isotropic, 1 all parallel"
              : "difference of the fabric tensor's principal values",
        &NetworkFigures::anisotropy},
-      {"network/fabric_angle", "rad", "of the preferred direction of the contacts, from x",
-       &NetworkFigures::angle, !space},
-      {"network/mean_force", "N", "normal, between particles", &NetworkFigures::mean_force},
-      {"network/largest_force", "N", "normal, between particles", &NetworkFigures::largest_force},
+      {"network/fabric_angle", "rad", "direction of the fabric $\\theta$",
+       "of the preferred direction of the contacts, from x", &NetworkFigures::angle, !space},
+      {"network/mean_force", "N", "mean normal force $F_n$", "normal, between particles",
+       &NetworkFigures::mean_force},
+      {"network/largest_force", "N", "largest normal force $F_n$", "normal, between particles",
+       &NetworkFigures::largest_force},
       {"network/chain_share", "-", "share of particles in force chains",
-       &NetworkFigures::chain_share}};
+       "share of particles in force chains", &NetworkFigures::chain_share}};
 }
 
 // ---- links --------------------------------------------------------------------------------------------
 // What differs between two and three dimensions.
 struct LinkWords {
-  const char* tangential;            // what tangential_force is
-  const char *extent, *unit, *what;  // name of the contact size
+  const char* tangential;                    // what tangential_force is
+  const char *extent, *unit, *label, *what;  // of the contact size
 };
 
 constexpr LinkWords plane_links{"along the normal rotated by 90 degrees", "length", "m",
+                                "contact length $\\ell$",
                                 "of the surface in contact; times thickness: area"};
 constexpr LinkWords space_links{"tangential to the surface; >= 0", "area", "m^2",
-                                "of the surface in contact"};
+                                "contact area $A$", "of the surface in contact"};
 
 template <class D>
 using Links = const std::vector<ContactLink<D>>*;
@@ -153,23 +156,25 @@ std::vector<FrameField<Links<D>>> link_fields(const std::string& group, const ch
   using Link = ContactLink<D>;
   constexpr auto list = FieldPlace::list;
   constexpr int n = D::axes;
-  return {
-      {{group + "/ids", "-", ids, list, 2, true},
-       column_of<D>([](const Link& l, std::vector<double>& to) {
-         to.insert(to.end(), {static_cast<double>(l.first), static_cast<double>(l.second)});
-       })},
-      {{group + "/point", "m",
-        "point of action: mean of the contact points, weighted by their forces", list, n},
-       vector_of_links<D>(&Link::point)},
-      {{group + "/normal", "-", "unit vector into the first particle", list, n},
-       vector_of_links<D>(&Link::normal)},
-      {{group + "/force", "N", "on the first particle", list, n}, vector_of_links<D>(&Link::force)},
-      {{group + "/normal_force", "N", "along the normal; compression > 0", list, 1},
-       number_of_links<D>(&Link::normal_force)},
-      {{group + "/tangential_force", "N", words.tangential, list, 1},
-       number_of_links<D>(&Link::tangential_force)},
-      {{group + "/" + words.extent, words.unit, words.what, list, 1},
-       number_of_links<D>(&Link::size)}};
+  return {{{group + "/ids", "-", "bodies in contact", ids, list, 2, true},
+           column_of<D>([](const Link& l, std::vector<double>& to) {
+             to.insert(to.end(), {static_cast<double>(l.first), static_cast<double>(l.second)});
+           })},
+          {{group + "/point", "m", "point of action $x$",
+            "point of action: mean of the contact points, weighted by their forces", list, n},
+           vector_of_links<D>(&Link::point)},
+          {{group + "/normal", "-", "contact normal $n$", "unit vector into the first particle",
+            list, n},
+           vector_of_links<D>(&Link::normal)},
+          {{group + "/force", "N", "contact force $F$", "on the first particle", list, n},
+           vector_of_links<D>(&Link::force)},
+          {{group + "/normal_force", "N", "normal force $F_n$", "along the normal; compression > 0",
+            list, 1},
+           number_of_links<D>(&Link::normal_force)},
+          {{group + "/tangential_force", "N", "tangential force $F_t$", words.tangential, list, 1},
+           number_of_links<D>(&Link::tangential_force)},
+          {{group + "/" + words.extent, words.unit, words.label, words.what, list, 1},
+           number_of_links<D>(&Link::size)}};
 }
 
 // Orientations of the contacts; only in two dimensions.
@@ -179,12 +184,13 @@ void add_rose(FrameFields& all) {
       [](const Observation& now) {
         return kernels::rose(now.world.resource<ContactNetwork<TwoD>>().pairs);
       },
-      {{{"rose/number", "-",
+      {{{"rose/number", "-", "share of contacts",
          "share of the contacts between particles whose normal lies in each of 18 sectors, "
          "the first around the x axis",
          FieldPlace::list, 1},
         [](const Rose& r) { return std::vector<double>(r.number.begin(), r.number.end()); }},
-       {{"rose/force", "-", "the same, weighted with the normal force", FieldPlace::list, 1},
+       {{"rose/force", "-", "share of normal force", "the same, weighted with the normal force",
+         FieldPlace::list, 1},
         [](const Rose& r) { return std::vector<double>(r.force.begin(), r.force.end()); }}});
 }
 
@@ -198,11 +204,13 @@ void add_network(const LinkWords& words, FrameFields& all) {
   if constexpr (D::axes == 2) add_rose(all);
   constexpr auto particle = FieldPlace::particle;
   all.add(contacts_of_particles<D>,
-          {{{"coordination", "-", "other particles that it touches", particle, 1, true},
+          {{{"coordination", "-", "coordination number $Z$", "other particles that it touches",
+             particle, 1, true},
             &ParticleContacts::pairs},
-           {{"tools_touched", "-", "tools that it touches", particle, 1, true},
+           {{"tools_touched", "-", "tools touched", "tools that it touches", particle, 1, true},
             &ParticleContacts::tools},
-           {{"force_chain", "-", "number of its force chain; 0: none", particle, 1, true},
+           {{"force_chain", "-", "force chain", "number of its force chain; 0: none", particle, 1,
+             true},
             &ParticleContacts::chain}});
 }
 

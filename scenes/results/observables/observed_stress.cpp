@@ -62,22 +62,23 @@ void add_stress_series(const Scene& scene, Observables& all) {
   };
   const char* as_xx = "as stress/xx";
   all.add(figures,
-          {{"stress/xx", "Pa",
+          {{"stress/xx", "Pa", "mean stress $\\sigma_{xx}$",
             space ? "Cauchy, mean over the volume between the tools; tension > 0"
                   : "Cauchy, mean over the area between the tools, or of the cell; tension > 0",
             part(0)},
-           {"stress/yy", "Pa", as_xx, part(1)},
-           {"stress/zz", "Pa", as_xx, part(2), space},
-           {"stress/xy", "Pa", as_xx, part(3)},
-           {"stress/yz", "Pa", as_xx, part(4), space},
-           {"stress/zx", "Pa", as_xx, part(5), space},
-           {"stress/mean", "Pa",
+           {"stress/yy", "Pa", "mean stress $\\sigma_{yy}$", as_xx, part(1)},
+           {"stress/zz", "Pa", "mean stress $\\sigma_{zz}$", as_xx, part(2), space},
+           {"stress/xy", "Pa", "mean stress $\\sigma_{xy}$", as_xx, part(3)},
+           {"stress/yz", "Pa", "mean stress $\\sigma_{yz}$", as_xx, part(4), space},
+           {"stress/zx", "Pa", "mean stress $\\sigma_{zx}$", as_xx, part(5), space},
+           {"stress/mean", "Pa", "mean stress $\\sigma_m$",
             space ? "(xx + yy + zz) / 3: minus the pressure p"
                   : "(xx + yy + zz) / 3 over the same area: minus the pressure p",
             &StressFigures::mean},
-           {"stress/zz", "Pa", "the same, normal to the plane of strain", part(2), !space},
-           {"stress/deviatoric", "Pa", "von Mises' stress q of these means",
-            &StressFigures::deviatoric}});
+           {"stress/zz", "Pa", "mean stress $\\sigma_{zz}$",
+            "the same, normal to the plane of strain", part(2), !space},
+           {"stress/deviatoric", "Pa", "deviatoric stress $q$",
+            "von Mises' stress q of these means", &StressFigures::deviatoric}});
 }
 
 void add_stress_fields(const Scene& scene, FrameFields& all) {
@@ -85,9 +86,11 @@ void add_stress_fields(const Scene& scene, FrameFields& all) {
   const auto add = [&]<class D>(D) {
     using Stress = ParticleStress<D>;
     using Centre = ParticleCentre<D>;
-    all.add({{{"particle_stress", "Pa", Stress::info.meaning, FieldPlace::particle, Stress::count},
+    all.add({{{"particle_stress", "Pa", "stress of the particle $\\sigma$", Stress::info.meaning,
+               FieldPlace::particle, Stress::count},
               by_number<Stress>},
-             {{"particle_centre", "m", Centre::info.meaning, FieldPlace::particle, Centre::count},
+             {{"particle_centre", "m", "centre of the particle $x$", Centre::info.meaning,
+               FieldPlace::particle, Centre::count},
               by_number<Centre>}});
   };
   if (scene.in_space())

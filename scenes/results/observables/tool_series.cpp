@@ -28,7 +28,8 @@ ToolWords words_of(const ToolSpec& tool) {
 }
 
 void add_tool(const Scene& scene, int tool, const ToolWords& words, Observables& all) {
-  const std::string name = "tool/" + words.name + "/";
+  const std::string name = "tool/" + words.name + "/", of = " of " + words.name;
+  const std::string on = "force on " + words.name;
   const auto position = [tool](int axis) {
     return [tool, axis](const Observation& now) { return tool_position(now.world, tool, axis); };
   };
@@ -40,19 +41,19 @@ void add_tool(const Scene& scene, int tool, const ToolWords& words, Observables&
   };
   const char* on_it = "force of the particles on the tool";
   const bool space = scene.in_space(), servo = is_servo_driven(scene, tool);
-  all.add(
-      {{name + "position_x", "m", words.position, position(0)},
-       {name + "position_y", "m", words.position, position(1)},
-       {name + "position_z", "m", words.position, position(2), space},
-       {name + "force_x", "N", words.radial ? "radial force of the particles on the tool" : on_it,
-        force(0)},
-       {name + "force_y", "N", on_it, force(1)},
-       {name + "force_z", "N", on_it, force(2), space},
-       {name + "force_asked", "N",
-        "force that its servo is to hold at this time, in the direction it pushes", of_drive,
-        servo},
-       {name + "drive_force", "N", "force of its drive's spring and dashpot on it, along its move",
-        of_drive, !servo && is_driven_through_a_spring(scene, tool)}});
+  all.add({{name + "position_x", "m", "position" + of + " $x$", words.position, position(0)},
+           {name + "position_y", "m", "position" + of + " $y$", words.position, position(1)},
+           {name + "position_z", "m", "position" + of + " $z$", words.position, position(2), space},
+           {name + "force_x", "N", on + " $F_x$",
+            words.radial ? "radial force of the particles on the tool" : on_it, force(0)},
+           {name + "force_y", "N", on + " $F_y$", on_it, force(1)},
+           {name + "force_z", "N", on + " $F_z$", on_it, force(2), space},
+           {name + "force_asked", "N", "target force" + of + " $F$",
+            "force that its servo is to hold at this time, in the direction it pushes", of_drive,
+            servo},
+           {name + "drive_force", "N", "force of the drive" + of + " $F$",
+            "force of its drive's spring and dashpot on it, along its move", of_drive,
+            !servo && is_driven_through_a_spring(scene, tool)}});
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The series of a run as one table. A row says what a series is called, its unit, its meaning, whether this scene has it,
-// and how it is read: names and values cannot get out of step. Rows of one computation form a group: the computation runs
+// The series of a run as one table. A row says what a series is called, its unit, its label for axes, its meaning, whether
+// this scene has it, and how it is read: names and values cannot get out of step. Rows of one computation form a group: the computation runs
 // once per sample, each row reads its result.
 #pragma once
 
@@ -41,7 +41,7 @@ struct Observation {
 // `read`: a member of the figures, or a function of them.
 template <class Figures>
 struct Observable {
-  std::string name, unit, meaning;
+  std::string name, unit, label, meaning;
   std::function<double(const Figures&)> read;
   bool exists = true;  // in this scene
 };
@@ -55,7 +55,8 @@ class Observables {
     std::vector<std::function<double(const Figures&)>> reads;
     for (Observable<Figures>& row : rows) {
       if (!row.exists) continue;
-      infos_.push_back({std::move(row.name), std::move(row.unit), std::move(row.meaning)});
+      infos_.push_back(
+          {std::move(row.name), std::move(row.unit), std::move(row.label), std::move(row.meaning)});
       reads.push_back(std::move(row.read));
     }
     groups_.push_back([compute = std::move(compute), reads = std::move(reads)](

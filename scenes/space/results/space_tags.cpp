@@ -28,9 +28,9 @@ std::int32_t place_in(std::vector<std::string>& names, const std::string& name) 
 
 std::vector<ParticleTag> particle_tags(const Scene& scene, const World& world) {
   const auto& bodies = world.resource<Bodies>();
-  ParticleTag number{"number", "of the particle, from 0", {}, {}};
-  ParticleTag material{"material", "position in `names`", {}, {}};
-  ParticleTag of_class{"class", "position in `names`", {}, {}};
+  ParticleTag number{"number", "particle", "of the particle, from 0", {}, {}};
+  ParticleTag material{"material", "material", "position in `names`", {}, {}};
+  ParticleTag of_class{"class", "class", "position in `names`", {}, {}};
   for (const MaterialSpec& m : scene.materials) material.names.push_back(m.name);
   std::vector<std::int32_t> class_of_shape;
   for (const int position : world.resource<ParticleClasses>().of_shape)

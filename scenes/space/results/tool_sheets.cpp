@@ -70,8 +70,12 @@ const ToolSpec* die_across(const Scene& scene, const ToolSpec& plane) {
 }  // namespace
 
 FieldInfo ToolSheets::field() {
-  return {"tools/outline", "m", "corners of the tools' surfaces, connected by /tools/quads",
-          FieldPlace::list, 3};
+  return {"tools/outline",
+          "m",
+          "outlines of the tools $x$",
+          "corners of the tools' surfaces, connected by /tools/quads",
+          FieldPlace::list,
+          3};
 }
 
 ToolSheets::ToolSheets(const Scene& scene, const Box& powder) : box_(powder) {

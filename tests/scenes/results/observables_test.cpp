@@ -27,14 +27,15 @@ class ObservablesTest : public ::testing::Test {
 TEST_F(ObservablesTest, RowsOfAGroupReadOneComputation) {
   Observables all;
   all.add([](const Observation& o) -> const Energies& { return o.energies; },
-          {{"kinetic", "J", "of all nodes", &Energies::kinetic}});
+          {{"kinetic", "J", "kinetic energy $E$", "of all nodes", &Energies::kinetic}});
   all.add(
       [&](const Observation&) {
         computed += 1;
         return TwoFigures();
       },
-      {{"second", "m", "read by a function", [](const TwoFigures& f) { return f.second; }},
-       {"first", "-", "a member", &TwoFigures::first}});
+      {{"second", "m", "second", "read by a function",
+        [](const TwoFigures& f) { return f.second; }},
+       {"first", "-", "first", "a member", &TwoFigures::first}});
   EXPECT_THAT(all.infos(),
               ElementsAre(Field(&SeriesInfo::name, "kinetic"), Field(&SeriesInfo::name, "second"),
                           Field(&SeriesInfo::name, "first")));
@@ -45,8 +46,9 @@ TEST_F(ObservablesTest, RowsOfAGroupReadOneComputation) {
 TEST_F(ObservablesTest, ARowThatTheSceneDoesNotHaveIsNeitherNamedNorRead) {
   Observables all;
   const auto refuses = [](const Observation&) -> double { throw std::logic_error("read"); };
-  all.add({{"absent", "-", "not in this scene", refuses, false},
-           {"jacobian", "-", "smallest", [](const Observation& o) { return o.min_jacobian; }}});
+  all.add({{"absent", "-", "absent", "not in this scene", refuses, false},
+           {"jacobian", "-", "Jacobian $J$", "smallest",
+            [](const Observation& o) { return o.min_jacobian; }}});
   EXPECT_THAT(all.infos(), ElementsAre(Field(&SeriesInfo::name, "jacobian")));
   EXPECT_THAT(all.read(now), ElementsAre(0.5));
 }
@@ -58,10 +60,12 @@ TEST_F(ObservablesTest, FieldsAreTakenFromOneComputation) {
         computed += 1;
         return TwoFigures();
       },
-      {{{"sum", "-", "of both", FieldPlace::list, 1},
+      {{{"sum", "-", "sum", "of both", FieldPlace::list, 1},
         [](const TwoFigures& f) { return std::vector{f.first + f.second}; }},
-       {{"absent", "-", "not in this scene", FieldPlace::list, 1}, &TwoFigures::list, false},
-       {{"list", "-", "a member", FieldPlace::list, 1}, &TwoFigures::list}});
+       {{"absent", "-", "absent", "not in this scene", FieldPlace::list, 1},
+        &TwoFigures::list,
+        false},
+       {{"list", "-", "list", "a member", FieldPlace::list, 1}, &TwoFigures::list}});
   EXPECT_THAT(all.infos(),
               ElementsAre(Field(&FieldInfo::name, "sum"), Field(&FieldInfo::name, "list")));
   EXPECT_THAT(all.read(now), ElementsAre(ElementsAre(3), ElementsAre(3, 4)));

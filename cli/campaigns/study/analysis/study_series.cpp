@@ -81,22 +81,25 @@ std::vector<double> share_below(const Scene& scene, const History& history) {
 
 std::vector<SeriesInfo> study_series(const Scene& scene) {
   if (scene.afm) {
-    std::vector<SeriesInfo> all{{study_abscissa(scene, false), "-",
+    std::vector<SeriesInfo> all{{study_abscissa(scene, false), "-", "actions completed",
                                  "of the programme that are completed, including partial ones"}};
     for (const SeriesInfo& series : expectable_series(scene)) all.push_back(series);
     return all;
   }
-  std::vector<SeriesInfo> all{{"time", "s", "of the sample"}};
+  std::vector<SeriesInfo> all{{"time", "s", "time $t$", "of the sample"}};
   for (const SeriesInfo& series : history_series(scene)) all.push_back(series);
   for (const std::string& tool : tool_names(scene))
-    all.push_back({"travel/" + tool, "m", "displacement since the first sample"});
+    all.push_back({"travel/" + tool, "m", "travel of " + tool + " $s$",
+                   "displacement since the first sample"});
   const std::optional<DieCell> cell = die_cell(scene);
   if (!cell) return all;
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     if (face_of(*cell, static_cast<int>(t)))
-      all.push_back(
-          {"pressure/" + scene.tools[t].name, "Pa", "force towards the tool / area of its face"});
-  all.push_back({"transmission", "-", "force on the bottom punch / force on the top punch"});
+      all.push_back({"pressure/" + scene.tools[t].name, "Pa",
+                     "pressure on " + scene.tools[t].name + " $p$",
+                     "force towards the tool / area of its face"});
+  all.push_back(
+      {"transmission", "-", "transmission", "force on the bottom punch / force on the top punch"});
   return all;
 }
 

@@ -6,8 +6,8 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for
-from pulvis.figures.names import capital, label, over
+from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for, worded
+from pulvis.figures.names import capital, over
 from pulvis.lever_results import vertical_moves
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
@@ -159,7 +159,7 @@ def plastic_zones(run, options=None):
     figure.table = []
     for axis, i in zip(axes[0], chosen):
         drawn = draw_zone(axis, run, run.frames[i], strains[i], zone, (top, options))
-        figure.colorbar(drawn, ax=axis, label=label("plastic_strain", ""), shrink=0.85)
+        figure.colorbar(drawn, ax=axis, label=worded(run, "plastic_strain", ""), shrink=0.85)
         figure.table.append((f"frame {i}: plastic strain by cell", "-", strains[i]))
     if options.title:
         figure.suptitle("Plastic zones, section through the tip along the lever")
@@ -177,7 +177,7 @@ def draw_motions(run, motions, keys, title, options, axes, reversed_as=None):
         shown[rows] = factor * y[rows]
         axes.plot(x_factor * x, shown, label=words, color=LINES[k // 2 % len(LINES)] if len(motions) > 2
                   else LINES[k], linestyle="--" if k % 2 else "-")
-    axes.set(xlabel=label(x_key, x_unit), ylabel=over(reversed_as, unit) if reversed_as else label(y_key, unit))
+    axes.set(xlabel=worded(run, x_key, x_unit), ylabel=over(reversed_as, unit) if reversed_as else worded(run, y_key, unit))
     options.head(axes, title, run)
     if len(motions) > 2:  # several loops fill the axes
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))

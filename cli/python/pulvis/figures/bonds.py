@@ -9,6 +9,7 @@ from pulvis.figures.cell import Cell
 from pulvis.figures.colours import fragment_colours
 from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.names import label
 from pulvis.figures.tools import draw_tools, outlines
 
 BOND_FIELDS = ("damage", "fragment")  # fields with bonds and cracks drawn on top
@@ -91,18 +92,17 @@ def breaking(run, options=None):
               ("bonds/fragments", "-", {"bonds/fragments": "fragments"})]
     figure, places = plt.subplots(len(groups), figsize=options.size(6.4, 6.6), sharex=True, constrained_layout=True)
     figure.table = [("time", "s", time)]
-    for axes, (label, si, names) in zip(places, groups):
-        series = {name: run.series(name) for name in names}
+    for axes, (name, si, names) in zip(places, groups):
+        series = {key: run.series(key) for key in names}
         size, shown = unit_for(si, np.concatenate(list(series.values())))
-        dash_hidden(axes, [axes.plot(factor * time, size * values, label=names[name])[0] for name, values in series.items()])
-        for name, values in series.items():
-            figure.table.append((name, si, values))
-        text = worded(label, shown)
+        dash_hidden(axes, [axes.plot(factor * time, size * values, label=names[key])[0] for key, values in series.items()])
+        figure.table += [(key, si, values) for key, values in series.items()]
+        text = worded(run, name, shown)
         axes.set_ylabel(text.replace(" $", "\n$", 1) if options.narrow else text)
         if len(names) > 1:
             axes.legend()
     places[-1].yaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
-    places[-1].set_xlabel(worded("time", unit))
+    places[-1].set_xlabel(worded(run, "time", unit))
     options.head(places[0], "Bonds that break", run)
     return figure
 
@@ -126,9 +126,9 @@ def fragment_sizes(run, options=None, axes=None):
     factor, unit = unit_for("m", diameter)
     figure, axes = sheet(options, (6.4, 4.2), axes)
     x = factor * np.concatenate([[0], diameter])
-    dash_hidden(axes, [axes.step(x, 100 * np.concatenate([[0], share]), where="post", label=label)[0]
-                       for label, share in ((f"of the {kind}", size), ("of the number", number))])
-    axes.set(xlabel=worded(("equivalent diameter", "d"), unit), ylabel="Cumulative share / %",
+    dash_hidden(axes, [axes.step(x, 100 * np.concatenate([[0], share]), where="post", label=words)[0]
+                       for words, share in ((f"of the {kind}", size), ("of the number", number))])
+    axes.set(xlabel=label(("equivalent diameter", "d"), unit), ylabel="Cumulative share / %",
              xlim=(0, 1.03 * x[-1]), ylim=(0, 102))
     options.head(axes, f"Sizes of {len(diameter)} fragments at {moment(frame)}", run)
     axes.legend(loc="upper left", bbox_to_anchor=(1, 1))

@@ -36,15 +36,15 @@ def colour_map(options, otherwise="viridis"):
 class Scale:
     """Numbers on a continuous scale; ordered integers in steps."""
 
-    def __init__(self, name, unit, components, values, options):
+    def __init__(self, field, values, options):
         values = np.asarray(values, float)
-        low, high = options.clim(values, unit)
+        low, high = options.clim(values, field.unit)
         if not low < high:
             low, high = low - 0.5, low + 0.5
-        self.factor, shown = unit_for(unit, np.array([low, high]))
-        self.label = label(name, shown, components)
+        self.factor, shown = unit_for(field.unit, np.array([low, high]))
+        self.label = label(field.label, shown)
         self.map, self.steps = colour_map(options), None
-        if name in COUNTS:
+        if field.name in COUNTS:
             self.steps = np.arange(np.floor(low + 0.5), np.floor(high + 0.5) + 1)
             self.norm = BoundaryNorm(np.append(self.steps, self.steps[-1] + 1) - 0.5, self.map.N)
         else:
@@ -65,12 +65,12 @@ class Scale:
 class Kinds:
     """Integers that stand for categories: one colour each, and a legend if there are few."""
 
-    def __init__(self, name, values, names):
-        self.words, self.names = label(name, ""), names
+    def __init__(self, field, values):
+        self.words, self.names = label(field.label, ""), field.names
         self.known = np.unique(values)
-        self.none = 0 if name == "force_chain" else None  # value that means "in none"
-        listed = bool(names) or len(self.known) <= len(COLOURS) and name != "fragment"
-        self.colours = {int(k): COLOURS[i % len(COLOURS)] for i, k in enumerate(range(len(names)) if names else self.known)} \
+        self.none = 0 if field.name == "force_chain" else None  # value that means "in none"
+        listed = bool(self.names) or len(self.known) <= len(COLOURS) and field.name != "fragment"
+        self.colours = {int(k): COLOURS[i % len(COLOURS)] for i, k in enumerate(range(len(self.names)) if self.names else self.known)} \
             if listed else None
 
     def of(self, values):
@@ -99,5 +99,5 @@ def colours_of(field, values, options):
     if field.whole and field.name not in COUNTS:
         if options.limits or options.cmap:
             raise PulvisError(f"--range and --cmap are for fields with a continuous scale; {field.name} has a colour for each number")
-        return Kinds(field.name, values, field.names)
-    return Scale(field.key, field.unit, field.components, values, options)
+        return Kinds(field, values)
+    return Scale(field, values, options)

@@ -5,7 +5,7 @@ import numpy as np
 
 from pulvis.errors import PulvisError
 from pulvis.figures.look import Options, draw_lines
-from pulvis.figures.names import capital, name_of
+from pulvis.figures.names import capital, joined, name_of
 
 
 def matching(run, pattern):
@@ -33,7 +33,7 @@ def forces(run, options=None, axes=None):
 
 
 def stress_ratio(run, options=None, axes=None):
-    lines = [(f"{match[1]} stress ${name_of(match[0]).symbol}$", values, unit)
+    lines = [(joined(f"{match[1]} stress", name_of(match[0], run.labels).symbol), values, unit)
              for match, values, unit in matching(run, r"stress_ratio/(axial|lateral)")]
     if not lines:
         return None
@@ -64,7 +64,7 @@ def friction(run, options=None, axes=None):
 
 
 def energies(run, options=None, axes=None):
-    lines = [(capital(name_of(match[0]).words.removesuffix(" energy")), values, unit)
+    lines = [(capital(name_of(match[0], run.labels).words.removesuffix(" energy")), values, unit)
              for match, values, unit in matching(run, r"energy/(.+)")]
     return draw_lines(run, time_axis(run), lines, ("energy", "E"), "Energies", options, axes) if lines else None
 
@@ -78,9 +78,8 @@ def chosen_series(run, options=None, axes=None):
     units = {run.unit(name) for name in options.series}
     if len(units) > 1:
         raise PulvisError(f"series of different units in one figure: {', '.join(sorted(units))}")
-    names = {name: name_of(name) for name in options.series}
-    lines = [(f"{capital(words)} ${symbol}$" if symbol else capital(words), run.series(key), run.unit(key))
-             for key, (words, symbol) in names.items()]
+    names = {name: name_of(name, run.labels) for name in options.series}
+    lines = [(capital(joined(*name)), run.series(key), run.unit(key)) for key, name in names.items()]
     symbols = {name.symbol for name in names.values()}
     shared = symbols.pop() if len(symbols) == 1 else ""
     word = {"N": "force", "Pa": "stress", "m": "length", "J": "energy", "V": "signal"}.get(next(iter(units)), "value")

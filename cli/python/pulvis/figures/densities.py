@@ -4,7 +4,7 @@ from matplotlib import pyplot as plt
 
 from pulvis.figures.colours import colour_map
 from pulvis.figures.hidden import dash_hidden
-from pulvis.figures.look import Options, bar_beside, close_up, moment, name_lengths, recorded, sheet
+from pulvis.figures.look import Options, bar_beside, close_up, moment, name_lengths, recorded, sheet, worded
 from pulvis.figures.names import label
 
 LETTERS = 20  # points of width that a printed density value takes
@@ -48,7 +48,7 @@ def draw_profiles(axes, along, profiles):
     """profiles: (time in words, densities [slices], places [slices + 1] m along the axis `along`) of each curve."""
     dash_hidden(axes, [axes.plot(np.repeat(density, 2), 1e3 * np.repeat(places, 2)[1:-1], label=f"$t$ = {time}")[0]
                        for time, density, places in profiles])
-    axes.set_xlabel(label("relative_density", ""))
+    axes.set_xlabel(label(("relative density", r"\rho"), ""))
     name_lengths(axes, np.concatenate([places for _, _, places in profiles]), y=along)
     axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
 
@@ -87,11 +87,11 @@ def local_density(run, options=None, axes=None):
         mesh = draw_map(place, frame, (low, high), colour_map(options), 50 * figure.get_figwidth() / len(frames))
     name_lengths(places[0], grid_of(frames[0]), x="x", y="y")
     if len(places) == 1:
-        bar_beside(figure, places[0], mesh, label("local_density", ""))
+        bar_beside(figure, places[0], mesh, worded(run, "local_density", ""))
         places[0].set_title("")
         options.head(places[0], f"Local relative density at {moment(frames[0])}", run)
     else:
-        figure.colorbar(mesh, ax=places, label=label("local_density", ""), shrink=0.85).outline.set_visible(False)
+        figure.colorbar(mesh, ax=places, label=worded(run, "local_density", ""), shrink=0.85).outline.set_visible(False)
     if options.title and len(places) > 1:
         figure.suptitle(f"Local relative density\n{run.title}", x=0.01, ha="left", fontsize=plt.rcParams["axes.titlesize"])
     close_up(figure, options, axes)

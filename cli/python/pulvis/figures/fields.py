@@ -9,7 +9,7 @@ from pulvis.figures.bonds import BOND_FIELDS, draw_bonds
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colours_of
 from pulvis.figures.look import Options, close_up, moment, seam, set_axes, shape_of, sheet
-from pulvis.figures.names import capital, name_of
+from pulvis.figures.names import Name, capital, joined, name_of
 from pulvis.figures.tools import draw_tools, outlines
 from pulvis.frames import names_in
 
@@ -24,13 +24,18 @@ class Field:
     key: str                  # as requested: NAME or NAME:k
     values: np.ndarray
     unit: str
-    components: int = 1
+    label: Name
     whole: bool = False
     names: list = of_dataclass(default_factory=list)
 
     @property
     def name(self):
         return self.key.partition(":")[0]
+
+    @property
+    def title(self):
+        """Its words, with the symbol of the component."""
+        return capital(joined(self.label.words, self.label.symbol if ":" in self.key else ""))
 
 
 def drawable(run, frame):
@@ -52,7 +57,7 @@ def field_of(run, frame, key):
     values = data[()] if data.ndim == 1 else data[:, int(component) - 1]
     if data.attrs.get("place", "particle") == "particle":
         values = values[run.mesh.cell_particle]
-    return Field(key, values, data.attrs["unit"], count, np.issubdtype(data.dtype, np.integer), names_in(data))
+    return Field(key, values, data.attrs["unit"], name_of(key, run.labels, count), np.issubdtype(data.dtype, np.integer), names_in(data))
 
 
 def paint(run, axes, frame, field, colours, options, limits=None):
@@ -70,9 +75,7 @@ def paint(run, axes, frame, field, colours, options, limits=None):
     cell.draw(axes, faces.get_facecolor(), edges, edge)
     draw_tools(run, axes, frame, limits / 1e3)
     set_axes(axes, limits)
-    name = name_of(field.key, field.components)
-    part = f" ${name.symbol}$" if ":" in field.key else ""  # which component
-    options.head(axes, f"{capital(name.words)}{part} at {moment(frame)}", run)
+    options.head(axes, f"{field.title} at {moment(frame)}", run)
     return cell
 
 

@@ -8,8 +8,8 @@ from matplotlib.colors import Normalize
 from pulvis.errors import PulvisError
 from pulvis.figures.afm import draw_solid, outer_faces, part_colours, progress_words
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import unit_for
-from pulvis.figures.names import capital, label, over
+from pulvis.figures.look import unit_for, worded
+from pulvis.figures.names import capital, over
 
 PICTURES = ("solid", "plastic_strain")
 VISIBLE = 0.08  # of the lever's length: smaller displacements are magnified to this size
@@ -47,7 +47,7 @@ class Forces:
         factor, unit = unit_for("N", np.concatenate([values for _, values in forces]))
         for key, values in forces:
             line, = axes.plot(self.times, factor * values, alpha=0.35, linewidth=0.9)
-            dot, = axes.plot([], [], "o", color=line.get_color(), label=label(key, ""))
+            dot, = axes.plot([], [], "o", color=line.get_color(), label=worded(run, key, ""))
             self.lines.append((dot, factor * values))
         axes.set(xlabel=capital(progress_words(run)), ylabel=over("Force", unit))
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
@@ -90,7 +90,7 @@ def lever_film(run, options, into=None):
         values = [frame[key][:] for frame in run.frames]
         norm = Normalize(*options.clim(np.concatenate([[0], *values]), "-"))
         scale = plt.cm.ScalarMappable(norm, colour_map(options, "inferno_r"))
-        figure.colorbar(scale, ax=axes, label=label(key, ""), shrink=0.6, pad=0.12)
+        figure.colorbar(scale, ax=axes, label=worded(run, key, ""), shrink=0.6, pad=0.12)
 
     def show(k):
         axes.clear()

@@ -10,7 +10,7 @@ from matplotlib.ticker import FuncFormatter
 
 from pulvis.errors import RunError
 from pulvis.figures.hidden import dash_hidden
-from pulvis.figures.names import capital, label, over, plain
+from pulvis.figures.names import label, name_of, plain
 from pulvis.figures.quantities import limits_of, unit_for, with_unit
 
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#8c6d1f",
@@ -165,12 +165,9 @@ def write_csv(path, table):
             writer.writerow([repr(float(values[i])) if i < len(values) else "" for _, _, values in table])
 
 
-def worded(name, unit):
-    """An axis label. name: a key of the table of names, or (words, symbol) if it is not in the table."""
-    if isinstance(name, str):
-        return label(name, unit)
-    words, symbol = name
-    return over(capital(words) + (f" ${symbol}$" if symbol else ""), unit)
+def worded(run, name, unit):
+    """An axis label. name: a series or field of the run, or (words, symbol)."""
+    return label(name_of(name, run.labels) if isinstance(name, str) else name, unit)
 
 
 def place_legend(axes, count, options):
@@ -184,7 +181,7 @@ def place_legend(axes, count, options):
 
 
 def draw_lines(run, x, lines, ylabel, title, options=None, into=None):
-    """x: (key, values, unit); lines: [(label, values, unit)] in one unit; ylabel: a key of the table of names,
+    """x: (key, values, unit); lines: [(label, values, unit)] in one unit; ylabel: a series,
     or (words, symbol)."""
     options = options or Options()
     below = 0.16 * ((len(lines) + 1) // 2) if options.narrow and len(lines) >= MANY_LINES else 0
@@ -193,8 +190,8 @@ def draw_lines(run, x, lines, ylabel, title, options=None, into=None):
     factor, unit = unit_for(lines[0][2], np.concatenate([values for _, values, _ in lines]))
     drawn = [axes.plot(x_factor * x[1], factor * values, label=one)[0] for one, values, _ in lines]
     dash_hidden(axes, drawn)
-    axes.set_xlabel(worded(x[0], x_unit))
-    axes.set_ylabel(options.broken(worded(ylabel, unit)))
+    axes.set_xlabel(worded(run, x[0], x_unit))
+    axes.set_ylabel(options.broken(worded(run, ylabel, unit)))
     options.head(axes, title, run)
     if len(lines) > 1:
         place_legend(axes, len(lines) if into is None else 0, options)

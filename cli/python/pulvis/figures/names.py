@@ -1,6 +1,6 @@
-"""Names shown in figures instead of keys, from the table of names (name_table.py).
+"""Labels for axes: words and a symbol in matplotlib mathtext, "relative density $\\rho$".
 
-Each key has words and a symbol, the symbol in matplotlib mathtext; `plain` converts it to plain text.
+Results have theirs in run.h5, other keys in name_table.py.
 """
 import re
 from collections import namedtuple
@@ -9,33 +9,31 @@ from pulvis.figures.name_table import NAMES
 
 Name = namedtuple("Name", "words symbol")
 
-PATTERNS = [(re.compile(pattern.replace("(?<", "(?P<")), words, symbol) for pattern, words, symbol in NAMES["patterns"]]
+
+def split(text):
+    """The words and the symbol of a label."""
+    return Name(*re.fullmatch(r"(.*?)(?: \$([^$]*)\$)?", text, re.DOTALL).groups(""))
 
 
 def worded(key):
     return key.replace("_", " ").replace("/", ", ")
 
 
-def name_of(key, components=1):
-    """The name of a series, a field (NAME:k for component k of `components`) or a study value."""
-    if key in NAMES["keys"]:
-        return Name(*NAMES["keys"][key])
+def component_of(name, number, components):
+    part = NAMES["components"].get(str(components), [str(i + 1) for i in range(components)])[number - 1]
+    return Name(name.words, part if name.symbol in ("x", "") else f"{name.symbol}_{{{part}}}")
+
+
+def name_of(key, labels, components=1):
+    """The name of a series, a field (NAME:k for component k of `components`) or a study value. labels: of the run or study."""
+    if text := labels.get(key) or NAMES["keys"].get(key):
+        return split(text)
     base, _, component = key.partition(":")
-    if component.isdigit() and base in NAMES["keys"] and 1 <= int(component) <= components:
-        words, symbol = NAMES["keys"][base]
-        part = NAMES["components"].get(str(components), [str(i + 1) for i in range(components)])[int(component) - 1]
-        return Name(words, part if symbol == "x" else f"{symbol}_{{{part}}}")
+    if component.isdigit() and 1 <= int(component) <= components:
+        return component_of(name_of(base, labels), int(component), components)
     if key.startswith("peak/"):
-        words, symbol = name_of(key[len("peak/"):])
-        return Name(f"{words} at peak density", symbol)
-    if key.startswith("energy/"):
-        kind = key[len("energy/"):]
-        return Name(NAMES["energies"].get(kind, worded(kind)) + ("" if kind in ("external", "balance") else " energy"), "E")
-    for pattern, words, symbol in PATTERNS:
-        if match := pattern.fullmatch(key):
-            for part, value in match.groupdict().items():  # an axis, a tool
-                words, symbol = words.replace(f"{{{part}}}", value), symbol.replace(f"{{{part}}}", value)
-            return Name(words, symbol)
+        name = name_of(key[len("peak/"):], labels)
+        return Name(f"{name.words} at peak density", name.symbol)
     return Name(worded(key), "")
 
 
@@ -56,13 +54,13 @@ def shown_unit(unit):
     return unit.replace(" ", "\u2009")
 
 
-def label(key, unit, components=1, words=None):
-    """ "Effective stress σ_eff / MPa", for an axis or a colour bar; `words` replace those of the table."""
-    name = name_of(key, components)
-    text = capital(words or name.words)
-    if name.symbol:
-        text += f" ${name.symbol}$"
-    return over(text, unit)
+def joined(words, symbol):
+    return words + (f" ${symbol}$" if symbol else "")
+
+
+def label(name, unit):
+    """ "Effective stress σ_eff / MPa", for an axis or a colour bar. name: (words, symbol)."""
+    return over(capital(joined(*name)), unit)
 
 
 def over(text, unit):

@@ -6,7 +6,8 @@ from matplotlib.ticker import MaxNLocator
 
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for
+from pulvis.figures.names import label
 from pulvis.figures.tools import draw_tools, outlines
 
 
@@ -56,7 +57,7 @@ def contact_network(run, options=None, into=None):
     set_axes(axes, limits)
     chains = "; shaded: force chains" if len(chained) else ""
     options.head(axes, f"Normal contact forces at {moment(frame)}{chains}", run)
-    bar_beside(figure, axes, drawn, worded(("normal force", "F_n"), unit))
+    bar_beside(figure, axes, drawn, label(("normal force", "F_n"), unit))
     close_up(figure, options, into)
     ends = lines.reshape(-1, 4).T / 1e3
     figure.table = [*((name, "m", end) for name, end in zip(("x1", "y1", "x2", "y2"), ends)),

@@ -5,8 +5,8 @@ import numpy as np
 
 from matplotlib import pyplot as plt
 
-from pulvis.figures.look import Options, unit_for, worded
-from pulvis.figures.names import over
+from pulvis.figures.look import Options, unit_for
+from pulvis.figures.names import label, over
 
 MODELS = {"drucker_prager_cap": ("Drucker–Prager cap", "-"), "modified_cam_clay": ("modified Cam-Clay", "--"),
           "fleck_kuhn_mcmeeking": ("Fleck–Kuhn–McMeeking", ":"), "gurson": ("Gurson", "-.")}
@@ -90,7 +90,7 @@ def surfaces(summary, criterion, options):
         states = of_path(summary, path)
         draw_invariants(row[0], states, criterion, colour, factor)
         draw_stresses(row[1], states, criterion, colour, factor)
-        row[0].set_xlabel(worded(("pressure", "p"), unit))
+        row[0].set_xlabel(label(("pressure", "p"), unit))
         row[0].set_ylabel(over("Von Mises' stress $q$, > 0: yy pressed more", unit))
         row[1].set_xlabel(over("Pressure in $x$", unit))
         row[1].set_ylabel(over("Pressure in $y$", unit))
@@ -127,12 +127,12 @@ def models(summary, options):
             draw_fitted(side, mine["points"], x, y, factor)
             for model in mine["models"]:
                 if model["name"] in names:
-                    label, line = names[model["name"]]
+                    name, line = names[model["name"]]
                     side.plot(*(factor * np.array(model["surface"]).T), line,
-                              label=f"{label}, off by {100 * model['misfit']:.1f}%")
+                              label=f"{name}, off by {100 * model['misfit']:.1f}%")
             side.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2)
         row[0].set_title(f"{path}, density {state['relative_density']:.3f}", loc="left")
-        row[0].set_xlabel(worded(("pressure", "p"), unit))
+        row[0].set_xlabel(label(("pressure", "p"), unit))
         row[0].set_ylabel(over("$|q|$", unit))
         row[1].set_xlabel(over("Pressure in the plane", unit))
         row[1].set_ylabel(over("Shear in the plane", unit))
@@ -160,7 +160,7 @@ def parameters(summary, options):
             for name, line in zip(names, ("-", "--")):
                 draw_parameter(side, states, name, line, path)
     for side in axes.flat:
-        side.set_xlabel(worded("relative_density", ""))
+        side.set_xlabel(label(("relative density", r"\rho"), ""))
         if side.get_legend_handles_labels()[1]:
             side.legend(fontsize=7)
         else:

@@ -8,8 +8,8 @@ from pulvis.errors import PulvisError
 from pulvis.figures.colours import colour_map, colours_of
 from pulvis.figures.densities import draw_profiles, profile_table
 from pulvis.figures.fields import DEFAULT_FIELD, OUTLINE, field_of
-from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, printed, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
-from pulvis.figures.names import capital, name_of
+from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, printed, recorded, seam, set_axes, shape_of, sheet, unit_for
+from pulvis.figures.names import label
 from pulvis.figures.network import need_contacts
 from pulvis.figures.quantities import with_unit
 from pulvis.figures.space_mesh import density_along_z, outer_sides, section
@@ -88,12 +88,7 @@ def paint(run, axes, frame, field, colours, options, limits, sides=None):
     axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
     axes.axis("off")
     draw_scale(axes, limits)
-    options.head(axes, f"{title_of(field)} at {moment(frame)}", run)
-
-
-def title_of(field):
-    name = name_of(field.key, field.components)
-    return capital(name.words) + (f" ${name.symbol}$" if ":" in field.key else "")
+    options.head(axes, f"{field.title} at {moment(frame)}", run)
 
 
 def asked_field(run, options):
@@ -168,7 +163,7 @@ def space_network(run, options=None, axes=None):
     draw_scale(place, limits)
     chains = "; shaded: force chains" if chained.any() else ""
     options.head(place, f"Normal contact forces at {moment(frame)}{chains}", run)
-    bar_beside(figure, place, drawn, worded(("normal force", "F_n"), unit))
+    bar_beside(figure, place, drawn, label(("normal force", "F_n"), unit))
     close_up(figure, options, axes)
     ends = lines.reshape(-1, 6).T
     figure.table = [*((name, "m", end) for name, end in zip(("x1", "y1", "z1", "x2", "y2", "z2"), ends)), ("normal force", "N", force)]
@@ -221,7 +216,7 @@ def section_picture(run, options=None, axes=None):
     place.add_collection(faces)
     place.add_collection(LineCollection(1e3 * lines, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
     set_axes(place, limits, others)
-    options.head(place, f"{title_of(field)} in the plane ${options.across}$ = {printed(at, 'm')} at {moment(frame)}", run)
+    options.head(place, f"{field.title} in the plane ${options.across}$ = {printed(at, 'm')} at {moment(frame)}", run)
     colours.key(figure, place)
     close_up(figure, options, axes)
     middle = np.array([polygon.mean(axis=0) for polygon in polygons]).reshape(-1, 2)

@@ -3,8 +3,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import Options, bar_beside, close_up, moment, printed, recorded, set_axes, shape_of, sheet
-from pulvis.figures.names import label
+from pulvis.figures.look import Options, bar_beside, close_up, moment, printed, recorded, set_axes, shape_of, sheet, worded
 from pulvis.figures.space import asked_place
 from pulvis.figures.space_tools import cut, pieces
 from pulvis.figures.tools import TOOL_EDGE
@@ -52,7 +51,7 @@ def density_slice(run, options=None, axes=None):
     set_axes(place, limits, names)
     ends = " to ".join(printed(lines[axis][layer + k], "m") for k in (0, 1))
     options.head(place, f"Local relative density, ${options.across}$ from {ends}, at {moment(frame)}", run)
-    bar_beside(figure, place, drawn, label("local_density", ""))
+    bar_beside(figure, place, drawn, worded(run, "local_density", ""))
     close_up(figure, options, axes)
     middles = np.meshgrid(*((one[1:] + one[:-1]) / 2 for one in lines), indexing="ij")
     figure.table = [*((name, "m", middle.ravel()) for name, middle in zip("xyz", middles)), ("relative density", "-", values.ravel())]

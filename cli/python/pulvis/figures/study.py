@@ -9,8 +9,18 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from pulvis.figures.hidden import dash_hidden
-from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for, worded
-from pulvis.figures.names import capital, name_of
+from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for
+from pulvis.figures.names import capital, label, name_of
+
+
+def name_in(summary, key):
+    return name_of(key, summary.get("labels", {}))
+
+
+def title_of(summary, chart):
+    """The title of a chart, with words instead of keys, and of its study."""
+    words = [name_in(summary, word).words if "/" in word or "_" in word else word for word in chart["title"].split(" ")]
+    return f"{capital(' '.join(words))}\n{summary['title']}"
 
 
 def factor_of(unit, lines, key):
@@ -18,7 +28,7 @@ def factor_of(unit, lines, key):
     return unit_for("" if unit == "-" else unit, np.concatenate([line[key] for line in lines]))
 
 
-def draw(curve, title, options, axes=None):
+def draw(curve, summary, options, axes=None):
     lines = [{key: np.array(value, float) if isinstance(value, list) else value
               for key, value in line.items()} for line in curve["lines"]]
     if not lines:
@@ -29,8 +39,8 @@ def draw(curve, title, options, axes=None):
     curves = []
     for k, line in enumerate(lines):
         style = {"color": LINES[k % len(LINES)], "linestyle": ("-", "--", ":")[k // len(LINES) % 3]}
-        label = line["variation"] + (f" ({line['runs']} seeds)" if line["runs"] > 1 else "")
-        drawn, = axes.plot(x_factor * line["x"], factor * line["y"], label=label, **style)
+        variation = line["variation"] + (f" ({line['runs']} seeds)" if line["runs"] > 1 else "")
+        drawn, = axes.plot(x_factor * line["x"], factor * line["y"], label=variation, **style)
         curves.append(drawn)
         if "low" in line:
             axes.fill_between(x_factor * line["x"], factor * line["low"], factor * line["high"],
@@ -41,9 +51,9 @@ def draw(curve, title, options, axes=None):
                           factor * line["standard_deviation"][some], color=drawn.get_color(), fmt="none",
                           capsize=2, linewidth=1)
     dash_hidden(axes, curves)
-    axes.set_xlabel(worded(curve["x"], x_unit))
-    axes.set_ylabel(worded(curve["y"], unit))
-    options.head(axes, f"{titled(curve['title'])}\n{title}")
+    axes.set_xlabel(label(name_in(summary, curve["x"]), x_unit))
+    axes.set_ylabel(label(name_in(summary, curve["y"]), unit))
+    options.head(axes, title_of(summary, curve))
     axes.legend(fontsize="small")
     return figure
 
@@ -52,47 +62,29 @@ def value_of(group, name):
     return next(parameter["value"] for parameter in group["parameters"] if parameter["name"] == name)
 
 
-def draw_weibull(axes, group, factor, label):
-    strength = factor * np.array([point["strength"] for point in group["points"]])
-    chance = np.array([point["failure_probability"] for point in group["points"]])
-    marks, = axes.semilogx(strength, np.log(-np.log(1 - chance)), "o", markersize=4, label=label)
-    ends = np.array([strength.min(), strength.max()])
-    axes.plot(ends, value_of(group, "modulus") * np.log(ends / (factor * value_of(group, "scale"))),
-              color=marks.get_color())
+# What is drawn over what: names in the points and lines of summary.json.
+DRAWN = {"weibull": ("failure_probability", "strength"), "ryshkewitch_duckworth": ("strength", "porosity"),
+         "power": ("value", "key")}
 
 
-def draw_porosity(axes, group, factor, label):
-    porosity = np.array([point["porosity"] for point in group["points"]])
-    marks, = axes.plot(porosity, [factor * point["strength"] for point in group["points"]], "o", markersize=4,
-                       label=label)
-    along = np.linspace(porosity.min(), porosity.max(), 60)
-    axes.plot(along, factor * value_of(group, "dense_strength") * np.exp(-value_of(group, "k") * along),
-              color=marks.get_color())
+def axes_of(fit, summary):
+    """((words, symbol), unit) of y and x."""
+    strength = ("strength", r"\sigma_f"), fit["unit"]
+    return {"weibull": (((r"$\ln(-\ln(1 - P))$", ""), "-"), strength),
+            "ryshkewitch_duckworth": (strength, (("porosity", ""), "-")),
+            "power": ((name_in(summary, fit.get("series", "")), fit["unit"]),
+                      (name_in(summary, fit.get("key", "")), fit.get("key_unit")))}[fit["law"]]
 
 
-def draw_power(axes, group, factor, label, key_factor):
-    key = np.array([point["key"] for point in group["points"]])
-    marks, = axes.plot(key_factor * key, [factor * point["value"] for point in group["points"]], "o", markersize=4,
-                       label=label)
-    along = np.geomspace(key.min(), key.max(), 60)
-    law = value_of(group, "value") * (along / value_of(group, "at")) ** value_of(group, "exponent")
-    axes.plot(key_factor * along, factor * law, color=marks.get_color())
+def told(fit, group):
+    shown = {"weibull": {"modulus": "modulus "}, "ryshkewitch_duckworth": {"k": "k = ", "r_squared": "r² = "},
+             "power": {"exponent": "exponent "}}[fit["law"]]
+    return f"{group['name']}: " + ", ".join(f"{words}{value_of(group, name):.3g}" for name, words in shown.items())
 
 
-def draw_powers(fit, groups, title, options):
-    def scale(unit, name):
-        return unit_for("" if unit == "-" else unit,
-                        np.array([point[name] for group in groups for point in group["points"]]))
-    factor, unit = scale(fit["unit"], "value")
-    key_factor, key_unit = scale(fit["key_unit"], "key")
-    figure, axes = sheet(options, (6.4, 4.2))
-    for group in groups:
-        draw_power(axes, group, factor, f"{group['name']}: exponent {value_of(group, 'exponent'):.3g}", key_factor)
-    axes.set_xlabel(worded(fit["key"], key_unit))
-    axes.set_ylabel(worded(fit["series"], unit))
-    options.head(axes, f"{titled(fit['title'])}\n{title}")
-    axes.legend(fontsize="small")
-    return figure
+def column(of, name, factor):
+    values = np.array([point[name] for point in of] if isinstance(of, list) else of[name], float)
+    return np.log(-np.log(1 - values)) if name == "failure_probability" else factor * values
 
 
 def plain_ticks(axes):
@@ -101,32 +93,28 @@ def plain_ticks(axes):
         set_formatter(plt.FuncFormatter(lambda value, _: f"{value:g}"))
 
 
-def draw_fit(fit, title, options):
+def draw_fit(fit, summary, options):
     groups = [group for group in fit["groups"] if "not_fitted" not in group]
     if not groups:
         return None
-    if fit["law"] == "power":
-        return draw_powers(fit, groups, title, options)
-    factor, unit = unit_for("" if fit["unit"] == "-" else fit["unit"],
-                            np.array([point["strength"] for group in groups for point in group["points"]]))
-    weibull = fit["law"] == "weibull"
+    y, x = DRAWN[fit["law"]]
+    (y_name, y_unit), (x_name, x_unit) = axes_of(fit, summary)
+    (factor, y_unit), (x_factor, x_unit) = (
+        unit_for("" if unit == "-" else unit, np.concatenate([column(group["points"], name, 1) for group in groups]))
+        for name, unit in ((y, y_unit), (x, x_unit)))
     figure, axes = sheet(options, (6.4, 4.2))
     for group in groups:
-        shown = (f"modulus {value_of(group, 'modulus'):.3g}" if weibull else
-                 f"k = {value_of(group, 'k'):.3g}, r² = {value_of(group, 'r_squared'):.3g}")
-        (draw_weibull if weibull else draw_porosity)(axes, group, factor, f"{group['name']}: {shown}")
-    axes.set_xlabel(worded("strength", unit) if weibull else "Porosity")
-    axes.set_ylabel(r"$\ln(-\ln(1 - P))$" if weibull else worded("strength", unit))
-    if weibull:
+        marks, = axes.plot(column(group["points"], x, x_factor), column(group["points"], y, factor), "o", markersize=4,
+                           label=told(fit, group))
+        if "line" in group:  # not in studies of older versions
+            axes.plot(column(group["line"], x, x_factor), column(group["line"], y, factor), color=marks.get_color())
+    axes.set(xlabel=label(x_name, x_unit), ylabel=label(y_name, y_unit))
+    if fit["law"] == "weibull":
+        axes.set_xscale("log")
         plain_ticks(axes)
-    options.head(axes, f"{titled(fit['title'])}\n{title}")
+    options.head(axes, title_of(summary, fit))
     axes.legend(fontsize="small")
     return figure
-
-
-def titled(text):
-    """Replaces keys in a chart title by their names."""
-    return capital(" ".join(name_of(word).words if "/" in word or "_" in word else word for word in text.split(" ")))
 
 
 def figures_of_study(folder, options=None):
@@ -134,8 +122,7 @@ def figures_of_study(folder, options=None):
     options = options or Options()
     curves = json.loads((folder / "curves.json").read_text(encoding="utf-8"))
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    title = summary["title"]
-    drawn = [(f"{number + 1}-{curve['y']}-{curve['x']}", draw(curve, title, options)) for number, curve in enumerate(curves)]
-    drawn += [(f"fit-{number + 1}-{fit['law']}", draw_fit(fit, title, options))
+    drawn = [(f"{number + 1}-{curve['y']}-{curve['x']}", draw(curve, summary, options)) for number, curve in enumerate(curves)]
+    drawn += [(f"fit-{number + 1}-{fit['law']}", draw_fit(fit, summary, options))
               for number, fit in enumerate(summary.get("fits", []))]
     return [(re.sub(r"[^A-Za-z0-9]+", "-", words), figure) for words, figure in drawn]
