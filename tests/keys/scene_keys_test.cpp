@@ -86,7 +86,13 @@ const Plan& plan() {
 }
 
 const Plan& plan_in_space() {
-  static const Plan made = plan_or_fault(schema::scene_language(3), bases().space, fault_of_scene);
+  static const Plan made = [] {
+    Plan all = plan_or_fault(schema::scene_language(3), bases().space, fault_of_scene);
+    std::erase_if(all.missing, [](const Use& use) {
+      return use.text() == "family = \"afm\"";  // levers have no dimension
+    });
+    return all;
+  }();
   return made;
 }
 

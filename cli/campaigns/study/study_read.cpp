@@ -79,7 +79,7 @@ below = -1.6
 | `variations.csv` | one row per variation: mean and standard deviation (n - 1) of every value over its seeds |
 | `effects.csv` | main effects: for each varied key and level, the mean over all runs with this level, and their standard deviation |
 | `curves.json` | the curves as plotted; for several seeds, mean (`y`), `standard_deviation`, `low` and `high` |
-| `summary.json` | all of the above, and the results of the checks |
+| `summary.json` | all of the above, the results of the checks, fitted laws with points and line of their plots, labels of the series |
 | `report.html` | charts with standard deviation bars, effect plots, the last frame of each run, tables |
 | `slurm.sh`, `slurm.json`, `slurm/` | on a cluster: the job script, its list of runs, its output (docs/cluster.md) |
 

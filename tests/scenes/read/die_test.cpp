@@ -215,7 +215,7 @@ TEST(DieInSpace, TouchesTheOutermostParticlesOfEveryLattice) {
 
 TEST(DieInSpace, GivesARandomPackingItsContainer) {
   const std::string bed =
-      "[[packing]]\nkind = \"random\"\ndensity = 0.4\nclass = [{ particle = \"ball\", number = 4 "
+      "[[packing]]\nkind = \"random\"\ndensity = 0.2\nclass = [{ particle = \"ball\", number = 4 "
       "}]\n";
   const Scene box = in_space_with(bed + "[die]\nwidth = \"6 mm\"\ndepth = \"5 mm\"\n");
   EXPECT_DOUBLE_EQ(box.packings[0].container.depth, 0.005);

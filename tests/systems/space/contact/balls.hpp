@@ -73,6 +73,7 @@ struct TwoBalls : TouchingBodies {
 
 inline ToolSpec floor_plane() {
   ToolSpec tool;
+  tool.normal = Vec3::UnitZ();
   tool.name = "floor";
   tool.shape = ToolSpec::Shape::plane;
   return tool;

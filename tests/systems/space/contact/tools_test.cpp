@@ -39,6 +39,7 @@ TEST(SpaceTools, ADieIsTheInsideOfACylinder) {
 
 ToolSpec die_with_mouth(double radius, double height, double rounding) {
   ToolSpec tool;
+  tool.normal = Vec3::UnitZ();
   tool.shape = ToolSpec::Shape::die;
   tool.diameter = 2 * radius;
   tool.height = height;
@@ -78,6 +79,7 @@ TEST(SpaceTools, ADieEndsAtItsMouth) {
 
 ToolSpec punch(std::vector<Vec2> profile) {
   ToolSpec tool;
+  tool.normal = Vec3::UnitZ();
   tool.shape = ToolSpec::Shape::punch;
   tool.diameter = 2;
   tool.profile = std::move(profile);
@@ -260,6 +262,7 @@ TEST(SpaceTools, ToolsWithTheSameSurfaceBearTheSame) {
     const Vec3 on_top = point + Vec3(0, 0, diameter / 2 - 100e-6);
     TouchingBodies w({ball}, {body_at(on_top)}, [&](Scene& s) {
       ToolSpec tool;
+      tool.normal = Vec3::UnitZ();
       tool.name = "tool";
       tool.point = point;
       tool.shape = shape;
