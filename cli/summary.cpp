@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cli/summary_compaction.hpp"
+#include "cli/tell.hpp"
 #include "components/contact.hpp"
 #include "engine/enum_table.hpp"
 #include "engine/files/own_files.hpp"

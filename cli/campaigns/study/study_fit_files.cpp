@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "cli/csv_cell.hpp"
 
@@ -40,7 +39,8 @@ Json line_json(const FittedLaw& law, const FittedGroup& group) {
     if (is_weibull(law)) return 1 - std::exp(-std::pow(x / of("scale"), of("modulus")));
     return of("dense_strength") * std::exp(-of("k") * x);
   };
-  const auto [low, high] = std::ranges::minmax(group.points | std::views::transform(column));
+  const auto [first, last] = std::ranges::minmax_element(group.points, {}, column);
+  const double low = (*first).*column, high = (*last).*column;
   Json xs = Json::array(), ys = Json::array();
   constexpr int pieces = 60;
   for (int i = 0; i <= pieces; ++i) {
