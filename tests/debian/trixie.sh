@@ -14,7 +14,7 @@ source=$(readlink -f -- "$(dirname -- "$0")/../..")
 folder=$(readlink -m -- "${1:-/var/tmp/pulvis-trixie}")
 mirror=${2:-}
 program=${PROGRAM:-$source/build/release/cli/pulvis}
-tests=(libgtest-dev libgmock-dev libbenchmark-dev python3-jsonschema ccache)
+tests=(libgtest-dev libgmock-dev libbenchmark-dev python3-jsonschema python3-meshio ccache)
 # The demo with 25 of its 100 particles, and some of its time.
 short=(--set "packing[0].rows=5" --set "packing[0].columns=5" --set 'tool.right.point=["50 mm", "0 mm"]'
        --set 'tool.top.point=["0 mm", "50 mm"]' --set 'stage.press.duration="0.2 ms"'
