@@ -60,7 +60,7 @@ struct ConstraintTravel : Component<ConstrainedNode, double, 2> {
       "travel", "-", "displacement of the node in its direction, of the tool's x and y"};
 };
 struct ConstraintOrigin : Component<ConstrainedNode, double, 1> {
-  static constexpr ComponentInfo info{"origin", "m", "undeformed place of the node, in direction"};
+  static constexpr ComponentInfo info{"origin", "m", "place of the node at time 0, in direction"};
 };
 struct ConstraintReaction : Component<ConstrainedNode, double, 1> {
   static constexpr ComponentInfo info{"reaction", "N",

@@ -9,17 +9,18 @@
 #include "components/ranks.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
+#include "components/surface.hpp"
+#include "engine/entry.hpp"
 #include "engine/files/checkpoint.hpp"
 #include "scenes/ranks/gather.hpp"
 
 namespace pulvis {
-
 namespace {
 
 // Stages decide these, and those of the state are over.
 std::set<std::string> decided_by_stages() {
   std::set<std::string> names{ToolProgram::resource_name, StageEnds::resource_name,
-                              ToolServos::resource_name};
+                              ToolServos::resource_name, DrivenWalls::resource_name};
   for (const ComponentInfo& column : {ServoTravel::info, ServoVelocity::info, ServoMass::info,
                                       ServoDragged::info, ServoForce::info})
     names.insert(std::string("tool/") + column.name);
@@ -34,6 +35,24 @@ void start_tools(World& world) {
     std::copy_n(position, tool_axes, start.begin());
     position += tool_axes;
   }
+}
+
+// Constraints hold their nodes where the state has them: travel counts from there.
+void start_constraints(World& world) {
+  if (!world.has<ConstraintOrigin>()) return;
+  const Bodies& bodies = world.resource<Bodies>();
+  const auto& places = world.column<Position<TwoD>>();
+  const std::vector<std::int32_t>& begin = world.resource<ConstraintIndex>().begin;
+  const std::int32_t* target = world.column<ConstraintTarget>().values();
+  const double* direction = world.column<ConstraintDirection>().values();
+  double* origin = world.column<ConstraintOrigin>().values();
+  for (int chunk = 0; chunk < bodies.chunks(); ++chunk)
+    for (int row = entry(begin, chunk); row < entry(begin, chunk + 1); ++row) {
+      const int node = target[3 * row], lane = target[3 * row + 1];
+      if (!bodies.owns(chunk * lane_count + lane)) continue;
+      const Lane* at = places.lanes() + 2 * (entry(places.table.chunk_begin, chunk) + node);
+      origin[row] = direction[2 * row] * at[0][lane] + direction[2 * row + 1] * at[1][lane];
+    }
 }
 
 void start_cell(PeriodicCell& cell) {
@@ -64,6 +83,7 @@ void begin_with_state(World& world, const Scene& scene) {
   clock.end = end;
   clock.next_look = 0;
   start_tools(world);
+  start_constraints(world);
   if (world.has<PeriodicCell>()) start_cell(world.resource<PeriodicCell>());
 }
 

@@ -239,6 +239,10 @@ Checkpoint::Checkpoint(hdf5::File file) : file_(std::move(file)) {
   }
 }
 
+bool is_restored(const ColumnBase& column, const std::set<std::string>& left_alone) {
+  return !column.declared_transient && !left_alone.contains(column.entity + "/" + column.info.name);
+}
+
 void Checkpoint::require_same_parts(const World& world,
                                     const std::set<std::string>& left_alone) const {
   std::set<std::string> unused;
@@ -250,9 +254,7 @@ void Checkpoint::require_same_parts(const World& world,
     if (unused.erase(name) == 0) throw BadState("it has no " + name);
   };
   for (const ColumnBase* column : world.columns())
-    if (!column->declared_transient &&
-        !left_alone.contains(column->entity + "/" + column->info.name))
-      use(column_name(*column));
+    if (is_restored(*column, left_alone)) use(column_name(*column));
   for (const World::SavedResource& resource : world.saved_resources())
     if (!left_alone.contains(resource.name)) use("/resources/" + resource.name);
   if (!unused.empty()) throw BadState("the scene has no " + *unused.begin());
@@ -261,8 +263,7 @@ void Checkpoint::require_same_parts(const World& world,
 void Checkpoint::restore(World& world, const std::set<std::string>& left_alone) const {
   require_same_parts(world, left_alone);
   for (const ColumnBase* column : world.columns())
-    if (!column->declared_transient &&
-        !left_alone.contains(column->entity + "/" + column->info.name))
+    if (is_restored(*column, left_alone))
       world.set_column(*column, file_.read_bytes(column_name(*column)));
   for (const World::SavedResource& r : world.saved_resources())
     if (!left_alone.contains(r.name)) r.set_state(resource(r.name));

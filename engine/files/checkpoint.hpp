@@ -78,6 +78,9 @@ class OtherFormat : public DamagedCheckpoint {
   using DamagedCheckpoint::DamagedCheckpoint;
 };
 
+// Whether a restored world takes the column from its file. `left_alone`: names as in "node/position".
+bool is_restored(const ColumnBase& column, const std::set<std::string>& left_alone);
+
 class Checkpoint {
  public:
   explicit Checkpoint(const std::filesystem::path& file);  // throws DamagedCheckpoint
@@ -96,7 +99,7 @@ class Checkpoint {
   std::vector<std::byte> column(const std::string& name, std::uint64_t first,
                                 std::uint64_t bytes) const;
   std::vector<std::byte> resource(const std::string& name) const;
-  // Throws BadState if `world` has other columns or resources, apart from the resources in `left_alone`.
+  // Throws BadState if `world` has other columns or resources, apart from those in `left_alone`.
   void require_same_parts(const World& world, const std::set<std::string>& left_alone = {}) const;
   std::vector<std::byte> run(const std::string& name) const;
   bool has_run(const std::string& name) const { return file_.contains("/run/" + name); }

@@ -307,10 +307,8 @@ void restore_share(const Checkpoint& checkpoint, World& share, std::set<std::str
     if (!left_alone.contains(resource.name)) resource.set_state(checkpoint.resource(resource.name));
   for (std::size_t i = 0; i < share.columns().size(); ++i) {
     const ColumnBase& column = *share.columns()[i];
-    if (column.declared_transient) continue;
-    if (is_of_contacts(column)) continue;
+    if (!is_restored(column, left_alone) || is_of_contacts(column)) continue;
     const std::string name = column.entity + "/" + column.info.name;
-    if (left_alone.contains(name)) continue;
     if (!is_by_chunk(column)) {
       share.set_column(column, checkpoint.column(name));
       continue;

@@ -95,6 +95,75 @@ TEST_P(DieState, GoesOnUnderAServo) {
   EXPECT_NEAR(rest.value(die().force) / whole.value(die().force), 1, 0.05);
 }
 
+using PlaneState = InitialState;
+
+// The walls of the first run are driven by strains of the die, those of the second by moves.
+TEST_F(PlaneState, OfDrivenWallsGoesOnUnderMoves) {
+  const std::string driven =
+      "[[stage]]\nname = \"press\"\nkind = \"compact\"\nduration = \"15 us\"\nkeep_state = "
+      "true\ncell = { strain_xx = -0.03, strain_yy = -0.05 }\n";
+  const auto before = kept(dies[0].powder, driven);
+  const double top = before->value("tool/top/position_y"),
+               right = before->value("tool/right/position_x");
+  Experiment rest = gone_on(dies[0].powder, dies[0].draw);
+  rest.run(10);
+  EXPECT_NEAR(rest.value("tool/top/position_y"), top + 0.05e-3, 1e-12);
+  EXPECT_NEAR(rest.value("tool/right/position_x"), right, 1e-12);
+  EXPECT_LT(rest.results.energy_balance_error(), 0.005);
+}
+
+// A bar that one run has drawn is drawn on by another.
+TEST_F(PlaneState, OfConstraintsGoesOnFromWhereTheyAre) {
+  const std::string bar = R"(
+family = "compaction"
+[[material]]
+name = "steel"
+density = "7850 kg/m^3"
+youngs_modulus = "200 GPa"
+poissons_ratio = 0.3
+[material.damping]
+mass_proportional = "1e5 1/s"
+[[particle]]
+name = "bar"
+material = "steel"
+outline = "rectangle"
+width = "20 mm"
+height = "5 mm"
+mesh = { columns = 8, rows = 2 }
+[[body]]
+particle = "bar"
+position = ["10 mm", "0 mm"]
+[[tool]]
+name = "left"
+shape = "constraint"
+low = ["0 mm", "-2.5 mm"]
+high = ["0 mm", "2.5 mm"]
+holds = "both"
+[[tool]]
+name = "right"
+shape = "constraint"
+low = ["20 mm", "-2.5 mm"]
+high = ["20 mm", "2.5 mm"]
+holds = "x"
+)";
+  const auto drawn = [](const std::string& name, const std::string& keys = "") {
+    return "[[stage]]\nname = \"" + name + "\"\nkind = \"compact\"\nduration = \"0.3 ms\"\n" +
+           keys +
+           "[[stage.move]]\ntool = \"right\"\ndisplacement = [\"0.002 mm\", \"0 mm\"]\nramp = "
+           "0.5\n";
+  };
+  const std::string first = drawn("first", "keep_state = true\n"), second = drawn("second");
+  Experiment whole(own_scene(bar + first + second));
+  whole.run(20);
+  kept(bar, first);
+  Experiment rest = gone_on(bar, second);
+  rest.run(10);
+  for (const char* series : {"tool/right/position_x", "tool/right/force_x", "energy/elastic"})
+    EXPECT_NEAR(rest.value(series) / whole.value(series), 1, 1e-3) << series;
+  EXPECT_NEAR(rest.value("tool/right/position_x"), 20.004e-3, 1e-10);
+  EXPECT_LT(rest.results.energy_balance_error(), 0.005);
+}
+
 INSTANTIATE_TEST_SUITE_P(In, DieState, testing::Range(std::size_t{0}, dies.size()),
                          [](const auto& of) { return dies[of.param].name; });
 
