@@ -133,35 +133,17 @@ struct ElasticSlip : Component<At, double, (At::axes == 2 ? 1 : 3) * At::points>
       At::axes == 2 ? "stretch of the tangential springs: history"
                     : "stretch of the tangential springs, x of all, y, z: history"};
 };
-// ---- only if the friction of a pair is more than a Coulomb coefficient ----------------------------
+// ---- only if the friction of a pair is more than a Coulomb coefficient, or surfaces attract each other ----------
 template <class At>
-struct FrictionMore : Component<At, double, 6> {
-  static constexpr ComponentInfo info{"friction_more", "SI",
-                                      "static less dynamic coefficient, 1/decay length, most shear "
-                                      "stress, rate, 1/reference speed, "
-                                      "nothing"};
-  enum Number {
-    drop,       // -, static minus dynamic coefficient
-    inv_decay,  // 1/m, inverse of the sliding distance over which that drops by a factor of e
-    strength,   // Pa, upper limit of the shear stress
-    rate,       // -, coefficient of ln(1 + v/v_0)
-    inv_speed   // s/m, 1/v_0
-  };
+struct SurfaceLawNumber : Component<At, std::int32_t, 1> {
+  static constexpr ComponentInfo info{"surface_law", "-",
+                                      "which of the laws of the scene's surfaces acts"};
 };
+// ---- only if the friction of a pair is more than a Coulomb coefficient ----------------------------
 template <class At>
 struct SlipWeakening : Component<At, double, At::points> {
   static constexpr ComponentInfo info{"slip_weakening", "-",
                                       "share of the static friction lost in sliding: history"};
-};
-
-// ---- only if surfaces attract each other -----------------------------------------------------------
-template <class At>
-struct AdhesionLaw : Component<At, double, 2> {
-  static constexpr ComponentInfo info{"adhesion", "SI", "traction of surfaces that touch; range"};
-  enum Number {
-    traction,  // Pa
-    range      // m, gap at which it has dropped to zero
-  };
 };
 
 // Moment that keeps friction across a small gap from spinning up the pair; see contact_kernel.hpp.

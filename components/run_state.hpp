@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "components/shape.hpp"
+#include "components/surface_laws.hpp"
 #include "engine/entry.hpp"
 #include "engine/row_range.hpp"
 
@@ -96,37 +97,18 @@ struct ContactRules {
   // springs use it too), and of welds; empty without bonds
   std::vector<double> initial_stiffness, weld_stiffness;
   int materials = 0;
-  struct Friction {
-    double coefficient = 0;  // -, Coulomb; the dynamic one if there is also a static one
-    double drop = 0;         // -, static minus dynamic coefficient
-    double inv_decay = 0;    // 1/m
-    double strength = std::numeric_limits<double>::infinity();  // Pa, limit of the shear stress
-    double rate = 0;                                            // -, factor of ln(1 + v inv_speed)
-    double inv_speed = 0;                                       // s/m
-    bool acts() const { return coefficient > 0 || drop > 0 || rate > 0; }
-    bool only_coulomb() const { return drop == 0 && rate == 0 && std::isinf(strength); }
-  };
-  std::vector<Friction> friction;       // [materials * materials]
-  std::vector<Friction> tool_friction;  // [tools * materials]
-  struct Adhesion {
-    double traction = 0;  // Pa, of touching surfaces
-    double range = 0;     // m, gap at which it has dropped to zero
-  };
-  std::vector<Adhesion> adhesion;       // [materials * materials]; empty without adhesion
-  std::vector<Adhesion> tool_adhesion;  // [tools * materials]
-  const Adhesion& adhesion_between(int a, int b) const {
-    return adhesive(adhesion, a * materials + b);
+  // Of any two materials, [materials * materials]; then of the folds of a particle, which do not attract each other,
+  // [materials].
+  std::vector<SurfaceLaws> pairs;
+  std::vector<SurfaceLaws> tool_pairs;  // [tools * materials]
+  int number_between(int a, int b) const { return a * materials + b; }
+  int number_of_fold(int material) const { return materials * materials + material; }
+  int number_with_tool(int tool, int material) const { return tool * materials + material; }
+  const SurfaceLaws& between(int a, int b) const { return entry(pairs, number_between(a, b)); }
+  const SurfaceLaws& with_tool(int tool, int material) const {
+    return entry(tool_pairs, number_with_tool(tool, material));
   }
-  const Adhesion& adhesion_with_tool(int tool, int material) const {
-    return adhesive(tool_adhesion, tool * materials + material);
-  }
-  // m, at which any surfaces attract each other.
-  double longest_range() const {
-    double longest = 0;
-    for (const auto* list : {&adhesion, &tool_adhesion})
-      for (const Adhesion& of : *list) longest = std::max(longest, of.range);
-    return longest;
-  }
+  double reach = 0;  // m, largest gap at which any surfaces attract each other
   // Tangent of the springs of a material's contacts and bonds relative to that of an undeformed contact spring, if the
   // contact springs have stiffened by this factor.
   double springs_of(int material, double stiffening) const {
@@ -136,18 +118,6 @@ struct ContactRules {
   }
   double stiffest_weld() const {
     return weld_stiffness.empty() ? 0 : *std::ranges::max_element(weld_stiffness);
-  }
-  const Friction& friction_between(int a, int b) const {
-    return entry(friction, a * materials + b);
-  }
-  const Friction& friction_with_tool(int tool, int material) const {
-    return entry(tool_friction, tool * materials + material);
-  }
-
- private:
-  static const Adhesion& adhesive(const std::vector<Adhesion>& list, int at) {
-    static const Adhesion none;
-    return list.empty() ? none : entry(list, at);
   }
 };
 

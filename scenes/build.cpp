@@ -107,11 +107,8 @@ void add_row_columns(World& world, const Needs& needs) {
   world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();
   if (needs.friction) world.add<ElasticSlip<At>>();
-  if (needs.weakening) {
-    world.add<FrictionMore<At>>();
-    world.add<SlipWeakening<At>>();
-  }
-  if (needs.adhesion) world.add<AdhesionLaw<At>>();
+  if (needs.weakening) world.add<SlipWeakening<At>>();
+  if (needs.weakening || needs.adhesion) world.add<SurfaceLawNumber<At>>();
   world.emplace<RowBlocks<At>>();
   world.emplace<ContactSums<At>>();
 }
@@ -332,7 +329,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
       set_stiffest_bonds(bonds, rules);
       index.reach = longest_gap(longest_edge(layout.bodies), bonds);
     }
-    index.reach = std::max(index.reach, rules.longest_range());
+    index.reach = std::max(index.reach, rules.reach);
     index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)

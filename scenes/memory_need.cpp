@@ -55,8 +55,8 @@ std::uint64_t row_bytes(const Needs& needs) {
                                  ContactLaw<At>, PointForce<At>, ContactPlace, ClosestPoint>();
   if (needs.friction) bytes += bytes_of<ElasticSlip<At>>();
   if (needs.friction || needs.bonds) bytes += bytes_of<FrictionCouple>();
-  if (needs.weakening) bytes += bytes_of<FrictionMore<At>, SlipWeakening<At>>();
-  if (needs.adhesion) bytes += bytes_of<AdhesionLaw<At>>();
+  if (needs.weakening) bytes += bytes_of<SlipWeakening<At>>();
+  if (needs.weakening || needs.adhesion) bytes += bytes_of<SurfaceLawNumber<At>>();
   if (needs.bonds)
     bytes += bytes_of<BondLawNumber<At>, BondedPoints<At>, BondOffset<At>, BondStrength<At>,
                       BondDamage<At>, CurveAnchor>();

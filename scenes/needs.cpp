@@ -14,8 +14,9 @@ namespace {
 // Whether any pair that can touch has friction that satisfies `acts`.
 template <class Acts>
 bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& acts) {
-  return (needs.pairs && std::ranges::any_of(rules.friction, acts)) ||
-         (needs.tools && std::ranges::any_of(rules.tool_friction, acts));
+  const auto is = [&](const SurfaceLaws& of) { return acts(of.friction); };
+  return (needs.pairs && std::ranges::any_of(rules.pairs, is)) ||
+         (needs.tools && std::ranges::any_of(rules.tool_pairs, is));
 }
 
 template <class Is>
@@ -40,14 +41,14 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   needs.cell = scene.cell.has_value();
   needs.pairs = particles > 1 || needs.cell || (needs.tools && any_outline(scene, can_fold)) ||
                 (needs.constraints && any_outline(scene, has_notch));
-  using Friction = ContactRules::Friction;
+  using Friction = FrictionParameters;
   const ContactRules rules = contact_rules(scene);
   needs.friction = any_friction(rules, needs, [](const Friction& f) { return f.acts(); });
   needs.weakening = needs.friction &&
                     any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
   if (!scene.bonds.empty()) {
     const BondRules bonds = bond_rules(scene);
-    needs.adhesion = needs.contact() && !rules.adhesion.empty();
+    needs.adhesion = needs.contact() && has_adhesion(scene);
     needs.welds = needs.pairs && BondRules::any(bonds.pressed);
     needs.tool_welds = needs.tools && BondRules::any(bonds.tool_pressed);
     needs.bonds = needs.welds ||

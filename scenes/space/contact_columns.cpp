@@ -57,12 +57,13 @@ struct Touching {  // what can touch, and how
   Touching(const Scene& scene, const ContactRules& rules, std::size_t bodies) {
     pairs = bodies > 1;
     tools = !scene.tools.empty();
-    const auto any = [&](const auto& is) {
-      return (pairs && std::ranges::any_of(rules.friction, is)) ||
-             (tools && std::ranges::any_of(rules.tool_friction, is));
+    const auto any = [&](const auto& is_friction) {
+      const auto is = [&](const SurfaceLaws& of) { return is_friction(of.friction); };
+      return (pairs && std::ranges::any_of(rules.pairs, is)) ||
+             (tools && std::ranges::any_of(rules.tool_pairs, is));
     };
-    friction = any([](const ContactRules::Friction& f) { return f.acts(); });
-    weakening = friction && any([](const ContactRules::Friction& f) { return !f.only_coulomb(); });
+    friction = any([](const FrictionParameters& f) { return f.acts(); });
+    weakening = friction && any([](const FrictionParameters& f) { return !f.only_coulomb(); });
     damping = rules.damping > 0;
   }
 };
@@ -221,7 +222,7 @@ void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& 
   if (touching.tools) add_tools(world, scene, touching);
   ContactIndex& index = world.emplace<ContactIndex>();
   index.skin = scene.contact.skin * rules.shortest_edge;
-  index.reach = rules.longest_range();
+  index.reach = rules.reach;
   if (has_bonds(scene))
     index.reach = std::max(index.reach, add_bonds(world, scene, touching, rules));
   index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;

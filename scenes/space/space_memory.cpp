@@ -68,7 +68,7 @@ SpaceMemory memory_of(const Scene& scene) {
   std::vector<std::uint64_t> particles(scene.particles.size());
   for (const BodySpec& body : place_bodies(scene))
     particles[static_cast<std::size_t>(body.particle)] += 1;
-  using Friction = ContactRules::Friction;
+  using Friction = FrictionParameters;
   const bool friction =
       scene.contact.friction > 0 || any_friction(scene, [](const Friction& f) { return f.acts(); });
   const bool weakening = any_friction(scene, [](const Friction& f) { return !f.only_coulomb(); });

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "components/formulation.hpp"
+#include "components/surface_laws.hpp"
 #include "engine/enum_table.hpp"
 #include "scenes/language/source_mark.hpp"
 #include "scenes/language/vectors.hpp"
@@ -343,15 +344,8 @@ struct StageSpec {
   SourceMark mark;
 };
 
-struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names (materials or tools)
+struct FrictionSpec : FrictionParameters {  // of one pair of names (materials or tools)
   std::string first, second;
-  double coefficient = 0;                    // -, the dynamic one if there is a static one
-  std::optional<double> static_coefficient;  // -, before sliding
-  std::optional<double>
-      decay_length;  // m, sliding distance over which the difference decays to 1/e
-  std::optional<double> shear_strength;  // Pa
-  std::optional<double> rate,
-      reference_speed;  // -, m/s: increases by rate ln(1 + v/reference_speed)
   SourceMark mark;
 };
 

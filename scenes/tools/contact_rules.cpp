@@ -6,21 +6,9 @@
 
 namespace pulvis {
 
-ContactRules::Friction friction_of(const Scene& scene, const std::string& a, const std::string& b) {
-  for (const FrictionSpec& f : scene.frictions) {
-    if (!((f.first == a && f.second == b) || (f.first == b && f.second == a))) continue;
-    ContactRules::Friction friction{.coefficient = f.coefficient};
-    if (f.static_coefficient) {
-      friction.drop = *f.static_coefficient - f.coefficient;
-      friction.inv_decay = 1 / *f.decay_length;
-    }
-    if (f.shear_strength) friction.strength = *f.shear_strength;
-    if (f.rate) {
-      friction.rate = *f.rate;
-      friction.inv_speed = 1 / *f.reference_speed;
-    }
-    return friction;
-  }
+FrictionParameters friction_of(const Scene& scene, const std::string& a, const std::string& b) {
+  for (const FrictionSpec& f : scene.frictions)
+    if ((f.first == a && f.second == b) || (f.first == b && f.second == a)) return f;
   return {.coefficient = scene.contact.friction};
 }
 
@@ -32,7 +20,7 @@ bool is_adhesion(const BondSpec& bond) { return bond.origin == BondSpec::Origin:
 
 bool has_adhesion(const Scene& scene) { return std::ranges::any_of(scene.bonds, is_adhesion); }
 
-ContactRules::Adhesion adhesion_of(const Scene& scene, const std::string& a, const std::string& b) {
+AdhesionParameters adhesion_of(const Scene& scene, const std::string& a, const std::string& b) {
   for (const BondSpec& bond : scene.bonds)
     if (is_adhesion(bond) && std::minmax(bond.first, bond.second) == std::minmax(a, b))
       return {2 * bond.work / bond.range, bond.range};
@@ -41,13 +29,8 @@ ContactRules::Adhesion adhesion_of(const Scene& scene, const std::string& a, con
 
 namespace {
 
-void add_adhesion(const Scene& scene, ContactRules& rules) {
-  for (const MaterialSpec& a : scene.materials)
-    for (const MaterialSpec& b : scene.materials)
-      rules.adhesion.push_back(adhesion_of(scene, a.name, b.name));
-  for (const ToolSpec& tool : scene.tools)
-    for (const MaterialSpec& m : scene.materials)
-      rules.tool_adhesion.push_back(adhesion_of(scene, tool.name, m.name));
+SurfaceLaws laws_of(const Scene& scene, const std::string& a, const std::string& b) {
+  return {friction_of(scene, a, b), adhesion_of(scene, a, b)};
 }
 
 }  // namespace
@@ -61,12 +44,15 @@ ContactRules contact_rules(const Scene& scene) {
   rules.materials = static_cast<int>(scene.materials.size());
   for (const MaterialSpec& a : scene.materials)
     for (const MaterialSpec& b : scene.materials)
-      rules.friction.push_back(friction_of(scene, a.name, b.name));
+      rules.pairs.push_back(laws_of(scene, a.name, b.name));
+  for (const MaterialSpec& m : scene.materials)
+    rules.pairs.push_back({friction_of(scene, m.name, m.name), {}});
   for (const ToolSpec& tool : scene.tools)
     for (const MaterialSpec& m : scene.materials)
-      rules.tool_friction.push_back(is_constraint(tool) ? ContactRules::Friction{}
-                                                        : friction_of(scene, tool.name, m.name));
-  if (has_adhesion(scene)) add_adhesion(scene, rules);
+      rules.tool_pairs.push_back(is_constraint(tool) ? SurfaceLaws{}
+                                                     : laws_of(scene, tool.name, m.name));
+  for (const auto* list : {&rules.pairs, &rules.tool_pairs})
+    for (const SurfaceLaws& of : *list) rules.reach = std::max(rules.reach, of.adhesion.range);
   return rules;
 }
 

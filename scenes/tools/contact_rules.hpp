@@ -9,10 +9,10 @@
 namespace pulvis {
 
 // Between two materials, or a material and a tool.
-ContactRules::Friction friction_of(const Scene& scene, const std::string& a, const std::string& b);
+FrictionParameters friction_of(const Scene& scene, const std::string& a, const std::string& b);
 
 // {}: none.
-ContactRules::Adhesion adhesion_of(const Scene& scene, const std::string& a, const std::string& b);
+AdhesionParameters adhesion_of(const Scene& scene, const std::string& a, const std::string& b);
 bool has_adhesion(const Scene& scene);
 
 ContactRules contact_rules(const Scene& scene);

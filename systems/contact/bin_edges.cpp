@@ -13,7 +13,6 @@
 #include "systems/contact/broad_phase.hpp"
 #include "systems/contact/surface_search.hpp"
 #include "systems/contact/systems.hpp"
-#include "systems/laws/weakening_law.hpp"
 
 namespace pulvis {
 namespace {
@@ -69,11 +68,11 @@ std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin, c
 }
 
 struct PairLaw {
-  double kappa;  // Pa/m
-  const ContactRules::Friction& friction;
+  double kappa;     // Pa/m
+  double friction;  // -, Coulomb coefficient
+  int surfaces;     // number of their laws
   double damping;
   std::uint8_t weld;  // index of the bond law by which pressure welds
-  const ContactRules::Adhesion& adhesion;
 };
 
 template <class At>
@@ -85,17 +84,8 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
   rows.pair(row, 1) = key.edge;
   rows.pair(row, 2) = key.other;
   rows.law(row, Law::stiffness) = law.kappa;
-  rows.law(row, Law::friction) = law.friction.coefficient;
-  if (rows.more) {
-    static_assert(more_of_friction.size() <= FrictionMore<At>::count);
-    for (int i = 0; const auto number : more_of_friction)
-      (*rows.more)(row, i++) = law.friction.*number;
-  }
-  if (rows.adhesion) {
-    using Adhesive = AdhesionLaw<At>;
-    (*rows.adhesion)(row, Adhesive::traction) = law.adhesion.traction;
-    (*rows.adhesion)(row, Adhesive::range) = law.adhesion.range;
-  }
+  rows.law(row, Law::friction) = law.friction;
+  if (rows.surface_law) (*rows.surface_law)(row) = law.surfaces;
   if (rows.bond_law) (*rows.bond_law)(row, BondLawNumber<At>::weld) = law.weld;
   rows.law(row, Law::damping) = law.damping;
   rows.law(row, Law::inv_size) = 1 / edge.length;
@@ -143,12 +133,10 @@ std::uint8_t tool_weld_law(const Optional<Read<BondRules>>& bonds, const Bodies&
 }
 
 // A fold of one outline does not attract itself: what is near is usually the body's own neighbourhood.
-const ContactRules::Adhesion& adhesion_of(const ContactRules& rules, const Bodies& bodies,
-                                          const RowKey& key) {
-  static const ContactRules::Adhesion none;
-  if (key.itself()) return none;
-  return rules.adhesion_between(entry(bodies.slots, key.slot).material,
-                                entry(bodies.slots, key.other).material);
+int surfaces_of(const ContactRules& rules, const Bodies& bodies, const RowKey& key) {
+  const int a = entry(bodies.slots, key.slot).material;
+  return key.itself() ? rules.number_of_fold(a)
+                      : rules.number_between(a, entry(bodies.slots, key.other).material);
 }
 
 // Flat flanks of one outline that overlap by more than the skin have separate boxes: their rows are kept while
@@ -223,13 +211,12 @@ void bin_edges::operator()() const {
     const double rho = std::min(entry(material.density.values(), key.slot),
                                 entry(material.density.values(), key.other));
     const Shape::Edge& edge = entry(bodies->shape_of_slot(key.slot).edges, key.edge);
-    set_row(
-        row, *bodies, key,
-        {kappa * initial_stiffness(material.bonds, *bodies, key),
-         rules.friction_between(entry(slots, key.slot).material, entry(slots, key.other).material),
-         damping_of(rules, kappa, rho, edge), weld_law(material.bonds, *bodies, key),
-         adhesion_of(rules, *bodies, key)},
-        rows);
+    const int surfaces = surfaces_of(rules, *bodies, key);
+    set_row(row, *bodies, key,
+            {kappa * initial_stiffness(material.bonds, *bodies, key),
+             entry(rules.pairs, surfaces).friction.coefficient, surfaces,
+             damping_of(rules, kappa, rho, edge), weld_law(material.bonds, *bodies, key)},
+            rows);
     // Self-contact is searched again from scratch: its closest points may have slid home along it (edge_contact).
     const bool again = found.all[r].faces && touches(row) == 0;
     const bool known = source[r] >= 0 && !again;
@@ -312,12 +299,12 @@ void bin_tool_edges::operator()() const {
     const RowKey key = key_of(found.all[r]);
     const Shape::Edge& edge = entry(bodies->shape_of_slot(key.slot).edges, key.edge);
     const double kappa = rules.stiffness * entry(material.bulk.values(), key.slot) * edge.stiffness;
+    const int surfaces = rules.number_with_tool(key.other, entry(bodies->slots, key.slot).material);
     set_row(row, *bodies, key,
             {kappa * initial_stiffness_with_tool(material.bonds, *bodies, key),
-             rules.friction_with_tool(key.other, entry(bodies->slots, key.slot).material),
+             entry(rules.tool_pairs, surfaces).friction.coefficient, surfaces,
              damping_of(rules, kappa, entry(material.density.values(), key.slot), edge),
-             tool_weld_law(material.bonds, *bodies, key),
-             rules.adhesion_with_tool(key.other, entry(bodies->slots, key.slot).material)},
+             tool_weld_law(material.bonds, *bodies, key)},
             rows);
     rows.activation(row) = 0;
     if (!range) continue;

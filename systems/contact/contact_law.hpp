@@ -10,7 +10,6 @@
 #include "systems/laws/adhesion.hpp"
 #include "systems/laws/friction.hpp"
 #include "systems/laws/normal_contact.hpp"
-#include "systems/laws/weakening_law.hpp"
 
 namespace pulvis {
 
@@ -98,14 +97,10 @@ struct TangentSpring {
   Lane kappa, inv_kappa;  // Pa/m, in this pass, and its inverse
 };
 
-// The velocity term of the friction coefficients.
-template <class At>
-Lane speed_effect(const RowColumns<At>& c, const TwoCandidates<At>& two, const Lane& slip_rate) {
-  using More = FrictionMore<At>;
-  const auto& more = *c.sliding->more;
-  if (more(two[0], More::rate) == 0 && more(two[1], More::rate) == 0) return {};
-  return kernels::rate_effect(abs(slip_rate), at_candidates(more, two, More::rate),
-                              at_candidates(more, two, More::inv_speed));
+// `number(laws)` of the surfaces of two candidates.
+template <class At, class Number>
+Lane of_surfaces(const RowColumns<At>& c, const TwoCandidates<At>& two, const Number& number) {
+  return halves(number(c.surfaces->of(two[0])), number(c.surfaces->of(two[1])));
 }
 
 // Friction response of two candidates; stores the sliding state of those that touch (bits 0 and 1).
@@ -119,14 +114,16 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
   Lane before = at_points(sliding.elastic_slip, two);
   if (c.bonding && touching != 0) before = select(bonded_lanes(c, two), Lane{}, before);
   const Lane mu = at_candidates(c.law, two, ContactLaw<At>::friction);
-  if (!sliding.more) {
+  if (!sliding.lost) {
     kernels::Coulomb<Lane> law{mu};
     return kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
                                     spring.inv_kappa);
   }
-  auto law = weakening_law(
-      mu, [&](int n) { return at_candidates(*sliding.more, two, n); }, share,
-      at_points(*sliding.lost, two), speed_effect(c, two, slip.rate));
+  auto law = kernels::weakening<Lane>(
+      [&](const auto& number) {
+        return of_surfaces(c, two, [&](const SurfaceLaws& of) { return number(of.friction); });
+      },
+      share, at_points(*sliding.lost, two), abs(slip.rate));
   const auto friction = kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
                                                  spring.inv_kappa);
   // A point that is apart regains its static friction.
@@ -141,15 +138,17 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
 // Gaps below which the two candidates carry a force.
 template <class At>
 Lane range_of(const RowColumns<At>& c, const TwoCandidates<At>& two) {
-  return c.adhesion ? at_candidates(*c.adhesion, two, AdhesionLaw<At>::range) : Lane{};
+  if (!c.surfaces) return {};
+  return of_surfaces(c, two, [](const SurfaceLaws& of) { return of.adhesion.range; });
 }
 
 // `weight` m^2, in this pass.
 template <class At>
 void attract(const RowColumns<At>& c, const TwoCandidates<At>& two, const PointMotion& m,
              const Lane& weight, PointForces& f) {
-  const auto pull = kernels::adhesion(
-      m.gap, at_candidates(*c.adhesion, two, AdhesionLaw<At>::traction), range_of(c, two));
+  const auto pull = kernels::attraction<Lane>(m.gap, [&](const auto& number) {
+    return of_surfaces(c, two, [&](const SurfaceLaws& of) { return number(of.adhesion); });
+  });
   f.x -= pull.traction * weight * m.nx;
   f.y -= pull.traction * weight * m.ny;
   f.energy += pull.energy * weight;
@@ -173,7 +172,7 @@ template <class At>
                                   {law.kappa, halves(1 / stiffness[0], 1 / stiffness[1])});
                             })
                 : forces_of(law, m, dt, Frictionless{});
-  if (c.adhesion) attract(c, two, m, share * law.weight, f);
+  if (c.surfaces && c.surfaces->rules->reach > 0) attract(c, two, m, share * law.weight, f);
   return f;
 }
 

@@ -116,7 +116,7 @@ struct EdgePass {
       pass_over_bonded(s.columns, two, motion);
     }
     p.at.keep(s.points.closest, two);
-    if (s.columns.adhesion && p.beyond != 0) {
+    if (p.beyond != 0 && s.columns.surfaces && s.columns.surfaces->rules->reach > 0) {
       attract_to_corners(p, motion);
       pass_over_bonded(s.columns, two, motion);
     }

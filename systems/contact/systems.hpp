@@ -46,9 +46,8 @@ struct NewRows {
   Write<ContactPair<At>> pair;
   Write<ContactLaw<At>> law;
   Write<ActivationTravel<At>> activation;
-  Optional<Write<FrictionMore<At>>> more;
+  Optional<Write<SurfaceLawNumber<At>>> surface_law;
   Optional<Write<BondLawNumber<At>>> bond_law;
-  Optional<Write<AdhesionLaw<At>>> adhesion;
 };
 
 struct bin_edges {
@@ -93,8 +92,7 @@ struct RowColumns {
   Write<PointForce<At>> force;
   struct Sliding {  // scenes with friction only
     Write<ElasticSlip<At>> elastic_slip;
-    Optional<Read<FrictionMore<At>>> more;
-    Optional<Write<SlipWeakening<At>>> lost;
+    Optional<Write<SlipWeakening<At>>> lost;  // of friction that is not just Coulomb's
   };
   Optional<Sliding> sliding;
   struct Bonding {                  // scenes with bonds only
@@ -102,7 +100,14 @@ struct RowColumns {
     Optional<Write<WeldPressure<At>>> weld;
   };
   Optional<Bonding> bonding;
-  Optional<Read<AdhesionLaw<At>>> adhesion;
+  struct Surfaces {  // scenes with more than Coulomb friction only
+    Read<SurfaceLawNumber<At>> number;
+    Read<ContactRules> rules;
+    const SurfaceLaws& of(Row<At> row) const {
+      return entry(std::is_same_v<At, Contact> ? rules->pairs : rules->tool_pairs, number(row));
+    }
+  };
+  Optional<Surfaces> surfaces;
 };
 
 // Which rows form a block, and the sums of each.

@@ -6,6 +6,7 @@
 // Sign     g > 0 in penetration, s = -g
 #pragma once
 
+#include "components/surface_laws.hpp"
 #include "engine/lane.hpp"
 
 namespace pulvis::kernels {
@@ -16,7 +17,7 @@ struct Attraction {
   T energy;    // J/m^2, <= 0; 0 apart
 };
 
-// `sigma` Pa, in one pass; `range` m, 0: none.
+// `sigma` Pa; `range` m, 0: none.
 template <class T>
 Attraction<T> adhesion(T g, T sigma, T range) {
   const T zero{};
@@ -25,6 +26,13 @@ Attraction<T> adhesion(T g, T sigma, T range) {
   const T x2 = x * x;
   const T left = 0.5 - x + x2 * x - 0.5 * x2 * x2;  // integral from x to 1
   return {sigma * (1.0 - x2 * (3.0 - 2.0 * x)), -(sigma * fma(range, left, depth))};
+}
+
+// Of surfaces with these parameters: all that attracts them. `read(number)` gives number(parameters), for all of T at once.
+template <class T, class Read>
+Attraction<T> attraction(T g, const Read& read) {
+  using Of = const AdhesionParameters&;
+  return adhesion<T>(g, read([](Of a) { return a.traction; }), read([](Of a) { return a.range; }));
 }
 
 }  // namespace pulvis::kernels

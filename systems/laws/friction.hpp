@@ -6,6 +6,7 @@
 //          angular momentum is conserved although the two points are a gap apart.
 #pragma once
 
+#include "components/surface_laws.hpp"
 #include "engine/lane.hpp"
 #include "systems/laws/elementary.hpp"
 
@@ -52,6 +53,24 @@ struct Weakening {
   }
   void slide(T distance) { lost = 1.0 - (1.0 - lost) / fma(distance, inv_decay, T{} + 1.0); }
 };
+
+// From the parameters of the surfaces: `read(number)` gives number(parameters), for all of T at once. `share` of a stress that
+// this pass bears: one half if the other particle samples back. `speed` m/s, of sliding.
+template <class T, class Read>
+[[gnu::always_inline]] inline Weakening<T> weakening(const Read& read, double share, const T& lost,
+                                                     const T& speed) {
+  using Of = const FrictionParameters&;
+  const T rate = read([](Of f) { return f.rate; });
+  return {
+      .mu = read([](Of f) { return f.coefficient; }),
+      .drop = read([](Of f) { return f.static_excess(); }),
+      .inv_decay = read([](Of f) { return 1 / f.decay_length; }),
+      .maximum = share * read([](Of f) { return f.shear_strength; }),
+      .lost = lost,
+      .by_speed = any(abs(rate) > 0.0)
+                      ? rate_effect(speed, rate, read([](Of f) { return 1 / f.reference_speed; }))
+                      : T{}};
+}
 
 // `slip` m: how far the sampled body slid along t in the last step; `inv_kappa` = 1 / kappa. The traction is
 // returned to the limit of the law.

@@ -126,7 +126,7 @@ void bin_faces::operator()() const {
             stiffness_of_pair(material, bodies, key) * initial_stiffness(material, bodies, key),
             std::min(entry(material.density.values(), key.slot),
                      entry(material.density.values(), key.other)),
-            rules.friction_between(material_of(key.slot), material_of(key.other)).coefficient,
+            rules.between(material_of(key.slot), material_of(key.other)).friction.coefficient,
             rules.damping, rows);
     if (source[r] >= 0) return;
     activate(row, rows);
@@ -169,8 +169,8 @@ void bin_tool_faces::operator()() const {
             rules.stiffness * entry(material.bulk.values(), key.slot) * face.stiffness *
                 initial_stiffness_with_tool(material, bodies, key),
             entry(material.density.values(), key.slot),
-            rules.friction_with_tool(key.other, entry(bodies.bodies->slots, key.slot).material)
-                .coefficient,
+            rules.with_tool(key.other, entry(bodies.bodies->slots, key.slot).material)
+                .friction.coefficient,
             rules.damping, rows.columns);
     activate(Row<FaceToolContact>(static_cast<std::int64_t>(r)), rows.columns);
   }

@@ -14,7 +14,6 @@
 #include "systems/laws/adhesion.hpp"
 #include "systems/laws/friction.hpp"
 #include "systems/laws/normal_contact.hpp"
-#include "systems/laws/weakening_law.hpp"
 #include "systems/space/contact/systems.hpp"
 #include "systems/space/contact/vector.hpp"
 
@@ -77,12 +76,13 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
       normal.spring_energy * law.weight,         Lane{}, normal.damping_power * law.weight * dt};
 }
 
-// `traction` Pa, in this pass. Friction follows the contact pressure alone.
-inline void attract(const PointLaw& law, const PointMotion& m, const Lane& traction, double range,
-                    PointForces& f) {
-  const auto pull = pulvis::kernels::adhesion(m.depth(), traction, Lane(range));
-  f.force = fma(-(pull.traction * law.weight), m.normal, f.force);
-  f.energy = fma(pull.energy, law.weight, f.energy);
+// `share` of the attraction in this pass, for each point. Friction follows the contact pressure alone.
+inline void attract(const PointLaw& law, const PointMotion& m, const AdhesionParameters& adhesion,
+                    const Lane& share, PointForces& f) {
+  const auto pull = pulvis::kernels::attraction<Lane>(
+      m.depth(), [&](const auto& number) { return Lane(number(adhesion)); });
+  f.force = fma(-(share * pull.traction * law.weight), m.normal, f.force);
+  f.energy = fma(share * pull.energy, law.weight, f.energy);
 }
 
 // `sliding`: the friction law (systems/laws/friction.hpp). `before`: the springs.
@@ -101,7 +101,7 @@ void add_friction(const PointLaw& law, const PointMotion& m, double dt, const La
 
 // For pairs whose friction is more than a Coulomb coefficient.
 struct WeakeningPass {
-  const ContactRules::Friction& of_pair;
+  const FrictionParameters& of_pair;
   double share;  // of the shear strength: one half if the other particle samples back
   Lane lost;     // of the static part of friction
 };
@@ -111,14 +111,9 @@ struct WeakeningPass {
                                                      const PointMotion& m, double dt,
                                                      const Lane& pressure,
                                                      const VectorLanes& before, PointForces& f) {
-  const ContactRules::Friction& friction = pass.of_pair;
-  const Lane by_speed = friction.rate == 0 ? Lane{}
-                                           : pulvis::kernels::rate_effect(sqrt(dot(m.slip, m.slip)),
-                                                                          Lane(friction.rate),
-                                                                          Lane(friction.inv_speed));
-  auto sliding = weakening_law(
-      Lane(friction.coefficient), [&](int n) { return Lane(friction.*entry(more_of_friction, n)); },
-      pass.share, pass.lost, by_speed);
+  auto sliding = pulvis::kernels::weakening<Lane>(
+      [&](const auto& number) { return Lane(number(pass.of_pair)); }, pass.share, pass.lost,
+      sqrt(dot(m.slip, m.slip)));
   add_friction(law, m, dt, pressure, before, sliding, f);
   return select(m.depth() > 0.0, sliding.lost, Lane{});
 }

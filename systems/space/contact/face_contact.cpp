@@ -82,9 +82,10 @@ class PairPass {
   void find_rules(int slot, int other) {
     const auto& slots = s_.bodies.bodies->slots;
     const int a = entry(slots, slot).material, b = entry(slots, other).material;
-    adhesion_ = s_.rules->adhesion_between(a, b);
+    const SurfaceLaws& laws = s_.rules->between(a, b);
+    adhesion_ = laws.adhesion;
     if (!s_.columns.lost) return;
-    const ContactRules::Friction& friction = s_.rules->friction_between(a, b);
+    const FrictionParameters& friction = laws.friction;
     rubs_ = friction.acts();
     if (rubs_ && !friction.only_coulomb()) weakening_ = &friction;
   }
@@ -231,9 +232,7 @@ class PairPass {
                                                 s_.clock->dt_before, pressure, spring, f));
       }
     }
-    if (adhesion_.range > 0)
-      attract(law, m, share * select(touching, Lane(adhesion_.traction), Lane{}), adhesion_.range,
-              f);
+    if (adhesion_.range > 0) attract(law, m, adhesion_, select(touching, Lane(share), Lane{}), f);
     if (bonds_)
       touching = touching | LaneMask::of(bond(eight, {p, points, along}, law, m, pressure, f));
     keep(eight, p, within, touching.bits(), f);
@@ -368,8 +367,8 @@ class PairPass {
   FaceSums& sums_;
   Lane friction_;
   bool rubs_;
-  const ContactRules::Friction* weakening_ = nullptr;  // if friction is not just Coulomb's
-  ContactRules::Adhesion adhesion_;
+  const FrictionParameters* weakening_ = nullptr;  // if friction is not just Coulomb's
+  AdhesionParameters adhesion_;
   std::optional<PointBonds<FaceContact>> bonds_;
   BondSumsOfBlock bond_sums_;
   PairLoads::Pair& loads_;

@@ -38,16 +38,16 @@ struct RowMotion {
 };
 
 struct RowRules {
-  const ContactRules::Friction* weakening =
-      nullptr;  // if friction is more than a Coulomb coefficient
-  ContactRules::Adhesion adhesion;
+  const FrictionParameters* weakening = nullptr;  // if friction is more than a Coulomb coefficient
+  AdhesionParameters adhesion;
 };
 RowRules rules_of(const tool_contact& s, Row<FaceToolContact> row) {
   const int tool = s.columns.pair(row, 2);
   const int material = entry(s.bodies.bodies->slots, s.columns.pair(row, 0)).material;
-  RowRules rules{nullptr, s.rules->adhesion_with_tool(tool, material)};
+  const SurfaceLaws& laws = s.rules->with_tool(tool, material);
+  RowRules rules{nullptr, laws.adhesion};
   if (!s.columns.lost) return rules;
-  const ContactRules::Friction& friction = s.rules->friction_with_tool(tool, material);
+  const FrictionParameters& friction = laws.friction;
   if (!friction.only_coulomb()) rules.weakening = &friction;
   return rules;
 }
@@ -152,8 +152,7 @@ void act(const tool_contact& s, const ToolRow& of, const RowMotion& motion, Tool
       }
       store_half(f.elastic_slip, spring, half);
     }
-    if (of.rules.adhesion.range > 0)
-      attract(law, m, Lane(of.rules.adhesion.traction), of.rules.adhesion.range, f);
+    if (of.rules.adhesion.range > 0) attract(law, m, of.rules.adhesion, 1.0, f);
     if (s.bonds) bond(s, of, half, motion, law, pressure, f, sums.bonds);
     store_half(f.force, &c.force(row), half);
     sums.contact.add(f);
