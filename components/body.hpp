@@ -51,9 +51,9 @@ struct IsochoricScale : Component<Element, double, Points> {
   static constexpr bool transient = true;
 };
 template <class D, int Points>
-struct PlasticMetric : Component<Element, double, (D::axes == 2 ? 4 : 6) * Points> {
+struct CpInverse : Component<Element, double, (D::axes == 2 ? 4 : 6) * Points> {
   static constexpr ComponentInfo info{
-      "plastic_metric", "-",
+      "cp_inverse", "-",
       D::axes == 2 ? "inverse plastic right Cauchy-Green tensor less one, xx yy zz xy"
                    : "inverse plastic right Cauchy-Green tensor less one, xx yy zz xy yz zx"};
 };

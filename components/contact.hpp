@@ -62,7 +62,7 @@ struct ContactTouches : Component<At, std::uint8_t, 1> {
                                       "1 where a point of the candidate touches, or 0"};
 };
 template <class At>
-struct ActivationTravel : Component<At, double, 1> {
+struct ReactivationDistance : Component<At, double, 1> {
   static constexpr ComponentInfo info{
       "activation", "m", "travel of the surfaces from which on the candidate is active again"};
 };
@@ -147,8 +147,8 @@ struct SlipWeakening : Component<At, double, At::points> {
 };
 
 // Moment that keeps friction across a small gap from spinning up the pair; see contact_kernel.hpp.
-struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
-  static constexpr ComponentInfo info{"friction_couple", "N",
+struct SlopeLoad : Component<Contact, double, 2 * edge_points> {
+  static constexpr ComponentInfo info{"slope_load", "N",
                                       "on the other curve's slope: x y of every point"};
 };
 

@@ -27,13 +27,14 @@ struct Clock {
   double dt = 0;         // t_(n+1) - t_n
   double end = 0;        // s
   double safety = 0.9;   // fraction of the stable time step that is used
-  double travel = 0;     // m, upper bound of the relative displacement of any two surfaces so far
+  double relative_motion =
+      0;  // m, upper bound of the relative displacement of any two surfaces so far
   std::int64_t next_look = 0;  // step at which the stable time step is computed next
   double stiffening = 1;  // -, tangent of the stiffest contact spring over the undeformed tangent
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(step, time, dt_before, dt, end, safety, travel, next_look, stiffening);
+    bytes(step, time, dt_before, dt, end, safety, relative_motion, next_look, stiffening);
   }
 };
 
@@ -128,9 +129,9 @@ struct ContactIndex {
   double reach =
       0;  // m: forces act across gaps below this; rows are created for gaps below skin + reach
   double neighbourhood = 0;   // m, > skin + reach: particles closer than this are neighbours
-  double travel_at_bin = -1;  // m, Clock::travel when the rows were created; < 0: not yet
-  double look_at = 0;         // m, Clock::travel at which the skin may be used up
-  double travel_seen = 0;     // m, Clock::travel in the previous step
+  double motion_at_bin = -1;  // m, Clock::relative_motion when the rows were created; < 0: not yet
+  double look_at = 0;         // m, Clock::relative_motion at which the skin may be used up
+  double motion_seen = 0;     // m, Clock::relative_motion in the previous step
   bool due = false;           // the rows are rebuilt in this step
   std::int64_t bins = 0;      // number of rebuilds so far
   std::vector<std::int32_t> neighbour_begin;  // [slots + 1] into neighbours
@@ -165,7 +166,7 @@ struct ContactIndex {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(skin, neighbourhood, travel_at_bin, look_at, travel_seen, due, bins, neighbour_begin,
+    bytes(skin, neighbourhood, motion_at_bin, look_at, motion_seen, due, bins, neighbour_begin,
           neighbours, images, cell_before, tools_before, sampled_begin, other_begin, other_rows,
           tool_begin);
   }

@@ -60,7 +60,7 @@ void add_element_columns(World& world, const Needs& needs) {
   }
   if (!needs.plastic) return;
   world.add<IsochoricScale<F::points>>();
-  world.add<PlasticMetric<TwoD, F::points>>();
+  world.add<CpInverse<TwoD, F::points>>();
   world.add<PlasticStrain<F::points>>();
   if (F::stabilised) {
     world.add<PlasticHourglass<TwoD>>();
@@ -103,7 +103,7 @@ void add_row_columns(World& world, const Needs& needs) {
   world.add_table<At>(std::size_t{0});
   world.add<ContactPair<At>>();
   world.add<ContactTouches<At>>();
-  world.add<ActivationTravel<At>>();
+  world.add<ReactivationDistance<At>>();
   world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();
   if (needs.friction) world.add<ElasticSlip<At>>();
@@ -158,7 +158,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
     add_row_columns<Contact>(world, needs);
     world.add<ContactPlace>();
     world.add<ClosestPoint>();
-    if (needs.friction || needs.bonds) world.add<FrictionCouple>();
+    if (needs.friction || needs.bonds) world.add<SlopeLoad>();
   }
   if (needs.tools) add_row_columns<ToolContact>(world, needs);
   if (needs.polylines) world.add<SurfaceRange>();

@@ -39,8 +39,8 @@ std::uint64_t element_bytes(const Needs& needs) {
   std::uint64_t bytes = bytes_of<DeviatoricStress<TwoD, F::points>, MeanStress<F::volumes>>();
   if (F::stabilised) bytes += bytes_of<HourglassStress>();
   if (needs.plastic)
-    bytes += bytes_of<IsochoricScale<F::points>, PlasticMetric<TwoD, F::points>,
-                      PlasticStrain<F::points>>();
+    bytes +=
+        bytes_of<IsochoricScale<F::points>, CpInverse<TwoD, F::points>, PlasticStrain<F::points>>();
   if (needs.plastic && F::stabilised) bytes += bytes_of<PlasticHourglass<TwoD>>();
   return bytes;
 }
@@ -51,10 +51,10 @@ std::uint64_t element_bytes(const Needs& needs) {
 
 std::uint64_t row_bytes(const Needs& needs) {
   using At = Contact;
-  std::uint64_t bytes = bytes_of<ContactPair<At>, ContactTouches<At>, ActivationTravel<At>,
+  std::uint64_t bytes = bytes_of<ContactPair<At>, ContactTouches<At>, ReactivationDistance<At>,
                                  ContactLaw<At>, PointForce<At>, ContactPlace, ClosestPoint>();
   if (needs.friction) bytes += bytes_of<ElasticSlip<At>>();
-  if (needs.friction || needs.bonds) bytes += bytes_of<FrictionCouple>();
+  if (needs.friction || needs.bonds) bytes += bytes_of<SlopeLoad>();
   if (needs.weakening) bytes += bytes_of<SlipWeakening<At>>();
   if (needs.weakening || needs.adhesion) bytes += bytes_of<SurfaceLawNumber<At>>();
   if (needs.bonds)

@@ -10,7 +10,7 @@
 #include "engine/ranks/ranks.hpp"
 #include "engine/workers.hpp"
 #include "engine/world.hpp"
-#include "scenes/ranks/crew.hpp"
+#include "scenes/ranks/rank_group.hpp"
 #include "scenes/spec/scene.hpp"
 #include "systems/step.hpp"
 
@@ -25,7 +25,7 @@ class Simulation {
   // Of this process: with several ranks, its share.
   World& world() { return *world_; }
   // Where results are taken: the same or, on the root of several ranks, the gathered data of the whole scene.
-  World& whole() { return crew_ ? crew_->whole() : *world_; }
+  World& whole() { return group_ ? group_->whole() : *world_; }
   const Clock& clock() const { return world_->resource<Clock>(); }
   const GraphPlan& plan() const { return step_->plan(); }  // of plain steps
   std::vector<std::string> sampled_systems() const { return step_->sampled_systems(); }
@@ -51,10 +51,10 @@ class Simulation {
   // From now on the root writes everything, as it does where the file system does not permit the other.
   void write_from_root();
   std::vector<double> rank_memory() const {
-    return crew_ ? crew_->memory() : std::vector<double>();
+    return group_ ? group_->memory() : std::vector<double>();
   }
-  double bytes_a_step() const { return crew_ ? crew_->bytes_a_step() : 0; }
-  Balance* balance() { return crew_ ? &crew_->balance() : nullptr; }  // null for one process
+  double bytes_a_step() const { return group_ ? group_->bytes_a_step() : 0; }
+  Balance* balance() { return group_ ? &group_->balance() : nullptr; }  // null for one process
   void leave();
   void restore(const Checkpoint& checkpoint);
   // On ranks other than the root: takes part in what the root does, until it has finished.
@@ -67,16 +67,16 @@ class Simulation {
 
  private:
   double end() const;  // s, of the run
-  void tell(Order order);
-  void order_write(Order order);
+  void tell(Command command);
+  void command_write(Command command);
   void do_run(double time, const std::function<bool()>& stop);
   bool goes_on(bool stops);
-  void do_observe(const Order& order);
+  void do_observe(const Command& command);
   std::unique_ptr<World> world_;
   Workers workers_;
   std::unique_ptr<Step> step_;
   std::vector<SystemCost> costs_before_;  // of graphs that have been rebuilt
-  std::unique_ptr<Crew> crew_;
+  std::unique_ptr<RankGroup> group_;
   std::unique_ptr<WholeObservers> observers_;  // on the root
 };
 

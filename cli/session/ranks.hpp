@@ -4,7 +4,7 @@
 #include "cli/exit_code.hpp"
 #include "engine/ranks/ranks.hpp"
 #include "scenes/memory_need.hpp"
-#include "scenes/ranks/crew.hpp"
+#include "scenes/ranks/rank_group.hpp"
 #include "scenes/read.hpp"
 
 namespace pulvis {

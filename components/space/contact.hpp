@@ -76,7 +76,7 @@ struct PointLoad : Component<SurfacePoint, double, 3> {
 // Points become inactive one by one against another particle, where usually few touch; half a row at a time against a
 // tool. Point values are floats, rounded down: those of a row fit in one cache line.
 template <class At, bool Points = std::is_same_v<At, FaceContact>>
-struct Activation
+struct ReactivationDistance
     : Component<At, std::conditional_t<Points, float, double>, Points ? face_points : 2> {
   static constexpr ComponentInfo info{
       "activation", "m",

@@ -35,8 +35,8 @@ std::vector<ParticleValues> mesh_values(const World& world) {
 
 ParticleValues state_values() {
   return append_all<Position<TwoD>, Position<ThreeD>, Velocity<TwoD>, Velocity<ThreeD>,
-                    PlasticMetric<TwoD, 1>, PlasticMetric<TwoD, 4>, PlasticMetric<ThreeD, 1>,
-                    PlasticMetric<ThreeD, 8>, PlasticStrain<1>, PlasticStrain<4>, PlasticStrain<8>,
+                    CpInverse<TwoD, 1>, CpInverse<TwoD, 4>, CpInverse<ThreeD, 1>,
+                    CpInverse<ThreeD, 8>, PlasticStrain<1>, PlasticStrain<4>, PlasticStrain<8>,
                     PlasticHourglass<TwoD>, PlasticHourglass<ThreeD>>;
 }
 

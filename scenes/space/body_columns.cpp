@@ -46,7 +46,7 @@ void add_element_columns(World& world, const MaterialNeeds& needs) {
   world.add<MeanStress<1>>();
   if (F::stabilised) world.add<HourglassEnergy>();
   if (!needs.plastic) return;
-  world.add<PlasticMetric<ThreeD, F::points>>();
+  world.add<CpInverse<ThreeD, F::points>>();
   world.add<PlasticStrain<F::points>>();
   if (F::stabilised) {
     world.add<PlasticHourglass<ThreeD>>();

@@ -175,7 +175,7 @@ void add_rows(World& world) {
   world.add_table<At>(std::size_t{0});
   world.add<ContactPair<At>>();
   world.add<ContactTouches<At>>();
-  world.add<Activation<At>>();
+  world.add<ReactivationDistance<At>>();
   world.add<ContactLaw<At>>();
 }
 

@@ -32,16 +32,15 @@ constexpr std::uint64_t size_of_columns() {
 template <class F>
 std::uint64_t bytes_of_element(bool plastic) {
   std::uint64_t bytes = size_of_columns<DeviatoricStress<ThreeD, F::points>, MeanStress<1>>();
-  if (plastic)
-    bytes += size_of_columns<PlasticMetric<ThreeD, F::points>, PlasticStrain<F::points>>();
+  if (plastic) bytes += size_of_columns<CpInverse<ThreeD, F::points>, PlasticStrain<F::points>>();
   if (plastic && F::stabilised) bytes += size_of_columns<PlasticHourglass<ThreeD>>();
   return bytes;
 }
 
 std::uint64_t bytes_of_row(bool weakening, bool looked_at) {
   using At = FaceContact;
-  return size_of_columns<ContactPair<At>, ContactTouches<At>, Activation<At>, ContactLaw<At>,
-                         ContactPoint>() +
+  return size_of_columns<ContactPair<At>, ContactTouches<At>, ReactivationDistance<At>,
+                         ContactLaw<At>, ContactPoint>() +
          sizeof(PairLoads::Load) + (weakening ? size_of_columns<SlipWeakening<At>>() : 0) +
          (looked_at ? size_of_columns<ContactPointForce>() : 0);
 }

@@ -65,7 +65,7 @@ template <class View>
 using NumberOf = std::remove_cvref_t<decltype(std::declval<View>()(Row<Element>(0)))>;
 
 template <class View>
-kernels::Symmetric3<NumberOf<View>> plastic_metric(const View& c, Row<Element> e, int g) {
+kernels::Symmetric3<NumberOf<View>> cp_inverse_at(const View& c, Row<Element> e, int g) {
   return {c(e, 4 * g), c(e, 4 * g + 1), c(e, 4 * g + 2), c(e, 4 * g + 3)};
 }
 

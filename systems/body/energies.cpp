@@ -58,7 +58,7 @@ template <class F>
       const auto f =
           kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
       const auto c =
-          metric ? plastic_metric(metric->chunk(chunk), e, g) : kernels::Symmetric3<Lane>{};
+          cp_inverse ? cp_inverse_at(cp_inverse->chunk(chunk), e, g) : kernels::Symmetric3<Lane>{};
       total += point.determinant * kernels::isochoric_energy(f, c, shear);
       if constexpr (F::volumes == F::points) add_volumetric(point.determinant, determinant(f));
       area += point.determinant;

@@ -2,7 +2,7 @@
 //
 // Source   Simo & Hughes (1998), boxes 9.1 and 9.2: multiplicative split, radial return on the
 //          isochoric elastic left Cauchy-Green tensor. Two departures: the state is the inverse plastic
-//          metric C_p^-1 (as in Simo 1992), so that the stress follows from F alone and cannot drift;
+//          tensor C_p^-1 (as in Simo 1992), so that the stress follows from F alone and cannot drift;
 //          and the trace after the return follows from det b_e = 1 instead of being kept, so that the
 //          stored energy is consistent with the stress. The plastic work is theta sigma_y d eps per undeformed
 //          volume (systems/laws/rate.hpp), times work_of_large_strain.

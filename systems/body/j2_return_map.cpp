@@ -25,7 +25,7 @@ struct Views {
   ReadPart<Position<TwoD>> x;
   ReadPart<IsochoricScale<F::points>> scale;
   WritePart<DeviatoricStress<TwoD, F::points>> stress;
-  WritePart<PlasticMetric<TwoD, F::points>> metric;
+  WritePart<CpInverse<TwoD, F::points>> cp_inverse;
   WritePart<PlasticStrain<F::points>> strain;
   Packet mu, inv_mu;
   Law law;
@@ -52,13 +52,13 @@ Packet return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKi
                     PacketSums& sums, Coupled&& coupled) {
   const Packet r = v.scale(e, g), before = v.strain(e, g);
   const auto next = kernels::radial_return<Packet>(
-      {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), before}, at.f, r * r,
+      {deviator(v.stress, e, g), cp_inverse_at(v.cp_inverse, e, g), before}, at.f, r * r,
       at.mu_over_theta, at.theta * v.inv_mu, v.law, coupled);
   store(v.stress, e, g, next.s);
-  v.metric(e, 4 * g) = next.c.xx;
-  v.metric(e, 4 * g + 1) = next.c.yy;
-  v.metric(e, 4 * g + 2) = next.c.zz;
-  v.metric(e, 4 * g + 3) = next.c.xy;
+  v.cp_inverse(e, 4 * g) = next.c.xx;
+  v.cp_inverse(e, 4 * g + 1) = next.c.yy;
+  v.cp_inverse(e, 4 * g + 2) = next.c.zz;
+  v.cp_inverse(e, 4 * g + 3) = next.c.xy;
   v.strain(e, g) = next.eps;
   const Packet of_volume = at.theta * next.work;
   sums.beyond_hardening +=
@@ -151,7 +151,7 @@ template <class F>
       const Views<F, Law> v{part_of(position.chunk(chunk), part),
                             part_of(points.isochoric.chunk(chunk), part),
                             part_of(points.deviator.chunk(chunk), part),
-                            part_of(points.metric.chunk(chunk), part),
+                            part_of(points.cp_inverse.chunk(chunk), part),
                             part_of(points.strain.chunk(chunk), part),
                             mu,
                             1.0 / mu,

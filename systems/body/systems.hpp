@@ -31,7 +31,7 @@ struct trial_stress {
   Read<Position<TwoD>> position;
   Elasticity elastic;
   struct Plastic {
-    Read<PlasticMetric<TwoD, F::points>> metric;
+    Read<CpInverse<TwoD, F::points>> cp_inverse;
     Optional<Read<PlasticHourglass<TwoD>>> hourglass;
     Write<IsochoricScale<F::points>> isochoric;
   } plastic;
@@ -58,7 +58,7 @@ struct j2_return_map {
   struct Points {
     Read<IsochoricScale<F::points>> isochoric;
     Write<DeviatoricStress<TwoD, F::points>> deviator;
-    Write<PlasticMetric<TwoD, F::points>> metric;
+    Write<CpInverse<TwoD, F::points>> cp_inverse;
     Write<PlasticStrain<F::points>> strain;
   } points;
   struct Hourglass {  // one-point elements only
@@ -176,7 +176,7 @@ struct elastic_energy {
   Read<Bodies> bodies;
   Read<Position<TwoD>> position;
   Elasticity elastic;
-  Optional<Read<PlasticMetric<TwoD, F::points>>> metric;
+  Optional<Read<CpInverse<TwoD, F::points>>> cp_inverse;
   Write<ElasticEnergy> energy;
   void operator()(Chunk chunk) const;
 };

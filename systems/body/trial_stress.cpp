@@ -128,11 +128,11 @@ void part_stress(Chunk chunk, int part, const Bodies& bodies, const Views<F>& v,
 template <class F>
 [[gnu::flatten]] void trial_stress<F>::operator()(Chunk chunk) const {
   for (int part = 0; part < parts_of_a_lane; ++part) {
-    const auto c = part_of(plastic.metric.chunk(chunk), part);
+    const auto c = part_of(plastic.cp_inverse.chunk(chunk), part);
     const auto scale = part_of(plastic.isochoric.chunk(chunk), part);
     const auto left = [&](const kernels::Matrix2<Packet>& f, Packet r, Row<Element> e, int g) {
       scale(e, g) = r;
-      return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
+      return kernels::left_cauchy_green(f, cp_inverse_at(c, e, g));
     };
     part_stress<F>(chunk, part, *bodies, views_of<F>(position, stress, elastic, chunk, part),
                    bending, &plastic.hourglass, worst, left);

@@ -1,7 +1,7 @@
 // Assembly: from the forces at contact points to those at control points, and from there to boundary nodes.
 //
 // Law      the sampled edge receives N_a(u_g) f_g, the other body -N_a(u*) f_g at the closest point, plus -N_a'(u*)
-//          times the couple where friction acts across a gap; nodes receive the transpose of y = S x
+//          times the slope load where friction acts across a gap; nodes receive the transpose of y = S x
 #pragma once
 
 #include <array>
@@ -45,15 +45,15 @@ inline const BasisByPoint& basis_by_point() {
 
 // Edges, by their first control point, that carry a force on some particle of the chunk. The others are skipped:
 // their forces are zero, since to_nodes clears what it has read and nobody else writes them.
-using BorneEdges = std::vector<std::uint8_t>;
+using LoadedEdges = std::vector<std::uint8_t>;
 
 // What the edges of one particle carry.
 struct EdgeForces {
   double* first;  // the particle's first edge
-  BorneEdges& borne;
+  LoadedEdges& loaded;
 
   double* on(int edge) const {
-    entry(borne, edge) = 1;
+    entry(loaded, edge) = 1;
     return first + CurveForce::count * edge;
   }
 };
@@ -72,9 +72,9 @@ inline void add_sampled(const BasisByPoint& by_point, const double* point_force,
   sum.store(edge_force);
 }
 
-// The opposite forces on the other body, at the closest point of each. `couple`: null without friction.
+// The opposite forces on the other body, at the closest point of each. `slope_load`: null without friction.
 inline void add_other(const EdgeBasis& n, const PackedCurvePoint* closest, const double* f,
-                      const double* couple, const EdgeForces& other) {
+                      const double* slope_load, const EdgeForces& other) {
   std::array<int, edge_points> edge;
   std::array<ControlForce, edge_points> force;
   for (int g = 0; g < edge_points; ++g) {
@@ -82,7 +82,7 @@ inline void add_other(const EdgeBasis& n, const PackedCurvePoint* closest, const
     entry(edge, g) = at.edge;
     ControlForce& on_edge = entry(force, g);
     on_edge = n.value(at.u) * force_at(f, g);
-    if (couple != nullptr) on_edge = fma(n.slope(at.u), force_at(couple, g), on_edge);
+    if (slope_load != nullptr) on_edge = fma(n.slope(at.u), force_at(slope_load, g), on_edge);
   }
   const auto subtract = [&](int e, const ControlForce& sum) {
     double* out = other.on(e);
@@ -109,13 +109,13 @@ inline void add_other(const EdgeBasis& n, const PackedCurvePoint* closest, const
 // transpose of y = S x. `edge_force`: first edge of the first particle, `numbers` per particle.
 template <class Nodes>
 void to_nodes(const Shape& shape, double* edge_force, std::ptrdiff_t numbers,
-              const BorneEdges& borne, const Nodes& node_force) {
+              const LoadedEdges& loaded, const Nodes& node_force) {
   for (int node = 0; node < shape.boundary_nodes; ++node)
     node_force(Row<BoundaryNode>(node), 0) = node_force(Row<BoundaryNode>(node), 1) = Lane{};
   std::array<Lane, 8> sum{};  // x y of control points c ... c + 3, from the edges up to c
   int bear = 0;               // how many of these may carry a force
   for (int c = 0; c < shape.control_points(); ++c) {
-    if (entry(borne, c) != 0) {
+    if (entry(loaded, c) != 0) {
       std::array<const double*, lane_count> rows;
       double* const first = edge_force + CurveForce::count * c;
       for (int l = 0; l < lane_count; ++l) entry(rows, l) = first + l * numbers;

@@ -1,7 +1,7 @@
 // bond_forces: forces of bonded points between particles, until they break.
 //
 // Law      systems/contact/bond_points.hpp; the frame is that of the other curve at the anchor. Because it rotates
-//          with the curve, the slope carries a couple, so that forces are the derivative of the stored energy
+//          with the curve, the slope carries a load, so that forces are the derivative of the stored energy
 // Runs     after edge_contact and pressed_bonds, before contact_force, and before contacts are sent to other ranks
 // Active   when the scene has bonds between particles
 #include "engine/prefetch.hpp"
@@ -33,7 +33,7 @@ struct PairBonds {
     prefetch(&s.bonds.offset(row));
     prefetch(&s.bonds.damage(row));
     prefetch(&s.bonds.strength(row));
-    prefetch(&s.at.couple(row));
+    prefetch(&s.at.slope_load(row));
   }
   void fetch_other(Row<Contact> row) const {
     prefetch(points + 2 * (s.at.place(row, 1) + s.at.anchor(row).unpacked().edge));
@@ -50,7 +50,7 @@ struct PairBonds {
       return forces_of(s.columns, two, 0, moving, share, s.clock->dt_before);
     };
     const PointForces f = bonds.act(two, bonded, m, p.points, contact, sums);
-    set_couple(two, bonded, f, m);
+    set_slope_load(two, bonded, f, m);
     keep_anchors(two, bonded);
   }
 
@@ -82,13 +82,13 @@ struct PairBonds {
     return {m, fma(p.ry, m.nx, -(p.rx * m.ny))};
   }
   // On the other curve's slope: the torque of forces whose points are separated by an opening, over |x'|.
-  void set_couple(const Two& two, unsigned bonded, const PointForces& f,
-                  const BondMotion& m) const {
+  void set_slope_load(const Two& two, unsigned bonded, const PointForces& f,
+                      const BondMotion& m) const {
     const Lane push = fma(f.x, m.point.nx, f.y * m.point.ny);
     const Lane size = fma(push, m.along, f.along * m.point.gap) * m.point.inv_slope;
     const Lane x = size * m.point.nx, y = size * m.point.ny;
     for (int half = 0; half < count_of(two); ++half)
-      store_points(half_of(bonded, half), x, y, half, &s.at.couple(entry(two, half)));
+      store_points(half_of(bonded, half), x, y, half, &s.at.slope_load(entry(two, half)));
   }
   // Where their forces act on the other body, and where the closest-point search starts once they break.
   void keep_anchors(const Two& two, unsigned bonded) const {
@@ -103,7 +103,7 @@ struct PairBonds {
 }  // namespace
 
 void bond_forces::operator()(SmallTasks) const {
-  for_active_pairs(*books.blocks, books.sums->blocks, PairBonds{*this});
+  for_active_pairs(*summed.blocks, summed.sums->blocks, PairBonds{*this});
 }
 
 }  // namespace pulvis

@@ -3,7 +3,7 @@
 // Law      systems/laws/bond.hpp; in parallel with a share c of the contact law evaluated at the anchor:
 //          c = d for bonds made at the start, whose spring also carries compression, (1 - d) k_n d_n (Alfano & Sacco
 //          2006); c = 1 for welds, which only carry what contact does not
-// Books    stored (1 - d) w0 + c times the contact energy; dissipated: the damage energy, and what a compressed bond's
+// Energy   stored (1 - d) w0 + c times the contact energy; dissipated: the damage energy, and what a compressed bond's
 //          spring stores less what the contact that replaces it stores
 // Sign     on the sampled edge along n (outward of the other surface) and t = (-n_y, n_x); the opening is the position
 //          of the sampled point relative to its anchor

@@ -37,7 +37,7 @@ struct Ahead {
     if (pairs.touching.rows.touches(row) == 0) return;
     prefetch(&pairs.touching.closest(row));
     prefetch(&pairs.touching.rows.force(row));
-    if (pairs.couple) prefetch(&(*pairs.couple)(row));
+    if (pairs.slope_load) prefetch(&(*pairs.slope_load)(row));
   }
 };
 
@@ -56,7 +56,7 @@ void add_as_other(const contact_force::Pairs& pairs, const ContactIndex& index, 
     const Row<Contact> row(entry(index.other_rows, k));
     if (pairs.touching.rows.touches(row) != 0)
       add_other(n, &pairs.touching.closest(row), &pairs.touching.rows.force(row),
-                pairs.couple ? &(*pairs.couple)(row) : nullptr, own);
+                pairs.slope_load ? &(*pairs.slope_load)(row) : nullptr, own);
   }
 }
 
@@ -77,10 +77,10 @@ void add_of_tools(const TouchingRows<ToolContact>& tools, const ContactIndex& in
   const Shape& shape = bodies->shape_of_chunk(chunk);
   double* all = &curve_force.chunk(chunk)(Row<ControlPoint>(0));
   const std::ptrdiff_t numbers = CurveForce::count * shape.control_points();  // for one particle
-  BorneEdges borne(static_cast<std::size_t>(shape.control_points()));
+  LoadedEdges loaded(static_cast<std::size_t>(shape.control_points()));
   for (int lane = 0; lane < lane_count; ++lane) {
     const int slot = ChunkLane(chunk, lane).slot();
-    const EdgeForces own{all + lane * numbers, borne};
+    const EdgeForces own{all + lane * numbers, loaded};
     if (pairs) {
       const Ahead ahead{*index, *pairs, index->other_rows.size() > rows_in_cache};
       ahead.sampled_by(slot + 1);
@@ -89,7 +89,7 @@ void add_of_tools(const TouchingRows<ToolContact>& tools, const ContactIndex& in
     }
     if (tools) add_of_tools(*tools, *index, slot, by_point, shape, own);
   }
-  to_nodes(shape, all, numbers, borne, node_force.chunk(chunk));
+  to_nodes(shape, all, numbers, loaded, node_force.chunk(chunk));
 }
 
 }  // namespace pulvis

@@ -189,7 +189,7 @@ template <class At>
 }
 
 // Law, columns and sums for those of two candidates that touch (bit 0, bit 1). Returns their friction traction times
-// weight [N] (needed for the couple on the other body).
+// weight [N] (needed for the slope load on the other body).
 template <class At>
 [[gnu::flatten]] Lane act(const RowColumns<At>& c, const TwoCandidates<At>& two, unsigned touching,
                           const PointMotion& m, double share, double dt, LaneSums& sums) {

@@ -11,7 +11,7 @@ namespace pulvis {
 
 // Records the depth of a candidate: the first NaN, or the deepest.
 template <class At>
-void book_depth(Row<At> row, double depth, BlockSums& sums) {
+void record_depth(Row<At> row, double depth, BlockSums& sums) {
   if (depth <= sums.depth || std::isnan(sums.depth)) return;
   sums.depth = depth;
   sums.deepest = row.value;
@@ -19,8 +19,8 @@ void book_depth(Row<At> row, double depth, BlockSums& sums) {
 
 // Records the projection of two candidates: `unconverged`, the lanes with no closest point found.
 template <class At>
-[[gnu::noinline, gnu::cold]] void book_unconverged(const TwoCandidates<At>& two,
-                                                   unsigned unconverged, BlockSums& sums) {
+[[gnu::noinline, gnu::cold]] void record_unconverged(const TwoCandidates<At>& two,
+                                                     unsigned unconverged, BlockSums& sums) {
   for (int half = 0; half < count_of(two); ++half) {
     const int points = std::popcount(half_of(unconverged, half));
     if (points > 0 && sums.unconverged == 0) sums.first_unconverged = entry(two, half).value;
@@ -28,10 +28,10 @@ template <class At>
   }
 }
 template <class At>
-[[gnu::always_inline]] inline void book_projection(const TwoCandidates<At>& two,
-                                                   unsigned unconverged, BlockSums& sums) {
+[[gnu::always_inline]] inline void record_projection(const TwoCandidates<At>& two,
+                                                     unsigned unconverged, BlockSums& sums) {
   sums.projections += edge_points * count_of(two);
-  if (unconverged != 0) book_unconverged(two, unconverged, sums);
+  if (unconverged != 0) record_unconverged(two, unconverged, sums);
 }
 
 // The running sums of a block: lane by lane, added up at its end.
@@ -55,7 +55,7 @@ struct LaneSums {
     for (int half = 0; half < 2; ++half) {
       if ((touching >> half & 1) == 0) continue;
       block.touching += 1;
-      if (deeper) book_depth(entry(two, half), greatest_of_half(depth, half), block);
+      if (deeper) record_depth(entry(two, half), greatest_of_half(depth, half), block);
     }
   }
   BlockSums added_up() const {

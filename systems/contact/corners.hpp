@@ -21,7 +21,7 @@ class Corners {
   bool any() const { return any_; }
 
   // Points that another edge may have to handle: behind their own edge, and near its end.
-  static unsigned in_question(const Projection& p, const PointMotion& m) {
+  static unsigned ambiguous(const Projection& p, const PointMotion& m) {
     const Lane from_end = min(p.at.u, 1.0 - p.at.u);
     return ((m.gap > 0.0) & (from_end < reach_of_corner * m.gap * m.inv_slope)).bits();
   }

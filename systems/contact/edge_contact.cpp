@@ -18,13 +18,13 @@ namespace {
 using Two = TwoCandidates<Contact>;
 
 // The force on the slope of the other bodies that makes friction torque-free: -T g/|x'| n.
-void set_couple(const PointMotion& m, const Lane& along, unsigned touching, const Two& two,
-                const Write<FrictionCouple>& couple) {
+void set_slope_load(const PointMotion& m, const Lane& along, unsigned touching, const Two& two,
+                    const Write<SlopeLoad>& slope_load) {
   const Lane size = along * m.gap * m.inv_slope;
   const Lane x = size * m.nx, y = size * m.ny;
   for (int half = 0; half < 2; ++half) {
     if ((touching >> half & 1) == 0) continue;
-    store_pairs_of_half(x, y, half, &couple(entry(two, half)));
+    store_pairs_of_half(x, y, half, &slope_load(entry(two, half)));
   }
 }
 
@@ -39,13 +39,13 @@ struct EdgePass {
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<Contact> row) const {
-    return s.clock->travel >= s.columns.activation(row);
+    return s.clock->relative_motion >= s.columns.activation(row);
   }
   [[gnu::always_inline]] void fetch(Row<Contact> row) const {
     pulvis::fetch(s.columns, row);
     prefetch(&s.points.place(row));
     prefetch(&s.points.closest(row));
-    if (s.points.couple) prefetch(&(*s.points.couple)(row));
+    if (s.points.slope_load) prefetch(&(*s.points.slope_load)(row));
   }
   // Both outlines, the other one at its last closest point.
   [[gnu::always_inline]] void fetch_other(Row<Contact> row) const {
@@ -80,7 +80,7 @@ struct EdgePass {
                points,
                rates};
     p.points = sampled_edges(points, two);
-    if (s.images) stand_before_images(s.images->cell->vectors, two, p.points);
+    if (s.images) shift_to_images(s.images->cell->vectors, two, p.points);
     p.at = CurvePoints::of(s.points.closest, two);
     p.curve = gather(p.other, points, p.at);
     return p;
@@ -90,7 +90,7 @@ struct EdgePass {
                           list + 2 * s.points.place(two[1], 0));
   }
 
-  void stand_before_images(const Tensor2& vectors, const Two& two, PointLanes& p) const {
+  void shift_to_images(const Tensor2& vectors, const Two& two, PointLanes& p) const {
     move_to_images(vectors, s.images->image, two, p);
   }
   bool itself(Row<Contact> row) const {
@@ -101,16 +101,16 @@ struct EdgePass {
   [[gnu::always_inline]] PointMotion motion_at(const Two& two, const Projection& p) const {
     if (rates == nullptr) return motion_of(p, {});
     PointLanes velocity = sampled_edges(rates, two);
-    if (s.images) stand_before_images(s.images->cell->rate, two, velocity);
+    if (s.images) shift_to_images(s.images->cell->rate, two, velocity);
     return motion_of(p, velocity);
   }
 
   // ---- law and sums
   [[gnu::always_inline]] void resolve(const Two& two, Projection& p, LaneSums& sums) const {
-    book_projection(two, p.unconverged(), sums.block);
+    record_projection(two, p.unconverged(), sums.block);
     PointMotion motion = motion_at(two, p);
     pass_over_bonded(s.columns, two, motion);
-    const unsigned at_corners = corners.any() ? Corners::in_question(p, motion) : 0;
+    const unsigned at_corners = corners.any() ? Corners::ambiguous(p, motion) : 0;
     if (at_corners != 0 && corners.settle(at_corners, p, motion)) {
       motion = motion_at(two, p);
       pass_over_bonded(s.columns, two, motion);
@@ -123,7 +123,7 @@ struct EdgePass {
     const unsigned touching = find_touching(two, p, motion);
     if (touching == 0) return;
     const Lane along = act(s.columns, two, touching, motion, share, s.clock->dt_before, sums);
-    if (s.points.couple) set_couple(motion, along, touching, two, *s.points.couple);
+    if (s.points.slope_load) set_slope_load(motion, along, touching, two, *s.points.slope_load);
   }
   // Those of the two candidates that touch (bit 0, bit 1); the others are set to apart.
   [[gnu::always_inline]] unsigned find_touching(const Two& two, const Projection& p,
@@ -139,9 +139,9 @@ struct EdgePass {
         touching |= 1U << i;
       } else {
         const Lane square = p.rx * p.rx + p.ry * p.ry;
-        set_apart(
-            s.columns, row,
-            s.clock->travel + (own ? nearest : std::sqrt(min_of_half(square, i)) - range[4 * i]));
+        set_apart(s.columns, row,
+                  s.clock->relative_motion +
+                      (own ? nearest : std::sqrt(min_of_half(square, i)) - range[4 * i]));
       }
     }
     return touching;
@@ -160,7 +160,7 @@ struct EdgePass {
 }  // namespace
 
 void edge_contact::operator()(SmallTasks) const {
-  for_active_pairs(*books.blocks, books.sums->blocks, EdgePass{*this});
+  for_active_pairs(*summed.blocks, summed.sums->blocks, EdgePass{*this});
 }
 
 }  // namespace pulvis

@@ -1,12 +1,12 @@
 // skin_check: whether the contact rows must be rebuilt: compares how much closer nearby surfaces have come
 // since the rows were built with the skin for which they were built.
 //
-// Clock::travel is an upper bound for any two surfaces. Only when it could be used up, all are checked: then
+// Clock::relative_motion is an upper bound for any two surfaces. Only when it could be used up, all are checked: then
 // common motion (a compact ejected from its die, the upper part of a long one being pressed) and back-and-forth
 // motion are excluded. The remaining skin determines the next check.
 //
 // Source   systems/contact/skin_kernel.hpp
-// Runs     first of the contact systems; does nothing while Clock::travel is below `look_at`
+// Runs     first of the contact systems; does nothing while Clock::relative_motion is below `look_at`
 // Active   when contact is possible
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -35,7 +35,7 @@ constexpr double min_left = 0.2;  // of the skin: with less left, checking costs
 // meet. (A fold of an outline first seen when its sides have passed through each other looks like the back face
 // of a thin part.)
 double look_ahead(const ContactIndex& index, double travel) {
-  const double step = travel - index.travel_seen;
+  const double step = travel - index.motion_seen;
   return step > min_left * index.skin ? step : 0;
 }
 
@@ -230,17 +230,17 @@ void keep_positions(const skin_check<D>& s) {
 template <class D>
 void skin_check<D>::operator()() const {
   index->due = false;
-  const double ahead = look_ahead(*index, clock->travel);
-  index->travel_seen = clock->travel;
-  if (index->travel_at_bin >= 0) {
-    if (clock->travel + ahead < index->look_at) return;
+  const double ahead = look_ahead(*index, clock->relative_motion);
+  index->motion_seen = clock->relative_motion;
+  if (index->motion_at_bin >= 0) {
+    if (clock->relative_motion + ahead < index->look_at) return;
     const double left = remaining_skin(*this);
-    index->look_at = clock->travel + left;
+    index->look_at = clock->relative_motion + left;
     if (left > std::max(min_left * index->skin, ahead)) return;
   }
   index->due = true;
-  index->travel_at_bin = clock->travel;
-  index->look_at = clock->travel + index->skin;
+  index->motion_at_bin = clock->relative_motion;
+  index->look_at = clock->relative_motion + index->skin;
   index->bins += 1;
   keep_positions(*this);
 }

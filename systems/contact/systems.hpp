@@ -45,7 +45,7 @@ struct NewRows {
   Write<RowBlocks<At>> blocks;
   Write<ContactPair<At>> pair;
   Write<ContactLaw<At>> law;
-  Write<ActivationTravel<At>> activation;
+  Write<ReactivationDistance<At>> activation;
   Optional<Write<SurfaceLawNumber<At>>> surface_law;
   Optional<Write<BondLawNumber<At>>> bond_law;
 };
@@ -87,7 +87,7 @@ template <class At>
 struct RowColumns {
   Read<ContactPair<At>> pair;
   Write<ContactTouches<At>> touches;
-  Write<ActivationTravel<At>> activation;
+  Write<ReactivationDistance<At>> activation;
   Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
   struct Sliding {  // scenes with friction only
@@ -112,7 +112,7 @@ struct RowColumns {
 
 // Which rows form a block, and the sums of each.
 template <class At, class Sums>
-struct BlockBooks {
+struct SummedBlocks {
   Read<RowBlocks<At>> blocks;
   Write<Sums> sums;
 };
@@ -125,10 +125,10 @@ struct edge_contact {
   struct Closest {
     Read<ContactPlace> place;
     Write<ClosestPoint> closest;
-    Optional<Write<FrictionCouple>> couple;
+    Optional<Write<SlopeLoad>> slope_load;
   } points;
   Optional<CellImages> images;
-  BlockBooks<Contact, ContactSums<Contact>> books;
+  SummedBlocks<Contact, ContactSums<Contact>> summed;
   void operator()(SmallTasks) const;
 };
 
@@ -147,7 +147,7 @@ struct contact_force {
   struct Pairs {
     TouchingPairs touching;
     Read<ContactPlace> place;
-    Optional<Read<FrictionCouple>> couple;
+    Optional<Read<SlopeLoad>> slope_load;
   };
   Optional<Pairs> pairs;
   Optional<TouchingRows<ToolContact>> tools;
@@ -226,10 +226,10 @@ struct bond_forces {
     Read<ContactPlace> place;
     Read<CurveAnchor> anchor;
     Write<ClosestPoint> closest;
-    Write<FrictionCouple> couple;
+    Write<SlopeLoad> slope_load;
     Optional<CellImages> images;
   } at;
-  BlockBooks<Contact, BondSums<Contact>> books;
+  SummedBlocks<Contact, BondSums<Contact>> summed;
   void operator()(SmallTasks) const;
 };
 

@@ -88,7 +88,7 @@ template struct receive_outlines<TwoD>;
 template struct receive_outlines<ThreeD>;
 
 // ---- contacts -----------------------------------------------------------------------------------------
-// For every touching row: its position among the shared ones, forces, closest points, couples.
+// For every touching row: its position among the shared ones, forces, closest points, slope loads.
 void send_contacts::operator()() const {
   std::vector<Ranks::Message> messages;
   for (const RankLink::Neighbour& near : link->rows) {
@@ -101,7 +101,7 @@ void send_contacts::operator()() const {
       writer.put(&position, 1);
       writer.put(&rows.force(row), PointForce<Contact>::count);
       writer.put(&rows.closest(row), ClosestPoint::count);
-      if (rows.couple) writer.put(&(*rows.couple)(row), FrictionCouple::count);
+      if (rows.slope_load) writer.put(&(*rows.slope_load)(row), SlopeLoad::count);
     }
     messages.push_back({near.rank, writer.taken()});
   }
@@ -122,7 +122,7 @@ void receive_contacts::operator()(SmallTasks) const {
       rows.touches(row) = 1;
       reader.take(&rows.force(row), PointForce<Contact>::count);
       reader.take(&rows.closest(row), ClosestPoint::count);
-      if (rows.couple) reader.take(&(*rows.couple)(row), FrictionCouple::count);
+      if (rows.slope_load) reader.take(&(*rows.slope_load)(row), SlopeLoad::count);
     }
   }
 }

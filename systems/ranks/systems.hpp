@@ -27,7 +27,7 @@ struct list_border_rows {
   Read<Bodies> bodies;
   Read<ContactIndex> index;
   Read<ContactPair<Contact>> pair;
-  Write<ActivationTravel<Contact>> activation;
+  Write<ReactivationDistance<Contact>> activation;
   Optional<Write<BondedPoints<Contact>>> bonded;
   Optional<Write<WeldPressure<Contact>>> weld_pressure;
   Write<RankLink> link;
@@ -43,7 +43,7 @@ struct list_border_pairs {
   Read<ContactIndex> index;
   Read<ContactPair<FaceContact>> pair;
   Read<space::FacePairs> pairs;
-  Write<space::Activation<FaceContact>> activation;
+  Write<space::ReactivationDistance<FaceContact>> activation;
   Optional<Write<space::BondedPoints<FaceContact>>> bonded;
   Optional<Write<space::WeldPressure<FaceContact>>> weld_pressure;
   Write<RankLink> link;
@@ -78,7 +78,7 @@ struct RowsAcross {
   Write<ContactTouches<Contact>> touches;
   Write<PointForce<Contact>> force;
   Write<ClosestPoint> closest;
-  Optional<Write<FrictionCouple>> couple;
+  Optional<Write<SlopeLoad>> slope_load;
 };
 struct send_contacts {
   RowsAcross rows;

@@ -162,7 +162,7 @@ void advance_clock::operator()() const {
   if (approach.anything()) {
     const double displacement = approach.displacement(clock->time, clock->dt);
     require_in_sight(displacement, **rules, *clock);
-    clock->travel += displacement;
+    clock->relative_motion += displacement;
     const double strain = displacement / (*rules)->shortest_edge;  // edge lengths per step, at most
     if (looked) {
       interval = std::clamp<std::int64_t>(

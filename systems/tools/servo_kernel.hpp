@@ -154,8 +154,8 @@ struct ElasticDrive {
   double mass, stiffness, damping;  // kg, N/m, N s/m
 };
 inline double elastic_speed(const ElasticDrive& drive, double speed, double behind,
-                            double end_speed, double borne, double h) {
-  return (drive.mass * speed + h * (drive.stiffness * behind - borne + drive.damping * end_speed)) /
+                            double end_speed, double load, double h) {
+  return (drive.mass * speed + h * (drive.stiffness * behind - load + drive.damping * end_speed)) /
          (drive.mass + drive.damping * h);
 }
 

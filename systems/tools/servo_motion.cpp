@@ -26,7 +26,7 @@ void set_along(const auto& column, Row<Tool> tool, const Point3& direction, doub
 }
 
 // The force on the tool against its pushing direction.
-double borne(const Servo& servo, const Read<ToolForce>& force) {
+double load(const Servo& servo, const Read<ToolForce>& force) {
   return -along(force, Row<Tool>(servo.tool), servo.direction);
 }
 
@@ -113,7 +113,7 @@ class ForceServo {
       : s_(s),
         servo_(servo),
         tool_(tool),
-        bears_(borne(servo, s.force)),
+        bears_(load(servo, s.force)),
         response_(entry(s.servos->responses, servo.tool)),
         watch_(watch_of(*s.servos, servo)) {}
 
@@ -179,7 +179,7 @@ void drive_tools(const Servos& s, const Touching& touching) {
     const Servo* servo = servo_of(*servos, t, stage);
     const Servo* last = servo_of(*servos, t, servos->stage);
     if (new_stage && last != nullptr && servos->driven_force(t) == nullptr && !ended_early)
-      check_held(*last, watch_of(*servos, *last), borne(*last, force), *program, *clock);
+      check_held(*last, watch_of(*servos, *last), load(*last, force), *program, *clock);
     if (servo == nullptr) {
       set_along(drive.velocity, tool, {}, 0), set_along(drive.dragged, tool, {}, 0);
       // It has no target any more; at the very end of the run it still does.
@@ -190,7 +190,7 @@ void drive_tools(const Servos& s, const Touching& touching) {
       kernels::TouchSums sums = touching(t);
       sums.stiffness += servo->stiffness;
       check_mass(*servo, *program, *clock, kernels::min_tool_mass(sums, clock->dt, clock->safety));
-      follow(*servo, tool, *clock, *program, drive, borne(*servo, force));
+      follow(*servo, tool, *clock, *program, drive, load(*servo, force));
       continue;
     }
     ForceServo now(s, *servo, tool);

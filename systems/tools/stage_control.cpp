@@ -121,11 +121,11 @@ double displacement_at_rest(const stage_control& s, const End& end) {
 }
 
 double force_now(const stage_control& s, const End& end) {
-  const Point3 borne = of_tool(s.tools->force, Row<Tool>(end.tool));
+  const Point3 load = of_tool(s.tools->force, Row<Tool>(end.tool));
   const bool any_way = end.direction == Point3{};
-  return any_way ? size_of(borne)
-                 : -(borne[0] * end.direction[0] + borne[1] * end.direction[1] +
-                     borne[2] * end.direction[2]);
+  return any_way ? size_of(load)
+                 : -(load[0] * end.direction[0] + load[1] * end.direction[1] +
+                     load[2] * end.direction[2]);
 }
 
 double value_at_rest(const End& end, const stage_control& s) {

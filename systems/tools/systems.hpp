@@ -79,7 +79,7 @@ struct tool_contact {
   ToolSurfaces tools;
   Read<ToolVelocity> tool_velocity;
   Optional<Read<SurfaceRange>> range;
-  BlockBooks<ToolContact, ContactSums<ToolContact>> books;
+  SummedBlocks<ToolContact, ContactSums<ToolContact>> summed;
   void operator()(SmallTasks) const;
 };
 
@@ -122,7 +122,7 @@ struct tool_bond_forces {
     Read<ToolVelocity> velocity;
     Read<ToolAnchor> anchor;
   } at;
-  BlockBooks<ToolContact, BondSums<ToolContact>> books;
+  SummedBlocks<ToolContact, BondSums<ToolContact>> summed;
   void operator()(SmallTasks) const;
 };
 

@@ -28,7 +28,7 @@ RowStand stand_of(const Bodies& bodies, const ToolBondPlaces& places,
   const int number = pair(row, 2);
   const Row<Tool> tool(number);
   return {at,
-          stand_against(places.tools, places.range, row, number, at, edges.length[0]),
+          gap_to_tool(places.tools, places.range, row, number, at, edges.length[0]),
           {places.tools.position(tool, 0), places.tools.position(tool, 1)}};
 }
 
@@ -124,7 +124,7 @@ void pressed_tool_bonds::operator()(SmallTasks) const {
 }
 
 void tool_bond_forces::operator()(SmallTasks) const {
-  for_active_pairs(*books.blocks, books.sums->blocks, ToolBonds{*this});
+  for_active_pairs(*summed.blocks, summed.sums->blocks, ToolBonds{*this});
 }
 
 }  // namespace pulvis

@@ -25,7 +25,7 @@ struct ToolPass {
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<ToolContact> row) const {
-    return s.clock->travel >= s.columns.activation(row);
+    return s.clock->relative_motion >= s.columns.activation(row);
   }
   [[gnu::always_inline]] void fetch(Row<ToolContact> row) const { pulvis::fetch(s.columns, row); }
   void fetch_other(Row<ToolContact>) const {}
@@ -48,7 +48,7 @@ struct ToolPass {
 
   // ---- projection
   PointMotion project(Row<ToolContact> row, const PointLanes& at, double farthest) const {
-    return stand_against(s.tools, s.range, row, s.columns.pair(row, 2), at, farthest);
+    return gap_to_tool(s.tools, s.range, row, s.columns.pair(row, 2), at, farthest);
   }
   // Those of the two candidates that touch (bit 0, bit 1); the others are set to apart.
   unsigned find_touching(const Two& two, const PointMotion& m) const {
@@ -59,7 +59,7 @@ struct ToolPass {
       if (deepest > 0)
         touching |= 1U << i;
       else
-        set_apart(s.columns, entry(two, i), s.clock->travel - deepest);
+        set_apart(s.columns, entry(two, i), s.clock->relative_motion - deepest);
     }
     return touching;
   }
@@ -68,7 +68,7 @@ struct ToolPass {
 }  // namespace
 
 void tool_contact::operator()(SmallTasks) const {
-  for_active_pairs(*books.blocks, books.sums->blocks, ToolPass{*this});
+  for_active_pairs(*summed.blocks, summed.sums->blocks, ToolPass{*this});
 }
 
 }  // namespace pulvis

@@ -29,9 +29,9 @@ struct SampledEdges {
 };
 
 // For all points, as if both candidates had this candidate's tool.
-inline PointMotion stand_against(const ToolSurfaces& tools,
-                                 const Optional<Read<SurfaceRange>>& range, Row<ToolContact> row,
-                                 int number, const PointLanes& at, double farthest) {
+inline PointMotion gap_to_tool(const ToolSurfaces& tools, const Optional<Read<SurfaceRange>>& range,
+                               Row<ToolContact> row, int number, const PointLanes& at,
+                               double farthest) {
   const Row<Tool> tool(number);
   const Point stands{tools.position(tool, 0), tools.position(tool, 1)};
   // Beyond one edge length the range of pieces says nothing; see bin_tool_edges.

@@ -55,9 +55,9 @@ struct Asked {
   Names columns, names;
 };
 
-const Names plastic_columns{"plastic_metric",  "plastic_strain", "plastic_work",
+const Names plastic_columns{"cp_inverse",      "plastic_strain", "plastic_work",
                             "isochoric_scale", "yield_stress",   "hardening_modulus"};
-const Names friction_columns{"elastic_slip", "friction_couple"};
+const Names friction_columns{"elastic_slip", "slope_load"};
 const Names contact_places{"contact", "tool_contact", "curve", "boundary", "tool"};
 const Names contact_systems{"tool_motion",   "bin_edges",     "bin_tool_edges", "skin_check",
                             "edge_contact",  "tool_contact",  "contact_totals", "contact_health",
@@ -89,7 +89,7 @@ TEST(Plan, VelocitiesOfTheOutlineOnlyWhereAContactLawAsksForThem) {
 TEST(Plan, PlasticSceneWithFrictionHasBoth) {
   const Asked asked("compaction/regular-25.toml");
   EXPECT_THAT(asked.called(plastic_columns),
-              UnorderedElementsAreArray({"element/plastic_metric", "element/plastic_strain",
+              UnorderedElementsAreArray({"element/cp_inverse", "element/plastic_strain",
                                          "element/isochoric_scale", "particle/plastic_work",
                                          "particle/yield_stress", "particle/hardening_modulus"}));
   EXPECT_THAT(asked.called(friction_columns),

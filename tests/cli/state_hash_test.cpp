@@ -91,7 +91,7 @@ TEST_F(StateHashOf, SeesEveryBitOfWhatTheNextStepStartsFrom) {
     const int slot = world().resource<Bodies>().slot_of_number[static_cast<std::size_t>(number)];
     EXPECT_EQ(sees_ends<Position<TwoD>>(slot), both);
     EXPECT_EQ(sees_ends<Velocity<TwoD>>(slot), both);
-    EXPECT_EQ((sees_ends<PlasticMetric<TwoD, 1>>(slot)), both);
+    EXPECT_EQ((sees_ends<CpInverse<TwoD, 1>>(slot)), both);
     EXPECT_EQ(sees_ends<PlasticStrain<1>>(slot), both);
     EXPECT_EQ(sees_ends<PlasticHourglass<TwoD>>(slot), both);
   }
@@ -118,7 +118,7 @@ TEST(StateHash, SeesThePlasticStateOfFourPointElements) {
   const std::uint64_t before = state_hash(simulation.world());
   simulation.world().column<PlasticStrain<4>>().values()[0] = 1e-9;
   const std::uint64_t with_strain = state_hash(simulation.world());
-  simulation.world().column<PlasticMetric<TwoD, 4>>().values()[0] = 1e-9;
+  simulation.world().column<CpInverse<TwoD, 4>>().values()[0] = 1e-9;
   EXPECT_NE(before, with_strain);
   EXPECT_NE(with_strain, state_hash(simulation.world()));
 }

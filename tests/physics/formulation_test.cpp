@@ -21,7 +21,7 @@ TEST(OnePoint, AllocatesNoColumnsOfOtherFormulations) {
   Experiment one("compaction/unit-cell.toml", {one_point});
   World& w = one.simulation.world();
   EXPECT_FALSE((w.has<DeviatoricStress<TwoD, 4>>()));
-  EXPECT_FALSE((w.has<PlasticMetric<TwoD, 4>>()));
+  EXPECT_FALSE((w.has<CpInverse<TwoD, 4>>()));
   EXPECT_FALSE(w.has<PlasticStrain<4>>());
   EXPECT_FALSE(plain.simulation.world().has<HourglassStress>());
   EXPECT_FALSE(plain.simulation.world().has<PlasticHourglass<TwoD>>());

@@ -25,7 +25,7 @@ auto element_modes(const Nodes& x, const Hexahedron& h) {
 }
 
 template <class View>
-kernels::Symmetric3<NumberOf<View, Element>> metric_at(const View& c, Row<Element> e, int g) {
+kernels::Symmetric3<NumberOf<View, Element>> cp_inverse_at(const View& c, Row<Element> e, int g) {
   const int k = 6 * g;
   return {c(e, k), c(e, k + 1), c(e, k + 2), c(e, k + 3), c(e, k + 4), c(e, k + 5)};
 }

@@ -41,8 +41,8 @@ template <class F>
       const auto f = gradient_at<F>(shape, i, g, modes);
       const Lane j = kernels::determinant(f, kernels::adjugate(f));
       const Lane r = kernels::inverse_cube_root(j);
-      const auto c = metric ? metric_at(metric->chunk(chunk), Row<Element>(i), g)
-                            : kernels::Symmetric3<Lane>{};
+      const auto c = cp_inverse ? cp_inverse_at(cp_inverse->chunk(chunk), Row<Element>(i), g)
+                                : kernels::Symmetric3<Lane>{};
       const double volume = shape.size_of_point<F::points>(i, g);
       total += volume * kernels::isochoric_energy(f, c, shear, r * r);
       now += volume * j;

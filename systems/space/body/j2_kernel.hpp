@@ -1,6 +1,6 @@
 // Finite-strain J2 elasto-plasticity in three dimensions: systems/body/j2_kernel.hpp with all components.
 //
-// Source   Simo & Hughes (1998), boxes 9.1 and 9.2, with the inverse plastic metric as the state and the trace from det b =
+// Source   Simo & Hughes (1998), boxes 9.1 and 9.2, with the inverse plastic metric C_p^-1 as the state and the trace from det b =
 //          1: see there. The multiplier is found by the same functions
 // Symbols  C      C_p^-1 - 1 [-] (xx yy zz xy yz zx; zero when virgin);  b = J^(-2/3) F C_p^-1 F^T [-]
 //          mu, K  shear and bulk modulus [Pa];  theta element dilatation [-]
@@ -134,8 +134,8 @@ Return<T> radial_return(const TrialPoint<T>& at, T norm2, const Hardening& law, 
 
 // Step 6: C_p^-1 = beta C_p^-1 + shift J^(2/3) (F^T F)^-1, with the adjugate of F and r2 = J^(-2/3).
 template <class T>
-Symmetric3<T> returned_metric(const Symmetric3<T>& c, const Return<T>& r, const Matrix3<T>& adj,
-                              T r2) {
+Symmetric3<T> returned_cp_inverse(const Symmetric3<T>& c, const Return<T>& r, const Matrix3<T>& adj,
+                                  T r2) {
   const Symmetric3<T> inverse = square(adj);
   const T pull = r.shift * (r2 * r2), grow = r.beta - 1.0;
   return {fma(r.beta, c.xx, fma(pull, inverse.xx, grow)),

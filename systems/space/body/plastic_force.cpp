@@ -85,7 +85,7 @@ void keep_worst_return(Packet residual, Row<Element> e, PacketSums& sums) {
 
 template <class F, class Rule>
 struct PlasticMaterial {
-  WritePart<PlasticMetric<ThreeD, F::points>> metric;
+  WritePart<CpInverse<ThreeD, F::points>> cp_inverse;
   WritePart<PlasticStrain<F::points>> strain;
   std::optional<WritePart<PlasticHourglass<ThreeD>>> hourglass;
   Packet mu, inv_mu;
@@ -93,7 +93,7 @@ struct PlasticMaterial {
   PacketSums sums;
 
   kernels::Symmetric3<Packet> left(const kernels::Matrix3<Packet>& f, Row<Element> e, int g) const {
-    return kernels::left_cauchy_green(f, metric_at(metric, e, g));
+    return kernels::left_cauchy_green(f, cp_inverse_at(cp_inverse, e, g));
   }
   void remove_plastic(Row<Element> e, kernels::Hourglass<Packet>& of) const {
     of = kernels::each_number(of, hourglass_at(*hourglass, e),
@@ -129,8 +129,9 @@ struct PlasticMaterial {
     const Packet before = strain(at.element, at.g);
     const auto r = rule.map({s, before, mu * at.inv_j, at.j * inv_mu}, norm2, coupled);
     s = scaled(s, r.beta);
-    store(metric, at.element, at.g,
-          kernels::returned_metric(metric_at(metric, at.element, at.g), r, at.adj, at.r2));
+    store(cp_inverse, at.element, at.g,
+          kernels::returned_cp_inverse(cp_inverse_at(cp_inverse, at.element, at.g), r, at.adj,
+                                       at.r2));
     strain(at.element, at.g) = r.eps;
     const Packet of_volume = at.j * r.work;
     sums.beyond_hardening += at.volume * rule.work_beyond(before, r.eps - before, of_volume);
@@ -178,7 +179,7 @@ void flow_part(const ChunkAt<F>& at, int part, const Rule& rule) {
   const plastic_force<F>& system = at.system;
   const auto views =
       force_views<F>(system.position, system.elastic, system.results, at.chunk, part);
-  PlasticMaterial<F, Rule> material{part_of(system.state.metric.chunk(at.chunk), part),
+  PlasticMaterial<F, Rule> material{part_of(system.state.cp_inverse.chunk(at.chunk), part),
                                     part_of(system.state.strain.chunk(at.chunk), part),
                                     std::nullopt,
                                     views.mu,

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "components/bundles.hpp"
-#include "components/space/formulation.hpp"
 #include "components/observed.hpp"
+#include "components/space/formulation.hpp"
 #include "engine/look_ahead.hpp"
 #include "systems/body/systems.hpp"
 
@@ -30,7 +30,7 @@ struct elastic_force {
 
 template <class F>
 struct PlasticState {
-  Write<PlasticMetric<ThreeD, F::points>> metric;
+  Write<CpInverse<ThreeD, F::points>> cp_inverse;
   Write<PlasticStrain<F::points>> strain;
   Optional<Write<PlasticHourglass<ThreeD>>> hourglass;  // for one-point elements
 };
@@ -85,7 +85,7 @@ struct elastic_energy {
   ShapedBodies<ThreeD> bodies;
   Read<Position<ThreeD>> position;
   Elasticity elastic;
-  Optional<Read<PlasticMetric<ThreeD, F::points>>> metric;
+  Optional<Read<CpInverse<ThreeD, F::points>>> cp_inverse;
   Write<ElasticEnergy> energy;
   void operator()(Chunk chunk) const;
 };

@@ -26,15 +26,15 @@ inline constexpr auto basis_by_point = [] {
 
 // The faces that carry a force on any particle of the chunk. All others are skipped: their forces are zero, since
 // to_nodes clears what it has read and nothing else writes them.
-using BorneFaces = std::vector<std::uint8_t>;
+using LoadedFaces = std::vector<std::uint8_t>;
 
 // The forces on the faces of one particle.
 struct FaceForces {
   double* first;  // of its first face
-  BorneFaces& borne;
+  LoadedFaces& loaded_faces;
 
   double* on(int face) const {
-    entry(borne, face) = 1;
+    entry(loaded_faces, face) = 1;
     return first + static_cast<std::ptrdiff_t>(face) * face_numbers;
   }
 };
@@ -74,9 +74,10 @@ inline void add_load(const PairLoads::Load& load, double* face) {
 // From the faces of eight particles, `apart` numbers per particle, to the shared Bezier points; marks these.
 template <class Load>
 void to_points(const Shape& shape, double* face_force, std::ptrdiff_t apart,
-               const BorneFaces& borne, const Load& load, std::vector<std::uint8_t>& loaded) {
+               const LoadedFaces& loaded_faces, const Load& load,
+               std::vector<std::uint8_t>& loaded) {
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
-    if (borne[f] == 0) continue;
+    if (loaded_faces[f] == 0) continue;
     const Shape::Face& face = shape.faces[f];
     for (int block = 0; block < face_numbers; block += lane_count) {
       std::array<const double*, lane_count> rows;

@@ -96,7 +96,7 @@ void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double ka
 // Nothing is known about a new row: all its points are active.
 template <class At>
 void activate(Row<At> row, const NewRows<At>& rows) {
-  for (int i = 0; i < Activation<At>::count; ++i) rows.activation(row, i) = 0;
+  for (int i = 0; i < ReactivationDistance<At>::count; ++i) rows.activation(row, i) = 0;
 }
 
 void start_from(int face, Row<FaceContact> row, const Write<ContactPoint>& point) {

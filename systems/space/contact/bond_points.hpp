@@ -6,7 +6,7 @@
 //          in parallel with a share c of the contact law at x_a:
 //          c = d for bonds made at the start, whose spring also carries compression, (1 - d) k_n d_n (Alfano & Sacco
 //          2006), and contact counts from an initial overlap on; c = 1 for welds, which only carry what contact does not
-// Books    stored (1 - d) w0 + c times the contact energy; dissipated: the damage energy, and what a compressed bond's
+// Energy   stored (1 - d) w0 + c times the contact energy; dissipated: the damage energy, and what a compressed bond's
 //          spring stores less what the contact that replaces it stores
 // Sign     force on the sampled face
 #pragma once

@@ -70,16 +70,16 @@ template <class Load>
   const Shape& shape = bodies.shape_of(chunk);
   double* all = &loads.face.chunk(chunk)(Row<SurfaceFace>(0));
   const auto apart = static_cast<std::ptrdiff_t>(shape.faces.size()) * face_numbers;
-  BorneFaces borne(shape.faces.size());
+  LoadedFaces loaded_faces(shape.faces.size());
   for (int lane = 0; lane < lane_count; ++lane) {
     const int slot = ChunkLane(chunk, lane).slot();
-    const FaceForces own{all + lane * apart, borne};
+    const FaceForces own{all + lane * apart, loaded_faces};
     if (pairs) add_pairs(*pairs, *index, slot, own);
     if (tools) add_tools(*tools, *index, slot, own);
   }
   const auto load = loads.point.chunk(chunk);
   std::vector<std::uint8_t> loaded(static_cast<std::size_t>(shape.surface_points()));
-  to_points(shape, all, apart, borne, load, loaded);
+  to_points(shape, all, apart, loaded_faces, load, loaded);
   std::vector<Lane> springs;
   if (nodes.any_rough(chunk)) springs = pull_at_points(*this, chunk, load, loaded);
   to_nodes(shape, load, loaded, loads.net.chunk(chunk), node_force.chunk(chunk));

@@ -143,7 +143,7 @@ struct FaceSums {
     damping_work += f.damping_work;
   }
   // Keeps the first depth that is NaN, or else the deepest.
-  void book_depth(std::int32_t row, double depth) {
+  void record_depth(std::int32_t row, double depth) {
     if (depth <= block.depth || block.depth != block.depth) return;
     block.depth = depth;
     block.deepest = row;

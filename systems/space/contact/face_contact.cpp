@@ -12,9 +12,9 @@
 
 #include "engine/deal.hpp"
 #include "engine/prefetch.hpp"
+#include "systems/space/contact/ambiguous_points.hpp"
 #include "systems/space/contact/bond_points.hpp"
 #include "systems/space/contact/contact_law.hpp"
-#include "systems/space/contact/doubtful_points.hpp"
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/contact/other_loads.hpp"
 #include "systems/space/contact/other_motion.hpp"
@@ -187,7 +187,7 @@ class PairPass {
   void work() {
     points_.for_eights([this](PointLanes& eight) { act(eight); });
     points_.take_out([this](const PairPoint& point) {
-      if (point.touches) book_touch(point);
+      if (point.touches) record_touch(point);
     });
   }
 
@@ -199,13 +199,13 @@ class PairPass {
                                 kept[ContactPoint::face_u] - whole(kept[ContactPoint::face_u]),
                                 kept[ContactPoint::v]};
     Projection p(*its_, positions_ + its_surface_, points, start);
-    const Standing standing = eight.bonded ? p.stay() : closest(eight, start, motion[7], p);
-    const Lane overlap = bonds_ ? overlap_of(eight, standing.gap) : Lane{};
-    const Lane within = standing.gap + overlap + adhesion_.range;
+    const SurfaceGap nearest = eight.bonded ? p.stay() : closest(eight, start, motion[7], p);
+    const Lane overlap = bonds_ ? overlap_of(eight, nearest.gap) : Lane{};
+    const Lane within = nearest.gap + overlap + adhesion_.range;
     // A NaN gap counts as touching, and so does what is bonded.
     const LaneMask real = LaneMask::of(eight.real);
     LaneMask touching = eight.bonded ? real : ~(within <= 0.0) & real;
-    PointMotion m{select(touching, standing.gap, Lane{}), standing.normal};
+    PointMotion m{select(touching, nearest.gap, Lane{}), nearest.normal};
     m.overlap = overlap;
     Reciprocal to;
     if (rates_ != nullptr || eight.bonded) to = Reciprocal::of(p.slopes);
@@ -238,7 +238,7 @@ class PairPass {
     keep(eight, p, within, touching.bits(), f);
     sums_.add(f);  // of released springs, too
     if (!any(touching)) return;
-    book_depth(eight, m.depth() * law.inv_size);
+    record_depth(eight, m.depth() * law.inv_size);
     if (eight.bonded)
       faces_.subtract(p.face, touching.bits(), {p.u, p.v, f.force, m.normal, Lane{}, Lane{}},
                       slope_loads(m, along, f.force, to));
@@ -247,16 +247,15 @@ class PairPass {
   }
 
   // At the closest points; points that did not converge carry no force.
-  Standing closest(const PointLanes& eight, const ProjectionStart& start, const Lane& inv_size,
-                   Projection& p) {
+  SurfaceGap closest(const PointLanes& eight, const ProjectionStart& start, const Lane& inv_size,
+                     Projection& p) {
     p.find();
-    Standing standing = p.standing();
-    settle_doubts(p, standing, start, inv_size, eight.real);
+    SurfaceGap nearest = p.surface_gap();
+    resolve_ambiguous(p, nearest, start, inv_size, eight.real);
     book(eight, p.unconverged());
     const Lane apart(-adhesion_.range);
-    standing.gap =
-        select(LaneMask::of(p.unconverged()) & (standing.gap > apart), apart, standing.gap);
-    return standing;
+    nearest.gap = select(LaneMask::of(p.unconverged()) & (nearest.gap > apart), apart, nearest.gap);
+    return nearest;
   }
 
   // Adds the forces of bonded points to those of contact. Returns the points that are bonded from the next step on.
@@ -319,7 +318,8 @@ class PairPass {
     // A separated point stays inactive until it can touch; zero marks a touching point.
     alignas(64) std::array<double, lane_count> activation;
     constexpr double never_zero = std::numeric_limits<float>::min(), early = 1 - 0x1p-22;
-    select(LaneMask::of(touching), Lane{}, max(early * (s_.clock->travel - within), never_zero))
+    select(LaneMask::of(touching), Lane{},
+           max(early * (s_.clock->relative_motion - within), never_zero))
         .store(activation.data());
     for (std::size_t l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l) {
       PairPoint& point = *eight.point[l];
@@ -331,7 +331,7 @@ class PairPass {
       point.touches = (touching >> l & 1) != 0;
     }
   }
-  void book_touch(const PairPoint& point) {
+  void record_touch(const PairPoint& point) {
     make_room(loads_.own);
     loads_.own.push_back({point.motion[0], point.motion[1], point.motion[2]});
     std::uint8_t& touches = s_.columns.touches(Row<FaceContact>(point.row));
@@ -354,9 +354,9 @@ class PairPass {
       block.first_unconverged = entry(eight.point, std::countr_zero(missed))->row;
     block.unconverged += std::popcount(missed);
   }
-  void book_depth(const PointLanes& eight, const Lane& depth) const {
+  void record_depth(const PointLanes& eight, const Lane& depth) const {
     if (all(depth <= Lane(sums_.block.depth))) return;
-    for (int l = 0; l < lane_count; ++l) sums_.book_depth(entry(eight.point, l)->row, depth[l]);
+    for (int l = 0; l < lane_count; ++l) sums_.record_depth(entry(eight.point, l)->row, depth[l]);
   }
 
   const VectorLanes no_vector{Lane{}, Lane{}, Lane{}};
@@ -374,7 +374,7 @@ class PairPass {
   PairLoads::Pair& loads_;
   OtherFaces faces_;  // of loads_
   PairPoints points_;
-  float travel_ = static_cast<float>(s_.clock->travel);
+  float travel_ = static_cast<float>(s_.clock->relative_motion);
   std::int32_t first_, end_;
   const Shape *own_, *its_;
   std::ptrdiff_t own_surface_, its_surface_;

@@ -6,7 +6,7 @@
 //          k = K/8 A/V a, with the area a of the node. The slack is 1.1 times the undeformed distance, and at least a
 //          tenth of the faces where the shape is flat. Where it is curved nodes also leave the surface as it flattens,
 //          by a quarter of the faces and more in dense powders: the slack is four tenths there
-// Books    energy k e^2/2, counted as elastic. The force is central: momentum and moment of momentum are conserved
+// Energy   energy k e^2/2, counted as elastic. The force is central: momentum and moment of momentum are conserved
 #pragma once
 
 #include "engine/chunk_lane.hpp"
@@ -42,12 +42,12 @@ inline kernels::Vector<Lane> away_from_surface(const ShapedBodies<ThreeD>& bodie
   std::array<Lane, 3> d;
   for (int k = 0; k < 3; ++k) {
     const Lane at = x(Row<Node>(number), k);
-    entry(d, k) = at - Lane::from([&](int lane) {
-                    const int slot = ChunkLane(chunk, lane).slot();
-                    if (bodies.is_absent(slot)) return at[lane];
-                    return entry(of.surface.values(),
-                                 bodies.outline_begin(slot) + 3 * node.point + k);
-                  });
+    entry(d, k) =
+        at - Lane::from([&](int lane) {
+          const int slot = ChunkLane(chunk, lane).slot();
+          if (bodies.is_absent(slot)) return at[lane];
+          return entry(of.surface.values(), bodies.outline_begin(slot) + 3 * node.point + k);
+        });
   }
   return {d[0], d[1], d[2]};
 }

@@ -41,7 +41,7 @@ struct PatchLanes {
 };
 
 // Position of a point relative to another surface.
-struct Standing {
+struct SurfaceGap {
   Lane gap;            // m, > 0 in penetration; otherwise minus the distance
   VectorLanes normal;  // outward, of the other surface
 };
@@ -79,14 +79,14 @@ struct Projection {
   unsigned on_face() const { return done & ~(held_u_ | held_v_); }
 
   // Stays at the start, wherever the points are.
-  [[gnu::noinline]] Standing stay() {
+  [[gnu::noinline]] SurfaceGap stay() {
     gather();
     evaluate();
     slopes = {at_.x, at_.u, at_.v};
     offset = point - slopes.x;
     across_ = cross(slopes.u, slopes.v);
     done = 0xffU;
-    return standing();
+    return surface_gap();
   }
 
   [[gnu::always_inline]] void find() {
@@ -107,9 +107,9 @@ struct Projection {
     settle();
   }
 
-  Standing standing() const {
+  SurfaceGap surface_gap() const {
     const Lane inv_area = 1.0 / sqrt(dot(across_, across_));
-    Standing s;
+    SurfaceGap s;
     s.normal = inv_area * across_;
     s.gap = -dot(offset, s.normal);
     if ((held_u_ | held_v_) != 0) look_to_crease(s);
@@ -263,7 +263,7 @@ struct Projection {
     along_v = select(kept, along_v, Lane{});
   }
   // On a crease the normal is the direction towards the point itself.
-  [[gnu::noinline]] void look_to_crease(Standing& s) const {
+  [[gnu::noinline]] void look_to_crease(SurfaceGap& s) const {
     const Lane distance = sqrt(dot(offset, offset));
     const LaneMask held = LaneMask::of(held_u_ | held_v_) & (distance > 0.0);
     const Lane sign = select(s.gap > 0.0, Lane(-1.0), Lane(1.0));

@@ -65,7 +65,7 @@ template <class At>
 struct NewRows {
   Write<ContactPair<At>> pair;
   Write<ContactLaw<At>> law;
-  Write<Activation<At>> activation;
+  Write<ReactivationDistance<At>> activation;
 };
 
 struct bin_faces {
@@ -130,7 +130,7 @@ struct initial_bonds {
   Read<SurfacePosition> position;
   Read<ContactPoint> point;
   NewBonds<FaceContact> rows;
-  Write<Activation<FaceContact>> activation;
+  Write<ReactivationDistance<FaceContact>> activation;
   Write<BondTotals> totals;
   void operator()() const;
 };
@@ -148,7 +148,7 @@ struct face_contact {
   struct Columns {
     Read<ContactPair<FaceContact>> pair;
     Write<ContactTouches<FaceContact>> touches;
-    Write<Activation<FaceContact>> activation;
+    Write<ReactivationDistance<FaceContact>> activation;
     Read<ContactLaw<FaceContact>> law;
     Write<ContactPoint> point;
     Optional<Write<ContactPointForce>> force;
@@ -173,7 +173,7 @@ struct contact_force {
   struct Pairs {
     Read<ContactPair<FaceContact>> pair;
     Read<ContactTouches<FaceContact>> touches;
-    Read<Activation<FaceContact>> activation;
+    Read<ReactivationDistance<FaceContact>> activation;
     Read<FacePairs> of;
     Read<PairLoads> loads;
   };

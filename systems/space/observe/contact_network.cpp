@@ -13,7 +13,7 @@
 #include "systems/observe/gathered_contacts.hpp"
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/observe/systems.hpp"
-#include "systems/space/tools/tool_standing.hpp"
+#include "systems/space/tools/tool_gap.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -78,8 +78,8 @@ struct Looker {
     std::array<VectorLanes, 2> normal;
     for (int half = 0; half < 2; ++half)
       entry(normal, half) =
-          standing_on_tool(s.tools->surfaces, s.tools->triangles, s.tools->rows.pair(row, 2), row,
-                           sampled_points(points, half), size)
+          gap_to_tool(s.tools->surfaces, s.tools->triangles, s.tools->rows.pair(row, 2), row,
+                      sampled_points(points, half), size)
               .normal;
     const auto normal_at = [&](int g) {
       const VectorLanes& n = entry(normal, g / lane_count);

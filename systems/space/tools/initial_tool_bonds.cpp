@@ -9,7 +9,7 @@
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/tools/systems.hpp"
 #include "systems/space/tools/tool_anchors.hpp"
-#include "systems/space/tools/tool_standing.hpp"
+#include "systems/space/tools/tool_gap.hpp"
 
 namespace pulvis::space {
 
@@ -27,18 +27,18 @@ void initial_tool_bonds::operator()() const {
     const double strength = drawn_strength(law, body.number, -1 - tool);
     for (int half = 0; half < 2; ++half) {
       const VectorLanes at = sampled_points(own, half);
-      const Standing standing = standing_on_tool(tools, triangles, tool, row, at, face.size);
+      const SurfaceGap nearest = gap_to_tool(tools, triangles, tool, row, at, face.size);
       unsigned made = 0;
       for (int l = 0; l < lane_count; ++l) {
-        const double gap = std::max(-standing.gap[l], 0.0);  // overlaps are bonded at any depth
+        const double gap = std::max(-nearest.gap[l], 0.0);  // overlaps are bonded at any depth
         entry(totals->nearest, number - 1).take(gap, face.size);
         if (gap > law.reach * face.size) continue;
-        rows.make(row, lane_count * half + l, strength, -standing.gap[l]);
+        rows.make(row, lane_count * half + l, strength, -nearest.gap[l]);
         entry(totals->made, number - 1) += 1;
         made |= 1U << l;
       }
       if (made == 0) continue;
-      set_anchors(anchor, {row, half, made}, at, standing, tools.position_of(tool));
+      set_anchors(anchor, {row, half, made}, at, nearest, tools.position_of(tool));
       activation(row, half) = 0;
     }
   }

@@ -21,7 +21,7 @@ struct tool_contact {
     Read<RowBlocks<FaceToolContact>> blocks;
     Read<ContactPair<FaceToolContact>> pair;
     Write<ContactTouches<FaceToolContact>> touches;
-    Write<Activation<FaceToolContact>> activation;
+    Write<ReactivationDistance<FaceToolContact>> activation;
     Read<ContactLaw<FaceToolContact>> law;
     Write<PointForce<FaceToolContact>> force;
     Optional<Write<ElasticSlip<FaceToolContact>>> slip;    // only with friction
@@ -52,7 +52,7 @@ struct initial_tool_bonds {
   Optional<ToolTriangles> triangles;
   NewBonds<FaceToolContact> rows;
   Write<ToolAnchor> anchor;
-  Write<Activation<FaceToolContact>> activation;
+  Write<ReactivationDistance<FaceToolContact>> activation;
   Write<BondTotals> totals;
   void operator()() const;
 };

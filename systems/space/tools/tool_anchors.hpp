@@ -19,9 +19,9 @@ struct HalfOfRow {
 
 // From now on the given points, at `at`, are held at the nearest places of the tool at `tool`. (m)
 inline void set_anchors(const Write<ToolAnchor>& anchor, const HalfOfRow& of, const VectorLanes& at,
-                        const Standing& standing, const Point& tool) {
-  const VectorLanes& n = standing.normal;
-  const VectorLanes place = fma(standing.gap, n, at) - everywhere(tool);
+                        const SurfaceGap& nearest, const Point& tool) {
+  const VectorLanes& n = nearest.normal;
+  const VectorLanes place = fma(nearest.gap, n, at) - everywhere(tool);
   double* first = &anchor(of.row) + lane_count * of.half;
   for (unsigned left = of.points; left != 0; left &= left - 1) {
     const int l = std::countr_zero(left);

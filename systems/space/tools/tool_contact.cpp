@@ -1,7 +1,7 @@
 // tool_contact: narrow phase between particles and rigid tools in three dimensions: the Gauss points of every candidate
 // face against the tool's surface.
 //
-// Stages   tool_standing.hpp -> contact_law.hpp, eight points at a time; one pass with the full stiffness, since a tool
+// Stages   tool_gap.hpp -> contact_law.hpp, eight points at a time; one pass with the full stiffness, since a tool
 //          is not sampled
 // Runs     after bin_tool_faces and tool_motion, before contact_force
 // Active   if the scene has tools
@@ -11,7 +11,7 @@
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/tools/systems.hpp"
 #include "systems/space/tools/tool_anchors.hpp"
-#include "systems/space/tools/tool_standing.hpp"
+#include "systems/space/tools/tool_gap.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -89,7 +89,7 @@ PlacesInRows places_in(Row<FaceToolContact> row, int half) {
 }
 
 // Of the bonded points, the position relative to the places that hold them.
-void stand_at_anchors(const ToolBonds& bonds, const ToolRow& of, int half, RowMotion& motion) {
+void gap_at_anchors(const ToolBonds& bonds, const ToolRow& of, int half, RowMotion& motion) {
   const double* anchor = &bonds.anchor(of.row);
   const LaneMask bonded = LaneMask::of(motion.bonded_in(half));
   PointMotion& m = entry(motion.half, half);
@@ -158,7 +158,7 @@ void act(const tool_contact& s, const ToolRow& of, const RowMotion& motion, Tool
     sums.contact.add(f);
     deepest = max(m.depth(), deepest);
   }
-  sums.contact.book_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
+  sums.contact.record_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
 }
 
 struct ToolPass {
@@ -169,7 +169,8 @@ struct ToolPass {
       s.faces.velocity ? s.faces.velocity->values() : std::span<const double>{};
 
   bool active(Row<FaceToolContact> row) const {
-    return s.clock->travel >= std::min(s.columns.activation(row, 0), s.columns.activation(row, 1));
+    return s.clock->relative_motion >=
+           std::min(s.columns.activation(row, 0), s.columns.activation(row, 1));
   }
   void fetch(Row<FaceToolContact> row) const { prefetch(&s.columns.force(row)); }
   void operator()(Row<FaceToolContact> row, Sums& sums) const {
@@ -181,9 +182,9 @@ struct ToolPass {
     RowMotion motion;
     if (s.bonds) motion.bonded = bonds_of(s, row, sums.bonds).bonded(row);
     for (int half = 0; half < 2; ++half) {
-      if (s.clock->travel < s.columns.activation(row, half)) continue;
+      if (s.clock->relative_motion < s.columns.activation(row, half)) continue;
       entry(motion.at, half) = sampled_points(own, half);
-      stand(of, half, motion, sums);
+      find_gap(of, half, motion, sums);
     }
     if (motion.touching == 0) {
       s.columns.touches(row) = 0;
@@ -204,17 +205,17 @@ struct ToolPass {
 
  private:
   // A half out of reach stays inactive until it can come within it.
-  void stand(const ToolRow& of, int half, RowMotion& motion, Sums& sums) const {
+  void find_gap(const ToolRow& of, int half, RowMotion& motion, Sums& sums) const {
     const VectorLanes& at = entry(motion.at, half);
     const double range = of.rules.adhesion.range;
-    const Standing standing =
-        standing_on_tool(s.tools.surfaces, s.tools.triangles, s.columns.pair(of.row, 2), of.row, at,
-                         of.face.size + range);
+    const SurfaceGap nearest =
+        gap_to_tool(s.tools.surfaces, s.tools.triangles, s.columns.pair(of.row, 2), of.row, at,
+                    of.face.size + range);
     PointMotion& m = entry(motion.half, half);
-    m = {standing.gap, standing.normal};
+    m = {nearest.gap, nearest.normal};
     double& activation = s.columns.activation(of.row, half);
     const bool bonded = motion.bonded_in(half) != 0;
-    if (bonded) stand_at_anchors(*s.bonds, of, half, motion);
+    if (bonded) gap_at_anchors(*s.bonds, of, half, motion);
     if (s.bonds)
       m.overlap = bonds_of(s, of.row, sums.bonds)
                       .overlap(places_in(of.row, half), 0xffU, motion.bonded_in(half), m.gap);
@@ -223,7 +224,7 @@ struct ToolPass {
       activation = 0;
       return;
     }
-    activation = s.clock->travel - FaceSums::greatest(m.depth() + range);
+    activation = s.clock->relative_motion - FaceSums::greatest(m.depth() + range);
     if (s.bonds && weld_apart(of, half, at, m, sums)) activation = 0;
   }
   // The pressure of points that have separated has dropped. Returns whether any weld held them.

@@ -15,8 +15,8 @@ namespace pulvis::space {
 inline VectorLanes everywhere(const Point& p) { return kernels::everywhere<Lane>(p); }
 
 // `from`: vector from the tool's position to the points, also below.
-inline Standing on_plane(const Point& normal, const VectorLanes& from) {
-  Standing s;
+inline SurfaceGap on_plane(const Point& normal, const VectorLanes& from) {
+  SurfaceGap s;
   s.normal = everywhere(normal);
   s.gap = -dot(from, s.normal);
   return s;
@@ -33,35 +33,35 @@ struct RadiusAndHeight {
   }
 };
 
-inline Standing in_hole(double radius, const Point& axis, const VectorLanes& from) {
+inline SurfaceGap in_hole(double radius, const Point& axis, const VectorLanes& from) {
   const RadiusAndHeight at(from, everywhere(axis));
-  Standing s;
+  SurfaceGap s;
   s.normal = -at.outward;
   s.gap = at.radius - radius;
   return s;
 }
 
-inline Standing on_revolution(const ToolSurface& meridian, const Point& axis,
-                              const VectorLanes& from, double farthest) {
+inline SurfaceGap on_revolution(const ToolSurface& meridian, const Point& axis,
+                                const VectorLanes& from, double farthest) {
   const VectorLanes along = everywhere(axis);
   const RadiusAndHeight at(from, along);
   const auto nearest = pulvis::kernels::nearest_on_surface(
       meridian, 0, static_cast<int>(meridian.pieces.size()) - 1, at.radius, at.height, farthest);
-  Standing s;
+  SurfaceGap s;
   s.normal = fma(nearest.nx, at.outward, nearest.ny * along);
   s.gap = -nearest.distance;
   return s;
 }
 
 // Only the given triangles; points farther than `farthest` are treated as that far outside.
-inline Standing on_mesh(const TriangleMesh& mesh, std::span<const std::int32_t> triangles,
-                        const VectorLanes& from, double farthest) {
+inline SurfaceGap on_mesh(const TriangleMesh& mesh, std::span<const std::int32_t> triangles,
+                          const VectorLanes& from, double farthest) {
   kernels::NearestOfMesh<Lane> nearest{Lane(farthest * farthest), everywhere({}), everywhere({})};
   for (const std::int32_t t : triangles)
     kernels::look_at_triangle(entry(mesh.triangles, t), from, nearest);
   const Lane side = select(dot(nearest.offset, nearest.outward) < 0.0, Lane(-1.0), Lane(1.0));
   const Lane distance = sqrt(nearest.square);
-  Standing s;
+  SurfaceGap s;
   s.gap = -(side * distance);
   // On the surface itself, up to round-off, the normal of the surface is used.
   constexpr double round_off = 1e-12;

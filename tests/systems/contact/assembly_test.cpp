@@ -24,8 +24,8 @@ struct Sum {
 struct Edges {
   ClosedCurve curve = ClosedCurve::circle(1, ring_edges);
   std::vector<double> force = std::vector<double>(CurveForce::count * (ring_edges + 3));
-  BorneEdges borne = BorneEdges(ring_edges + 3);
-  EdgeForces all() { return {force.data(), borne}; }
+  LoadedEdges loaded = LoadedEdges(ring_edges + 3);
+  EdgeForces all() { return {force.data(), loaded}; }
 
   Sum sum() const {
     Sum s;
@@ -57,7 +57,7 @@ TEST(Assembly, OfASampledEdgeKeepsForceAndMoment) {
     Edges body;
     const std::array<double, 8> f = random_forces(random);
     add_sampled(basis_by_point(), f.data(), body.all().on(edge));
-    EXPECT_EQ(body.borne[static_cast<std::size_t>(edge)], 1);
+    EXPECT_EQ(body.loaded[static_cast<std::size_t>(edge)], 1);
     Sum put;
     for (std::size_t g = 0; g < 4; ++g) {
       const Point p = body.at({edge, kernels::edge_u[g]});
@@ -95,7 +95,8 @@ TEST(Assembly, OfTheOtherBodyIsTheOppositeOnWhateverEdges) {
       EXPECT_NEAR(got.y, put.y, 4e-15 * put.size);
       EXPECT_NEAR(got.moment, put.moment, 8e-15 * put.size);
       for (int e = 0; e < ring_edges; ++e)
-        EXPECT_EQ(body.borne[static_cast<std::size_t>(e)], std::ranges::count(edge, e) > 0 ? 1 : 0);
+        EXPECT_EQ(body.loaded[static_cast<std::size_t>(e)],
+                  std::ranges::count(edge, e) > 0 ? 1 : 0);
     }
 }
 
@@ -114,13 +115,13 @@ TEST(Assembly, ToNodesDoesTheWorkOfTheControlPoints) {
   }
   constexpr std::ptrdiff_t numbers = CurveForce::count * (ring_edges + 3);
   std::vector<double> force(numbers * lane_count);
-  BorneEdges borne(ring_edges + 3);
+  LoadedEdges loaded(ring_edges + 3);
   kernels::Random random(3);
   std::vector<Lane> moved(2 * ring_edges), nodes(2 * ring_edges);
   for (Lane& v : moved) v = random.lane(-1, 1);
   Lane work{};
   for (const int e : {0, 1, 5, ring_edges - 1}) {
-    entry(borne, e) = 1;
+    entry(loaded, e) = 1;
     for (int l = 0; l < lane_count; ++l)
       for (int a = 0; a < 4; ++a)
         for (int k = 0; k < 2; ++k) {
@@ -130,7 +131,7 @@ TEST(Assembly, ToNodesDoesTheWorkOfTheControlPoints) {
             work[l] += f * term.weight * entry(moved, 2 * term.node.value + k)[l];
         }
   }
-  to_nodes(shape, force.data(), numbers, borne, [&](Row<BoundaryNode> node, int k) -> Lane& {
+  to_nodes(shape, force.data(), numbers, loaded, [&](Row<BoundaryNode> node, int k) -> Lane& {
     return entry(nodes, 2 * node.value + k);
   });
   Lane done{};

@@ -141,13 +141,13 @@ TEST(ContactSums, KeepTheDeepestOrTheFirstThatIsNoNumber) {
 TEST(ContactSums, CountProjectionsAndThoseThatFailed) {
   BlockSums sums;
   const Row<Contact> a(3), b(8), c(9);
-  book_projection<Contact>({a, b}, 0, sums);
+  record_projection<Contact>({a, b}, 0, sums);
   EXPECT_EQ(sums.projections, 8);
   EXPECT_EQ(sums.first_unconverged, -1);
-  book_projection<Contact>({b, c}, 0b01100000, sums);
+  record_projection<Contact>({b, c}, 0b01100000, sums);
   EXPECT_EQ(sums.first_unconverged, 9);
   EXPECT_EQ(sums.unconverged, 2);
-  book_projection<Contact>({a, a}, 0b00010001, sums);  // one that is left over counts once
+  record_projection<Contact>({a, a}, 0b00010001, sums);  // one that is left over counts once
   EXPECT_EQ(sums.projections, 20);
   EXPECT_EQ(sums.unconverged, 3);
   EXPECT_EQ(sums.first_unconverged, 9);

@@ -33,7 +33,7 @@ struct Contacts {
   explicit Contacts(World& w) : world(w) {}
   void update() {
     TaskGraph(start_list(world), world.chunks()).run();
-    world.resource<ContactIndex>().travel_at_bin = -1;  // positions were set by hand: bin anew
+    world.resource<ContactIndex>().motion_at_bin = -1;  // positions were set by hand: bin anew
     std::vector<System> forces;
     for (System& system : step_list(world).forces)
       if (system.name == "bin_edges" || system.name == "skin_check" ||
@@ -95,8 +95,8 @@ class LostPoints {
         step_.push_back(std::move(system));
   }
   const Totals& look() {
-    std::fill_n(world->column<ActivationTravel<Contact>>().values(),
-                world->column<ActivationTravel<Contact>>().table.rows, 0.0);
+    std::fill_n(world->column<ReactivationDistance<Contact>>().values(),
+                world->column<ReactivationDistance<Contact>>().table.rows, 0.0);
     TaskGraph(step_, world->chunks()).run();
     return world->resource<Totals>();
   }

@@ -78,7 +78,7 @@ std::vector<Touch> run(const std::string& scene, const std::vector<std::string>&
   Experiment e(scene, changes);
   std::vector<Touch> touches;
   for (int i = 0; i < steps; ++i) {
-    if (anew) e.simulation.world().resource<ContactIndex>().travel_at_bin = -1;
+    if (anew) e.simulation.world().resource<ContactIndex>().motion_at_bin = -1;
     e.simulation.run_steps(1);
     const Totals& t = e.simulation.world().resource<Totals>();
     touches.push_back({t.touching, t.contact_energy, t.external_work});
@@ -144,7 +144,7 @@ TEST(SkinCheck, ParticlesThatFlyTogetherKeepTheirRows) {
     Experiment e(flight(apart));
     e.simulation.run_steps(1000);
     const auto& index = e.simulation.world().resource<ContactIndex>();
-    EXPECT_GT(e.simulation.clock().travel, 20 * index.skin);
+    EXPECT_GT(e.simulation.clock().relative_motion, 20 * index.skin);
     EXPECT_EQ(index.bins, 1);
   }
 }

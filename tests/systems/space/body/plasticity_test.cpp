@@ -63,7 +63,7 @@ TYPED_TEST(Flow3, PlasticFlowKeepsVolume) {
     deform(body, f);
   }
   const auto c = [&](int k) {
-    return body.template number<PlasticMetric<ThreeD, TypeParam::points>>(0, k);
+    return body.template number<CpInverse<ThreeD, TypeParam::points>>(0, k);
   };
   Matrix metric;
   metric << 1 + c(0), c(3), c(5), c(3), 1 + c(1), c(4), c(5), c(4), 1 + c(2);
@@ -95,7 +95,7 @@ TYPED_TEST(Flow3, UniaxialTension) {
     const auto saved = [&] {
       std::vector<double> values;
       for (int k = 0; k < 6 * TypeParam::points; ++k)
-        values.push_back(body.template number<PlasticMetric<ThreeD, TypeParam::points>>(0, k));
+        values.push_back(body.template number<CpInverse<ThreeD, TypeParam::points>>(0, k));
       for (int k = 0; k < TypeParam::points; ++k)
         values.push_back(body.template number<PlasticStrain<TypeParam::points>>(0, k));
       return values;
@@ -103,7 +103,7 @@ TYPED_TEST(Flow3, UniaxialTension) {
     const auto side_stress = [&](double s) {
       std::size_t at = 0;
       for (int k = 0; k < 6 * TypeParam::points; ++k)
-        body.template number<PlasticMetric<ThreeD, TypeParam::points>>(0, k) = saved[at++];
+        body.template number<CpInverse<ThreeD, TypeParam::points>>(0, k) = saved[at++];
       for (int k = 0; k < TypeParam::points; ++k)
         body.template number<PlasticStrain<TypeParam::points>>(0, k) = saved[at++];
       deform(body, Vector(stretch, s, s).asDiagonal());

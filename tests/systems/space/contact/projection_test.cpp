@@ -84,14 +84,14 @@ struct Surface : TouchingBodies {
     }
     const Projection p = project(points, start);
     EXPECT_EQ(p.unconverged(), 0U);
-    const Standing standing = p.standing();
+    const SurfaceGap nearest = p.surface_gap();
     for (int l = 0; l < 8; ++l) {
       const double expected = distance(entry(points, l));
       const double exact = 1e-9 * ball_diameter;
       const Vec3 found = at(entry(p.face, l), p.u[l], p.v[l]), off = entry(points, l) - found;
       EXPECT_NEAR(off.norm(), expected, exact + second * expected);
-      EXPECT_NEAR(std::abs(standing.gap[l]), off.norm(), exact);  // it stands on the normal
-      EXPECT_EQ(standing.gap[l] > 0, entry(points, l).norm() < found.norm());
+      EXPECT_NEAR(std::abs(nearest.gap[l]), off.norm(), exact);  // it stands on the normal
+      EXPECT_EQ(nearest.gap[l] > 0, entry(points, l).norm() < found.norm());
     }
   }
 };
@@ -152,10 +152,10 @@ TEST(SpaceProjection, WalksOverSides) {
     start[6] = far;
     const Projection p = surface.project(points, start);
     EXPECT_EQ(p.unconverged(), 0U);
-    const Standing standing = p.standing();
+    const SurfaceGap nearest = p.surface_gap();
     for (const int l : {3, 6}) {
       EXPECT_EQ(entry(p.face, l), p.face[0]);
-      EXPECT_NEAR(standing.gap[l], standing.gap[0], 1e-10 * ball_diameter);
+      EXPECT_NEAR(nearest.gap[l], nearest.gap[0], 1e-10 * ball_diameter);
       ++walked;
     }
   }

@@ -15,7 +15,7 @@ namespace pulvis::space {
 namespace {
 
 VectorLanes everywhere_at(const Vec3& p) { return everywhere({p.x(), p.y(), p.z()}); }
-Vec3 normal_of(const Standing& s) { return {s.normal.x[0], s.normal.y[0], s.normal.z[0]}; }
+Vec3 normal_of(const SurfaceGap& s) { return {s.normal.x[0], s.normal.y[0], s.normal.z[0]}; }
 
 struct RandomPoints {
   std::mt19937_64 random{1};
@@ -31,7 +31,7 @@ TEST(SpaceTools, ADieIsTheInsideOfACylinder) {
   for (int i = 0; i < 200; ++i) {
     const Vec3 p = points(2);
     const Vec3 arm = p - p.dot(axis) * axis;
-    const Standing s = in_hole(1.5, {axis.x(), axis.y(), axis.z()}, everywhere_at(p));
+    const SurfaceGap s = in_hole(1.5, {axis.x(), axis.y(), axis.z()}, everywhere_at(p));
     EXPECT_NEAR(s.gap[0], arm.norm() - 1.5, 1e-14);
     EXPECT_LT((normal_of(s) + arm.normalized()).norm(), 1e-13);
   }
@@ -65,7 +65,7 @@ TEST(SpaceTools, ADieEndsAtItsMouth) {
     const double side = v < 0 ? out : 1e30, face = u > 0 ? -up : 1e30;
     const double gap =
         arc ? rounding - std::hypot(u, v) : (std::abs(side) < std::abs(face) ? side : face);
-    const Standing s = on_revolution(shapes.of_tool[0].meridian, {0, 0, 1}, everywhere_at(p), 10);
+    const SurfaceGap s = on_revolution(shapes.of_tool[0].meridian, {0, 0, 1}, everywhere_at(p), 10);
     EXPECT_NEAR(s.gap[0], gap, 1e-12) << p.transpose();
     if (arc) {
       const Vec3 outward(p.x() / r, p.y() / r, 0);
@@ -91,7 +91,7 @@ TEST(SpaceTools, APunchThatFillsItsDieIsFlatBeyondItsRim) {
   const ToolSurface meridian = punch_meridian(punch({}), true);
   for (int i = 0; i < 200; ++i) {
     const Vec3 p = points(1.9);
-    const Standing s = on_revolution(meridian, {0, 0, 1}, everywhere_at(p), 10);
+    const SurfaceGap s = on_revolution(meridian, {0, 0, 1}, everywhere_at(p), 10);
     EXPECT_NEAR(s.gap[0], -p.z(), 1e-14);
     EXPECT_LT((normal_of(s) - Vec3::UnitZ()).norm(), 1e-13);
   }
@@ -159,7 +159,7 @@ TEST(SpaceTools, AMeshIsTheSignedDistanceToItsTriangles) {
     std::vector<std::int32_t> near;
     const Point at{p.x(), p.y(), p.z()};
     triangles_near(mesh, Box{at, at}, 4, near);
-    const Standing s = on_mesh(mesh, near, everywhere_at(p), 4);
+    const SurfaceGap s = on_mesh(mesh, near, everywhere_at(p), 4);
     EXPECT_NEAR(s.gap[0], -outside_cube(p, 1), 1e-12);
     // The normal is the slope of the distance.
     const double moved = outside_cube(q, 1) - outside_cube(p, 1);
@@ -193,7 +193,7 @@ std::vector<std::array<Vec3, 3>> wedge(double angle, const std::vector<double>& 
   return triangles;
 }
 
-Standing on_closed_mesh(const TriangleMesh& mesh, const Vec3& p) {
+SurfaceGap on_closed_mesh(const TriangleMesh& mesh, const Vec3& p) {
   std::vector<std::int32_t> near;
   const Point at{p.x(), p.y(), p.z()};
   triangles_near(mesh, Box{at, at}, 4, near);
@@ -220,7 +220,7 @@ TEST(SpaceTools, FlatTrianglesDoNotChangeTheDistance) {
         EXPECT_LT(on_closed_mesh(plain, placed * Vec3(0, 0, 0.5)).gap[0], -0.4 * size);
         for (int i = 0; i < 500; ++i) {
           const Vec3 p = placed * points(i % 2 == 0 ? 1.3 : 0.1);
-          const Standing a = on_closed_mesh(plain, p), b = on_closed_mesh(divided, p);
+          const SurfaceGap a = on_closed_mesh(plain, p), b = on_closed_mesh(divided, p);
           ASSERT_NEAR(b.gap[0], a.gap[0], 1e-12 * size) << degrees << " deg, " << apex;
           ASSERT_LT((normal_of(b) - normal_of(a)).norm(), 1e-9);
         }

@@ -100,7 +100,7 @@ class TouchingBodies {
   // Contact at the present places.
   void update(bool anew = true) {
     if (anew)
-      world.resource<ContactIndex>().travel_at_bin = -1;
+      world.resource<ContactIndex>().motion_at_bin = -1;
     else
       wake();
     const bool pairs = world.has<ContactPair<FaceContact>>();
@@ -168,13 +168,13 @@ class TouchingBodies {
     return lane_row<C>(body, number)[k][lane(body)];
   }
   void wake() {
-    if (world.has<Activation<FaceContact>>()) wake_rows<FaceContact>();
-    if (world.has<Activation<FaceToolContact>>()) wake_rows<FaceToolContact>();
+    if (world.has<ReactivationDistance<FaceContact>>()) wake_rows<FaceContact>();
+    if (world.has<ReactivationDistance<FaceToolContact>>()) wake_rows<FaceToolContact>();
   }
   template <class At>
   void wake_rows() {
-    auto& column = world.column<Activation<At>>();
-    std::fill_n(column.values(), Activation<At>::count * column.table.rows, 0.0);
+    auto& column = world.column<ReactivationDistance<At>>();
+    std::fill_n(column.values(), ReactivationDistance<At>::count * column.table.rows, 0.0);
   }
   void lay_out(const std::vector<Shape>& shapes) {
     Bodies& all = world.emplace<Bodies>();

@@ -7,30 +7,30 @@
 
 namespace pulvis::space {
 
-inline constexpr double doubtful_depth = 0.25;  // relative to the size of a face
+inline constexpr double ambiguous_depth = 0.25;  // relative to the size of a face
 
-// Of the doubtful points, those that ended in the fold of a crushed face, where the normal is misleading.
-[[gnu::noinline]] inline unsigned in_folds(const Projection& p, const Standing& standing,
-                                           unsigned doubtful) {
+// Of the ambiguous points, those that ended in the fold of a crushed face, where the normal is misleading.
+[[gnu::noinline]] inline unsigned in_folds(const Projection& p, const SurfaceGap& nearest,
+                                           unsigned ambiguous) {
   constexpr double least_cosine = 0.3;
   unsigned folds = 0;
-  for (unsigned left = doubtful; left != 0; left &= left - 1) {
+  for (unsigned left = ambiguous; left != 0; left &= left - 1) {
     const int l = std::countr_zero(left);
-    if (!(standing.gap[l] > 0)) continue;
+    if (!(nearest.gap[l] > 0)) continue;
     const PatchNumbers face{p.first, entry(p.shape->faces, entry(p.face, l)).number.data()};
-    const VectorLanes& n = standing.normal;
+    const VectorLanes& n = nearest.normal;
     if (along_face(face, {n.x[l], n.y[l], n.z[l]}) < least_cosine) folds |= 1U << l;
   }
   return folds;
 }
 
 // Newton's method may end on the far side of a flat particle, as if the point had passed through it. Started from the
-// nearest of a few spots on every face it ends elsewhere: doubtful points restart there if that spot is nearer.
+// nearest of a few spots on every face it ends elsewhere: ambiguous points restart there if that spot is nearer.
 [[gnu::noinline]] inline ProjectionStart better_start(const Projection& found,
                                                       const ProjectionStart& start,
-                                                      unsigned doubtful) {
+                                                      unsigned ambiguous) {
   ProjectionStart nearest = start;
-  for (unsigned left = doubtful; left != 0; left &= left - 1) {
+  for (unsigned left = ambiguous; left != 0; left &= left - 1) {
     const int l = std::countr_zero(left);
     const SurfaceSpot spot = nearest_spot(*found.shape, found.first,
                                           {found.point.x[l], found.point.y[l], found.point.z[l]});
@@ -51,17 +51,17 @@ inline constexpr double doubtful_depth = 0.25;  // relative to the size of a fac
   return best;
 }
 
-// Finds doubtful points anew. `start`: of the search so far; `inv_size` 1/m, of the sampled faces; `real`: the points.
-inline void settle_doubts(Projection& p, Standing& standing, const ProjectionStart& start,
-                          const Lane& inv_size, unsigned real) {
-  const LaneMask deep = standing.gap * inv_size > doubtful_depth;
-  const unsigned doubtful = (deep.bits() | p.unconverged()) & real;
-  if (doubtful == 0) return;
-  Projection again(*p.shape, p.first, p.point, better_start(p, start, doubtful));
+// Finds ambiguous points anew. `start`: of the search so far; `inv_size` 1/m, of the sampled faces; `real`: the points.
+inline void resolve_ambiguous(Projection& p, SurfaceGap& nearest, const ProjectionStart& start,
+                              const Lane& inv_size, unsigned real) {
+  const LaneMask deep = nearest.gap * inv_size > ambiguous_depth;
+  const unsigned ambiguous = (deep.bits() | p.unconverged()) & real;
+  if (ambiguous == 0) return;
+  Projection again(*p.shape, p.first, p.point, better_start(p, start, ambiguous));
   again.find();
   p = again;
-  standing = p.standing();
-  p.done &= ~in_folds(p, standing, doubtful);
+  nearest = p.surface_gap();
+  p.done &= ~in_folds(p, nearest, ambiguous);
 }
 
 }  // namespace pulvis::space

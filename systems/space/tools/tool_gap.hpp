@@ -15,9 +15,9 @@ inline std::span<const std::int32_t> triangles_of(const ToolTriangles& of,
 }
 
 // `size`: m, of the face; points farther from a punch or mesh count as that far away.
-inline Standing standing_on_tool(const ToolSurfaces& tools,
-                                 const Optional<ToolTriangles>& triangles, int tool,
-                                 Row<FaceToolContact> row, const VectorLanes& at, double size) {
+inline SurfaceGap gap_to_tool(const ToolSurfaces& tools, const Optional<ToolTriangles>& triangles,
+                              int tool, Row<FaceToolContact> row, const VectorLanes& at,
+                              double size) {
   const VectorLanes from = at - everywhere(tools.position_of(tool));
   const ToolShapes::Shape& shape = tools.shape(tool);
   const Point normal = tools.normal_of(tool);

@@ -20,7 +20,7 @@
 namespace pulvis {
 
 // What the root orders the others to do.
-struct Order {
+struct Command {
   enum class Kind {
     run,      // to a time
     observe,  // and fetch
@@ -48,28 +48,28 @@ struct Order {
   }
 };
 
-class Crew {
+class RankGroup {
  public:
   // `whole`: on the root, from build_whole_world. `fields`: of the mesh. `hashed`: hashed_values.
-  Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
-       std::vector<ParticleValues> fields, std::vector<ParticleValues> hashed);
-  ~Crew();  // on the root it tells the others to leave; collective
+  RankGroup(World& share, std::unique_ptr<World> whole, const Scene& scene,
+            std::vector<ParticleValues> fields, std::vector<ParticleValues> hashed);
+  ~RankGroup();  // on the root it tells the others to leave; collective
 
   bool leads() const { return ranks_.is_root(); }
   // From the root to all.
-  void tell(Order order);
+  void tell(Command command);
   // On the others.
-  Order listen();
+  Command listen();
   // What follows a step: the root's decision, on all ranks.
   enum class Next : std::uint8_t { step, balance, stop };
   Next next(bool root_stops);
   Balance& balance() { return balance_; }
 
   // A rank's part in a fetch.
-  void fetch(const Order& order);
+  void fetch(const Command& command);
   void total();
-  void visit_particles(const Order& order, const ValueSink& take = {});
-  void write(const Order& order);
+  void visit_particles(const Command& command, const ValueSink& take = {});
+  void write(const Command& command);
   // What this rank has sent in all; `ran` adds steps and the bytes sent in them.
   std::uint64_t bytes_sent() const { return ranks_.bytes_sent(); }
   void ran(std::int64_t steps, std::uint64_t bytes) {
@@ -80,10 +80,10 @@ class Crew {
   // ---- only on the root
   World& whole() { return *whole_; }
   // `looks`: what the observers of the whole world read.
-  Order fetch_sample(const std::vector<std::string>& looks) const;
-  Order fetch_rows() const;  // index of the rows, for a checkpoint
-  Order fetch_start() const;
-  Order hashed(std::size_t number) const;  // of hashed_values
+  Command fetch_sample(const std::vector<std::string>& looks) const;
+  Command fetch_rows() const;  // index of the rows, for a checkpoint
+  Command fetch_start() const;
+  Command hashed(std::size_t number) const;  // of hashed_values
   // Whether the ranks write a field of a frame into files in this folder.
   bool writes_field_in(const std::filesystem::path& folder, std::size_t field) const {
     return field < fields_ && output_.can_write_in(folder);

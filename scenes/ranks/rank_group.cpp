@@ -1,4 +1,4 @@
-#include "scenes/ranks/crew.hpp"
+#include "scenes/ranks/rank_group.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -27,7 +27,7 @@ double peak_memory() {
   return static_cast<double>(usage.ru_maxrss) * 1024;
 }
 
-// Name of a column, as Crew::numbers_of expects it.
+// Name of a column, as RankGroup::numbers_of expects it.
 template <class C>
 std::string name_of() {
   return fmt::format("{}/{}", C::Entity::name, C::info.name);
@@ -47,8 +47,8 @@ bool has_round_die(const Scene& scene) {
 
 }  // namespace
 
-Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
-           std::vector<ParticleValues> fields, std::vector<ParticleValues> hashed)
+RankGroup::RankGroup(World& share, std::unique_ptr<World> whole, const Scene& scene,
+                     std::vector<ParticleValues> fields, std::vector<ParticleValues> hashed)
     : share_(share),
       whole_(std::move(whole)),
       ranks_(*share.resource<RankLink>().ranks),
@@ -62,43 +62,43 @@ Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
   std::ranges::move(hashed, std::back_inserter(values_));
 }
 
-Crew::~Crew() {
-  if (leads()) tell({Order::Kind::leave});
+RankGroup::~RankGroup() {
+  if (leads()) tell({Command::Kind::leave});
   await_outlines(share_);
 }
 
-void Crew::tell(Order order) {
+void RankGroup::tell(Command command) {
   StateWriter writer;
-  order.state(writer);
+  command.state(writer);
   Ranks::Bytes bytes = writer.bytes();
   ranks_.broadcast(bytes);
 }
 
-Order Crew::listen() {
+Command RankGroup::listen() {
   Ranks::Bytes bytes;
   ranks_.broadcast(bytes);
-  Order order;
+  Command command;
   StateReader reader(bytes);
-  order.state(reader);
-  return order;
+  command.state(reader);
+  return command;
 }
 
-Crew::Next Crew::next(bool root_stops) {
+RankGroup::Next RankGroup::next(bool root_stops) {
   const Next of_root = root_stops ? Next::stop : balance_.is_due() ? Next::balance : Next::step;
   Ranks::Bytes bytes(1, static_cast<std::byte>(of_root));
   ranks_.broadcast(bytes);
   return static_cast<Next>(bytes.front());
 }
 
-void Crew::fetch(const Order& order) {
+void RankGroup::fetch(const Command& command) {
   Gatherer gathering(share_, whole_.get());
-  for (const std::uint64_t number : order.columns)
+  for (const std::uint64_t number : command.columns)
     gathering.column(static_cast<std::size_t>(number));
-  if (order.rows) gathering.row_index();
+  if (command.rows) gathering.row_index();
   gathering.common();
 }
 
-void Crew::total() {
+void RankGroup::total() {
   bytes_of_all_ = bytes_;
   ranks_.sum(std::span(&bytes_of_all_, 1));
   memory_.assign(static_cast<std::size_t>(ranks_.count()), 0);
@@ -108,22 +108,22 @@ void Crew::total() {
   Gatherer(share_, whole_.get()).common();
 }
 
-void Crew::visit_particles(const Order& order, const ValueSink& take) {
-  Gatherer(share_, whole_.get()).particles(values_.at(order.field), take);
+void RankGroup::visit_particles(const Command& command, const ValueSink& take) {
+  Gatherer(share_, whole_.get()).particles(values_.at(command.field), take);
 }
 
-void Crew::write(const Order& order) {
-  if (order.kind == Order::Kind::write_field)
-    output_.field(values_.at(order.field), order.room);
-  else if (order.kind == Order::Kind::write_column)
-    output_.column(static_cast<std::size_t>(order.columns.front()), order.room.at);
+void RankGroup::write(const Command& command) {
+  if (command.kind == Command::Kind::write_field)
+    output_.field(values_.at(command.field), command.room);
+  else if (command.kind == Command::Kind::write_column)
+    output_.column(static_cast<std::size_t>(command.columns.front()), command.room.at);
   else
     output_.flush();
 }
 
 // The ranges of triangles count from the start of each rank's own list.
-std::optional<std::uint64_t> Crew::bytes_written_in(const std::filesystem::path& folder,
-                                                    const ColumnBase& column) const {
+std::optional<std::uint64_t> RankGroup::bytes_written_in(const std::filesystem::path& folder,
+                                                         const ColumnBase& column) const {
   const bool is_range =
       whole_->has<space::TriangleLists>() && &column == &whole_->column<space::TriangleRange>();
   if (is_range || !output_.can_write_in(folder)) return {};
@@ -134,7 +134,7 @@ std::optional<std::uint64_t> Crew::bytes_written_in(const std::filesystem::path&
   return static_cast<std::uint64_t>(begin.back()) * column.row_bytes;
 }
 
-std::vector<std::uint64_t> Crew::numbers_of(const std::vector<std::string>& names) const {
+std::vector<std::uint64_t> RankGroup::numbers_of(const std::vector<std::string>& names) const {
   std::vector<std::uint64_t> numbers;
   const auto& columns = share_.columns();
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -150,7 +150,7 @@ std::vector<std::uint64_t> Crew::numbers_of(const std::vector<std::string>& name
 }
 
 // The index of the rows is derived from their pairs.
-Order Crew::fetch_sample(const std::vector<std::string>& looks) const {
+Command RankGroup::fetch_sample(const std::vector<std::string>& looks) const {
   std::vector<std::string> names{"particle/*"};
   if (needs_motion_) names.insert(names.end(), {"node/position", "node/velocity"});
   if (needs_tool_rows_) names.push_back(name_of<ContactTouches<ToolContact>>());
@@ -166,34 +166,37 @@ Order Crew::fetch_sample(const std::vector<std::string>& looks) const {
     return is_of_contacts(*share_.columns()[number]);
   });
   if (needs_rows) names.emplace_back("pair");
-  return {Order::Kind::observe, 0, numbers_of(names), needs_rows};
+  return {Command::Kind::observe, 0, numbers_of(names), needs_rows};
 }
-Order Crew::fetch_rows() const { return {Order::Kind::fetch, 0, numbers_of({"pair"}), true}; }
-Order Crew::fetch_start() const {
-  if (!whole_->has<BondTotals>()) return {Order::Kind::fetch, 0, numbers_of({"node/position"})};
-  return {Order::Kind::fetch, 0, numbers_of({"node/position", "pair", "bonded", "bond_law"}), true};
+Command RankGroup::fetch_rows() const {
+  return {Command::Kind::fetch, 0, numbers_of({"pair"}), true};
 }
-Order Crew::hashed(std::size_t number) const {
-  Order order{Order::Kind::particles};
-  order.field = fields_ + number;
-  return order;
+Command RankGroup::fetch_start() const {
+  if (!whole_->has<BondTotals>()) return {Command::Kind::fetch, 0, numbers_of({"node/position"})};
+  return {Command::Kind::fetch, 0, numbers_of({"node/position", "pair", "bonded", "bond_law"}),
+          true};
+}
+Command RankGroup::hashed(std::size_t number) const {
+  Command command{Command::Kind::particles};
+  command.field = fields_ + number;
+  return command;
 }
 
-void Crew::restore_findings(const Checkpoint& checkpoint) {
+void RankGroup::restore_findings(const Checkpoint& checkpoint) {
   for (const World::SavedResource& resource : whole_->saved_resources())
     resource.set_state(checkpoint.resource(resource.name));
 }
 
-void Crew::drop() {
+void RankGroup::drop() {
   for (const ColumnBase* column : whole_->columns()) drop(*column);
 }
 
-void Crew::drop(const ColumnBase& column) {
+void RankGroup::drop(const ColumnBase& column) {
   const bool small = column.entity == "particle";
   if ((is_by_chunk(column) || is_of_contacts(column)) && !small) whole_->drop_column(column);
 }
 
-std::size_t Crew::number_of(const ColumnBase& column) const {
+std::size_t RankGroup::number_of(const ColumnBase& column) const {
   const auto& columns = whole_->columns();
   return static_cast<std::size_t>(std::ranges::find(columns, &column) - columns.begin());
 }
