@@ -3,35 +3,20 @@
 #include <algorithm>
 #include <array>
 
-#include "components/run_state.hpp"
+#include "engine/chunk_lane.hpp"
+#include "engine/entry.hpp"
+#include "scenes/body_columns.hpp"
+#include "scenes/checks/overlaps.hpp"
 #include "scenes/checks/travel.hpp"
+#include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/space/contact_columns.hpp"
 #include "scenes/space/layout.hpp"
-#include "scenes/space/overlaps.hpp"
 #include "scenes/space/results/observe.hpp"
-#include "scenes/space/tools/drives.hpp"
-#include "systems/laws/flow_law.hpp"
+#include "scenes/tools/drives.hpp"
 
 namespace pulvis::space {
 namespace {
-
-// For materials without one: linear hardening, whose constants are in columns.
-void add_flow_laws(World& world, const Scene& scene) {
-  if (std::ranges::none_of(scene.materials, [](const MaterialSpec& m) { return bool(m.flow); }))
-    return;
-  FlowLaws laws;
-  for (const MaterialSpec& m : scene.materials)
-    laws.of_material.push_back(m.flow ? *m.flow : FlowLaw{});
-  world.emplace<FlowLaws>(std::move(laws));
-}
-
-void add_run_state(World& world, const Scene& scene) {
-  Clock& clock = world.emplace<Clock>();
-  clock.safety = scene.time.safety;
-  for (const StageSpec& stage : scene.stages) clock.end += stage.duration;
-  world.emplace<Totals>();
-}
 
 // m, of every occupied slot.
 std::vector<std::array<double, 3>> centres(const Layout& layout) {
@@ -56,21 +41,25 @@ std::vector<double> elements_of_chunks(const Layout& layout) {
 
 std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
-  space::check_overlaps(scene, bodies);
+  check_overlaps(scene, bodies);
   check_travel(scene, bodies);
   Layout layout = lay_out(scene, bodies);
   std::unique_ptr<World> world = empty_world(part);
   hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout));
-  add_body_columns(*world, scene, layout.bodies, layout.shapes);
-  fill_bodies(*world, layout.placed, layout.bodies, layout.shapes);
+  const Needs needs = needs_of(scene, bodies.size());
+  add_body_columns(*world, layout, needs);
+  fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);
-  add_flow_laws(*world, scene);
+  add_flow_laws(*world, scene, needs);
   add_run_state(*world, scene);
   world->emplace<Bodies>(std::move(layout.bodies));
   world->emplace<Shapes>(std::move(layout.shapes));
   world->emplace<ParticleClasses>(std::move(layout.classes));
-  add_tools(*world, scene, bodies);
-  add_contact(*world, scene, bodies);
+  if (!scene.tools.empty()) {
+    add_tool_columns(*world, scene, true);
+    add_drives<ThreeD>(*world, scene, bodies);
+  }
+  add_contact(*world, scene, needs);
   add_observed(*world, scene);
   return world;
 }

@@ -51,36 +51,6 @@ void find_smallest(const Shapes& shapes, ContactRules& rules) {
   rules.thinnest = std::min(rules.thinnest, rules.shortest_edge);
 }
 
-struct Touching {  // what can touch, and how
-  bool pairs, tools, friction, weakening, damping;
-
-  Touching(const Scene& scene, const ContactRules& rules, std::size_t bodies) {
-    pairs = bodies > 1;
-    tools = !scene.tools.empty();
-    const auto any = [&](const auto& is) {
-      return (pairs && std::ranges::any_of(rules.friction, is)) ||
-             (tools && std::ranges::any_of(rules.tool_friction, is));
-    };
-    friction = any([](const ContactRules::Friction& f) { return f.acts(); });
-    weakening = friction && any([](const ContactRules::Friction& f) { return !f.only_coulomb(); });
-    damping = rules.damping > 0;
-  }
-};
-
-// ---- bonds -------------------------------------------------------------------------------------------
-// Which kinds of bonds there can be.
-struct Bonding {
-  bool initial = false, pressed = false;  // between particles
-  bool tool_initial = false, tool_pressed = false;
-
-  Bonding(const Touching& touching, const BondRules& rules) {
-    initial = touching.pairs && BondRules::any(rules.initial);
-    pressed = touching.pairs && BondRules::any(rules.pressed);
-    tool_initial = touching.tools && BondRules::any(rules.tool_initial);
-    tool_pressed = touching.tools && BondRules::any(rules.tool_pressed);
-  }
-};
-
 template <class At>
 void add_bond_columns(World& world, bool initial, bool pressed) {
   world.add<BondedPoints<At>>();
@@ -108,17 +78,16 @@ double largest_face(const Shapes& shapes) {
 }
 
 // Returns how far bonds reach. (m)
-double add_bonds(World& world, const Scene& scene, const Touching& touching, ContactRules& rules) {
+double add_bonds(World& world, const Scene& scene, const Needs& needs, ContactRules& rules) {
   const Shapes& shapes = world.resource<Shapes>();
   const BondRules& bonds = world.emplace<BondRules>(
       bounded_by(world.resource<Bodies>(), surface_springs(shapes), scene, bond_rules(scene)));
-  const Bonding kinds(touching, bonds);
-  if (kinds.initial || kinds.pressed) {
-    add_bond_columns<FaceContact>(world, kinds.initial, kinds.pressed);
+  if (needs.bonds()) {
+    add_bond_columns<FaceContact>(world, needs.initial_bonds, needs.welds);
     world.emplace<BondSums<Contact>>();
   }
-  if (kinds.tool_initial || kinds.tool_pressed) {
-    add_bond_columns<FaceToolContact>(world, kinds.tool_initial, kinds.tool_pressed);
+  if (needs.tool_bonds()) {
+    add_bond_columns<FaceToolContact>(world, needs.tool_initial_bonds, needs.tool_welds);
     world.add<ToolAnchor>();
     world.emplace<BondSums<ToolContact>>();
   }
@@ -146,7 +115,7 @@ void number_surfaces(World& world) {
   }
 }
 
-void add_surfaces(World& world, const Touching& touching) {
+void add_surfaces(World& world, const Needs& needs) {
   world.add_table<BoundaryNode>(of_chunks(world, [](const Shape& s) { return s.boundary_nodes; }));
   world.add_table<SurfacePoint>(
       of_chunks(world, [](const Shape& s) { return s.surface_points(); }));
@@ -166,7 +135,7 @@ void add_surfaces(World& world, const Touching& touching) {
   world.add<MaximumSpeed>();
   world.add<Roughness>();
   world.add<NodeDistance>();
-  if (touching.friction || touching.damping) world.add<SurfaceVelocity>();
+  if (needs.friction || needs.damping) world.add<SurfaceVelocity>();
 }
 
 template <class At>
@@ -178,20 +147,20 @@ void add_rows(World& world) {
   world.add<ContactLaw<At>>();
 }
 
-void add_pairs(World& world, const Touching& touching) {
+void add_pairs(World& world, const Needs& needs) {
   add_rows<FaceContact>(world);
   world.add<ContactPoint>();
-  if (touching.weakening) world.add<SlipWeakening<FaceContact>>();
+  if (needs.weakening) world.add<SlipWeakening<FaceContact>>();
   world.emplace<FacePairs>();
   world.emplace<PairLoads>();
   world.emplace<ContactSums<Contact>>();
 }
 
-void add_tools(World& world, const Scene& scene, const Touching& touching) {
+void add_tools(World& world, const Scene& scene, const Needs& needs) {
   add_rows<FaceToolContact>(world);
   world.add<PointForce<FaceToolContact>>();
-  if (touching.friction) world.add<ElasticSlip<FaceToolContact>>();
-  if (touching.weakening) world.add<SlipWeakening<FaceToolContact>>();
+  if (needs.friction) world.add<ElasticSlip<FaceToolContact>>();
+  if (needs.weakening) world.add<SlipWeakening<FaceToolContact>>();
   world.emplace<RowBlocks<FaceToolContact>>();
   world.emplace<ContactSums<ToolContact>>();
   const ToolShapes& shapes = world.emplace<ToolShapes>(tool_shapes(scene));
@@ -205,25 +174,23 @@ void add_tools(World& world, const Scene& scene, const Touching& touching) {
 
 }  // namespace
 
-void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
+void add_contact(World& world, const Scene& scene, const Needs& needs) {
   ContactRules rules = rules_of(scene);
-  const Touching touching(scene, rules, bodies.size());
   if (has_bonds(scene)) {
     BondTotals& totals = world.emplace<BondTotals>();
     totals.made.assign(scene.bonds.size(), 0);
     totals.nearest.resize(scene.bonds.size());
     world.emplace<Fragments>();
   }
-  if (!touching.pairs && !touching.tools) return;
+  if (!needs.contact()) return;
   find_smallest(world.resource<Shapes>(), rules);
-  add_surfaces(world, touching);
-  if (touching.pairs) add_pairs(world, touching);
-  if (touching.tools) add_tools(world, scene, touching);
+  add_surfaces(world, needs);
+  if (needs.pairs) add_pairs(world, needs);
+  if (needs.tools) add_tools(world, scene, needs);
   ContactIndex& index = world.emplace<ContactIndex>();
   index.skin = scene.contact.skin * rules.shortest_edge;
   index.reach = rules.longest_range();
-  if (has_bonds(scene))
-    index.reach = std::max(index.reach, add_bonds(world, scene, touching, rules));
+  if (has_bonds(scene)) index.reach = std::max(index.reach, add_bonds(world, scene, needs, rules));
   index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
   world.emplace<ContactRules>(std::move(rules));
   world.emplace<ContactQuality>();

@@ -1,14 +1,28 @@
 #include "scenes/space/layout.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "engine/chunk_lane.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/space/class_shape.hpp"
 
 namespace pulvis::space {
 namespace {
+
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+// Uniform over all rotations (Shoemake 1992), identical on every machine.
+Rotation random_rotation(std::mt19937_64& random) {
+  const double u = uniform(random), a = 2 * std::numbers::pi * uniform(random),
+               b = 2 * std::numbers::pi * uniform(random);
+  const double p = std::sqrt(1 - u), q = std::sqrt(u);
+  return Rotation(q * portable::cos(b), p * portable::sin(a), p * portable::cos(a),
+                  q * portable::sin(b));
+}
 
 struct Numbered {
   Placed placed;

@@ -7,10 +7,15 @@
 #include "components/particle_classes.hpp"
 #include "components/shape.hpp"
 #include "components/space/shape.hpp"
-#include "scenes/space/body_columns.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
+
+// One particle in its lane.
+struct Placed {
+  const BodySpec* body = nullptr;
+  Rotation turn = Rotation::Identity();  // from the frame of its mesh to the scene's
+};
 
 struct Layout {
   Bodies bodies;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "scenes/checks/solid_overlaps.hpp"
 #include "scenes/space/class_shape.hpp"
-#include "scenes/space/overlaps.hpp"
 #include "scenes/space/thin_walls.hpp"
 
 namespace pulvis::space {

@@ -5,8 +5,8 @@
 #include "scenes/results/parts/visit_particles.hpp"
 #include "scenes/space/results/space_tags.hpp"
 #include "scenes/space/results/tool_sheets.hpp"
-#include "scenes/space/tools/powder.hpp"
 #include "scenes/spec/scene.hpp"
+#include "scenes/tools/powder.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -22,7 +22,7 @@ class SpaceParts : public ResultParts {
  public:
   SpaceParts(const Scene& scene, const World& world)
       : world_(world),
-        volume_(powder_of(world, scene).volume),
+        volume_(volume_of_particles(world)),
         tags_(particle_tags(scene, world)),
         sheets_(scene, box_of_nodes(world)) {
     visit_particles<ThreeD>(

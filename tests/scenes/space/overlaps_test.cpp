@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "scenes/space/overlaps.hpp"
+#include "scenes/checks/overlaps.hpp"
 #include "tests/scenes/space/packing/packed_scene.hpp"
 
 namespace pulvis::space {
@@ -36,7 +36,7 @@ Scene placed(const std::vector<ParticleShape>& shapes, const std::vector<Place>&
 
 std::vector<SceneProblem> problems_of(const Scene& scene) {
   try {
-    space::check_overlaps(scene, place_bodies(scene));
+    check_overlaps(scene, place_bodies(scene));
   } catch (const SceneError& error) {
     return error.errors();
   }

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "scenes/packing/fill_packings.hpp"
 #include "scenes/packing/place.hpp"
-#include "scenes/space/packing/fill_packings.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {

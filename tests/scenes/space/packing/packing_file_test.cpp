@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scenes/space/packing/packing_file.hpp"
+#include "scenes/packing/packing_file.hpp"
 #include "tests/scenes/space/packing/packed_scene.hpp"
 
 namespace pulvis::space {
@@ -49,7 +49,7 @@ TEST(PackingFileInSpace, IsReadBackBitForBit) {
   law.maximum = 14e-3;
   Scene scene = scene_of(two_shapes, packing);
   const PackingSpec made = filled(scene);
-  const std::string text = space::packing_text(scene, place_bodies(scene));
+  const std::string text = packing_text(scene, place_bodies(scene));
   EXPECT_THAT(text, HasSubstr("# Packing of packed.toml, seed 1\n"));
   EXPECT_THAT(text, HasSubstr("relative density 0.450000"));
   EXPECT_THAT(text, HasSubstr("class,x [m],y [m],z [m],qw,qx,qy,qz,scale\n"));
@@ -66,7 +66,7 @@ TEST(PackingFileInSpace, IsReadBackBitForBit) {
     EXPECT_EQ(own.scale, other.scale);
     EXPECT_EQ(own.class_of, other.class_of);
   }
-  const std::string again_text = space::packing_text(again, place_bodies(again));
+  const std::string again_text = packing_text(again, place_bodies(again));
   EXPECT_EQ(again_text.substr(again_text.find("class,")), text.substr(text.find("class,")));
 }
 

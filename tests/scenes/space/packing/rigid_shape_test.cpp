@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "scenes/outlines/portable.hpp"
+#include "scenes/packing/solids/rigid_contact.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
 #include "scenes/space/meshes/triangle.hpp"
-#include "scenes/space/packing/rigid_contact.hpp"
 
 namespace pulvis::space {
 namespace {

@@ -1,5 +1,5 @@
 // Widths of particles are those of closed forms, however a shape lies in its own axes.
-#include "scenes/space/packing/widths.hpp"
+#include "scenes/packing/solids/widths.hpp"
 
 #include <gtest/gtest.h>
 
