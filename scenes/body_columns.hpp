@@ -9,7 +9,7 @@
 #include "engine/world.hpp"
 #include "scenes/layout.hpp"
 #include "scenes/needs.hpp"
-#include "scenes/space/layout.hpp"
+#include "scenes/solid_layout.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {

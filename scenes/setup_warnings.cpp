@@ -10,9 +10,9 @@
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
 #include "scenes/checks/servo_warnings.hpp"
+#include "scenes/checks/solids/solid_warnings.hpp"
 #include "scenes/checks/travel.hpp"
 #include "scenes/packing/place.hpp"
-#include "scenes/space/space_warnings.hpp"
 #include "scenes/spec/elastic_response.hpp"
 #include "scenes/tools/die_sides.hpp"
 

@@ -10,7 +10,7 @@
 #include "engine/access.hpp"
 #include "scenes/packing/solids/rigid_shape.hpp"
 #include "scenes/results/parts/visit_particles.hpp"
-#include "scenes/space/results/tool_sheets.hpp"
+#include "scenes/results/solids/tool_sheets.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis {

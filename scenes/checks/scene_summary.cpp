@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "scenes/checks/solids/class_shape.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/meshes/mesh.hpp"
 #include "scenes/packing/packing_file.hpp"
-#include "scenes/space/class_shape.hpp"
 
 namespace pulvis {
 namespace {

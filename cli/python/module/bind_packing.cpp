@@ -8,11 +8,11 @@
 #include "cli/python/module/module.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/language/problem.hpp"
+#include "scenes/meshes/hexahedra/mesh.hpp"
 #include "scenes/meshes/mesh.hpp"
 #include "scenes/packing/packing_file.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
-#include "scenes/space/meshes/mesh.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis::python {

@@ -9,13 +9,13 @@
 
 #include "engine/portable_math.hpp"
 #include "engine/result_cache.hpp"
+#include "scenes/meshes/hexahedra/convex_hull.hpp"
+#include "scenes/meshes/hexahedra/mesh.hpp"
+#include "scenes/meshes/hexahedra/rounded_polyhedron.hpp"
+#include "scenes/meshes/hexahedra/star_surface.hpp"
+#include "scenes/meshes/hexahedra/stl.hpp"
+#include "scenes/meshes/hexahedra/triangle.hpp"
 #include "scenes/packing/solids/rigid_contact.hpp"
-#include "scenes/space/meshes/convex_hull.hpp"
-#include "scenes/space/meshes/mesh.hpp"
-#include "scenes/space/meshes/rounded_polyhedron.hpp"
-#include "scenes/space/meshes/star_surface.hpp"
-#include "scenes/space/meshes/stl.hpp"
-#include "scenes/space/meshes/triangle.hpp"
 
 namespace pulvis::space {
 namespace {
