@@ -7,8 +7,8 @@
 #include "components/body.hpp"
 #include "components/run_state.hpp"
 #include "components/space/formulation.hpp"
-#include "scenes/space/body_columns.hpp"
-#include "scenes/space/meshes/element_constants.hpp"
+#include "scenes/body_columns.hpp"
+#include "scenes/meshes/hexahedra/element_constants.hpp"
 #include "systems/space/body/systems.hpp"
 
 namespace pulvis::space {
@@ -34,6 +34,7 @@ Shape cube(int n) {
 
 Scene scene_of(bool plastic) {
   Scene scene;
+  scene.dimension = 3;
   MaterialSpec& m = scene.materials.emplace_back();
   m.density = 8930;
   m.youngs_modulus = 117e9;
@@ -46,19 +47,21 @@ Scene scene_of(bool plastic) {
 // `chunks` of eight cubes.
 std::unique_ptr<World> cubes(const Scene& scene, Formulation formulation, int n, int chunks) {
   auto world = std::make_unique<World>();
-  Bodies bodies;
+  Layout layout;
+  Bodies& bodies = layout.bodies;
   bodies.formulation = formulation;
   bodies.slots.resize(static_cast<std::size_t>(chunks * lane_count));
   bodies.hold_all();
-  Shapes shapes;
-  shapes.list.push_back(cube(n));
-  add_body_columns(*world, scene, bodies, shapes);
+  layout.shapes.list.push_back(cube(n));
   const BodySpec spec;
-  fill_bodies(*world, std::vector<std::optional<Placed>>(bodies.slots.size(), Placed{&spec}),
-              bodies, shapes);
+  layout.placed.assign(bodies.slots.size(), Placed{&spec});
+  Needs needs = needs_of(scene, bodies.slots.size());
+  needs.formulation = formulation;
+  add_body_columns(*world, layout, needs);
+  fill_bodies(*world, layout);
   fill_materials(*world, scene, bodies);
   world->emplace<Bodies>(std::move(bodies));
-  world->emplace<Shapes>(std::move(shapes));
+  world->emplace<Shapes>(std::move(layout.shapes));
   Clock& clock = world->emplace<Clock>();
   clock.dt = clock.dt_before = 1e-9;
   return world;

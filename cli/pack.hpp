@@ -8,9 +8,6 @@
 
 namespace pulvis {
 
-// One line for each random packing: its result.
-std::string packing_summary(const Scene& scene);
-
 ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace pulvis

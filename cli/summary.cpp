@@ -15,6 +15,7 @@
 #include "engine/files/own_files.hpp"
 #include "engine/instruction_set.hpp"
 #include "scenes/results/bond_results.hpp"
+#include "scenes/spec/dimension_words.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/tools/surface.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -25,9 +26,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json components_json(const Scene& scene, const double* v) {
-  Json json{v[0], v[1]};
-  if (scene.in_space()) json.push_back(v[2]);
-  return json;
+  const std::span<const double> components = components_of(scene, v);
+  return Json(std::vector<double>(components.begin(), components.end()));
 }
 
 // `at`: its position, m.

@@ -1,4 +1,5 @@
 #include "scenes/build.hpp"
+#include "scenes/body_columns.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/checks/travel.hpp"
 
@@ -15,6 +16,7 @@
 #include "components/servo.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
+#include "scenes/build_solids.hpp"
 #include "scenes/grains/grains.hpp"
 #include "scenes/highest_mode.hpp"
 #include "scenes/layout.hpp"
@@ -24,14 +26,12 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/ranks/share.hpp"
 #include "scenes/results/observe.hpp"
-#include "scenes/space/build.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/cell.hpp"
 #include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "scenes/tools/drives.hpp"
 #include "scenes/tools/surface.hpp"
-#include "systems/laws/flow_law.hpp"
 
 namespace pulvis {
 
@@ -40,63 +40,6 @@ namespace {
 // Surfaces must move by this many skins relative to each other before non-neighbours can come close:
 // more than neighbours move, and few enough to keep lists short.
 constexpr double skins_of_neighbourhood = 8;
-
-template <class Count>
-std::vector<std::int32_t> rows_by_chunk(const Bodies& bodies, const Count& count) {
-  std::vector<std::int32_t> rows;
-  for (int c = 0; c < bodies.chunks(); ++c)
-    rows.push_back(static_cast<std::int32_t>(count(bodies.shape_of_chunk(Chunk{c}))));
-  return rows;
-}
-
-template <class F>
-void add_element_columns(World& world, const Needs& needs) {
-  world.add<DeviatoricStress<TwoD, F::points>>();
-  world.add<MeanStress<F::volumes>>();
-  if (F::stabilised) {
-    world.add<HourglassStress>();
-    world.add<MinCorner>();
-    world.add<HourglassEnergy>();
-  }
-  if (!needs.plastic) return;
-  world.add<IsochoricScale<F::points>>();
-  world.add<CpInverse<TwoD, F::points>>();
-  world.add<PlasticStrain<F::points>>();
-  if (F::stabilised) {
-    world.add<PlasticHourglass<TwoD>>();
-    world.add<HourglassWork>();
-  }
-}
-
-void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
-  world.add_table<Node>(rows_by_chunk(bodies, [](const Shape& s) { return s.nodes.size(); }));
-  world.add_table<Element>(rows_by_chunk(bodies, [](const Shape& s) { return s.quads.size(); }));
-  world.add_table<Particle>(rows_by_chunk(bodies, [](const Shape&) { return 1; }));
-  world.add<Position<TwoD>>();
-  world.add<Velocity<TwoD>>();
-  world.add<InternalForce<TwoD>>();
-  with_formulation(bodies.formulation, [&]<class F>(F) { add_element_columns<F>(world, needs); });
-  world.add<ShearModulus>();
-  world.add<BulkModulus>();
-  world.add<Density>();
-  world.add<MinJacobian>();
-  world.add<WorstElement>();
-  world.add<StableTimeStep>();
-  world.add<KineticEnergy>();
-  world.add<ElasticEnergy>();
-  if (needs.bulk_damping) {
-    world.add<DampingForce<TwoD>>();
-    world.add<MassDamping>();
-    world.add<StiffnessDamping>();
-    world.add<DampingWork>();
-  }
-  if (!needs.plastic) return;
-  world.add<YieldStress>();
-  world.add<HardeningModulus>();
-  world.add<PlasticWork>();
-  world.add<WorkBeyondHardening>();
-  if (needs.flow_laws) world.add<ReturnResidual>();
-}
 
 template <class At>
 void add_row_columns(World& world, const Needs& needs) {
@@ -133,21 +76,26 @@ double longest_edge(const Bodies& bodies) {
 }
 
 void add_bonds(World& world, const Needs& needs) {
-  if (needs.bonds) {
+  if (needs.bonds()) {
     add_bond_columns<Contact>(world, needs.welds);
     world.add<CurveAnchor>();
   }
-  if (needs.tool_bonds) {
+  if (needs.tool_bonds()) {
     add_bond_columns<ToolContact>(world, needs.tool_welds);
     world.add<ToolAnchor>();
   }
 }
 
 void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs) {
-  world.add_table<BoundaryNode>(
-      rows_by_chunk(bodies, [](const Shape& s) { return s.boundary_nodes; }));
+  const auto rows_by_chunk = [&](const auto& count) {
+    std::vector<std::int32_t> rows;
+    for (int c = 0; c < bodies.chunks(); ++c)
+      rows.push_back(count(bodies.shape_of_chunk(Chunk{c})));
+    return rows;
+  };
+  world.add_table<BoundaryNode>(rows_by_chunk([](const Shape& s) { return s.boundary_nodes; }));
   world.add_table<ControlPoint>(
-      rows_by_chunk(bodies, [](const Shape& s) { return lane_count * s.control_points(); }));
+      rows_by_chunk([](const Shape& s) { return lane_count * s.control_points(); }));
   world.add<ContactForce<TwoD>>();
   world.add<CurvePosition>();
   world.add<CurveBefore>();
@@ -158,77 +106,16 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
     add_row_columns<Contact>(world, needs);
     world.add<ContactPlace>();
     world.add<ClosestPoint>();
-    if (needs.friction || needs.bonds) world.add<SlopeLoad>();
+    if (needs.friction || needs.bonds()) world.add<SlopeLoad>();
   }
   if (needs.tools) add_row_columns<ToolContact>(world, needs);
   if (needs.polylines) world.add<SurfaceRange>();
-}
-
-void fill_bodies(World& world, const Layout& layout) {
-  auto& x = world.column<Position<TwoD>>();
-  auto& v = world.column<Velocity<TwoD>>();
-  layout.bodies.for_own_lanes([&](int own) {
-    const auto slot = static_cast<std::size_t>(own);
-    const Chunk chunk{static_cast<std::int32_t>(slot / lane_count)};
-    const int lane = static_cast<int>(slot % lane_count);
-    const Placed* placed = layout.placed[slot];
-    const Shape& shape = layout.bodies.shape_of_chunk(chunk);
-    const auto first =
-        static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(chunk.index)]);
-    const std::vector<Vec2> arms = turned_nodes(shape, placed ? placed->turn : 0);
-    for (std::size_t n = 0; n < arms.size(); ++n) {
-      const Vec2& arm = arms[n];
-      Lane* at = x.lanes() + 2 * (first + n);
-      Lane* rate = v.lanes() + 2 * (first + n);
-      const Vec2 where = placed ? Vec2(in_plane(placed->body->position) + arm) : arm;
-      at[0][lane] = where.x();
-      at[1][lane] = where.y();
-      if (!placed) continue;
-      const double omega = placed->body->angular_velocity.z();
-      rate[0][lane] = placed->body->velocity.x() - omega * arm.y();
-      rate[1][lane] = placed->body->velocity.y() + omega * arm.x();
-    }
-  });
 }
 
 NodePlaces undeformed_nodes(const World& world, const Layout& layout) {
   return [&](int slot) {
     return placed_nodes(world.resource<Bodies>().shape_of_slot(slot), *entry(layout.placed, slot));
   };
-}
-
-void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
-  for (std::size_t slot = 0; slot < bodies.slots.size(); ++slot) {
-    const MaterialSpec& m = scene.materials[static_cast<std::size_t>(bodies.slots[slot].material)];
-    world.column<ShearModulus>().values()[slot] = m.youngs_modulus / (2 * (1 + m.poissons_ratio));
-    world.column<BulkModulus>().values()[slot] =
-        m.youngs_modulus / (3 * (1 - 2 * m.poissons_ratio));
-    world.column<Density>().values()[slot] = m.density;
-    if (world.has<MassDamping>()) {
-      world.column<MassDamping>().values()[slot] = m.mass_damping;
-      world.column<StiffnessDamping>().values()[slot] = m.stiffness_damping;
-    }
-    if (!world.has<YieldStress>()) continue;
-    world.column<YieldStress>().values()[slot] =
-        m.yield_stress.value_or(std::numeric_limits<double>::infinity());
-    world.column<HardeningModulus>().values()[slot] = m.hardening_modulus;
-  }
-}
-
-// For materials without one: linear hardening, whose constants are in columns.
-FlowLaws flow_laws(const Scene& scene) {
-  FlowLaws laws;
-  for (const MaterialSpec& m : scene.materials)
-    laws.of_material.push_back(m.flow ? *m.flow : FlowLaw{});
-  return laws;
-}
-
-// The tool position in the history; for a constraint, the centre of its box, or its centre.
-Vec2 start_of(const ToolSpec& tool) {
-  if (tool.shape == ToolSpec::Shape::polyline) return tool.points.front();
-  if (is_constraint(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
-    return (tool.low + tool.high) / 2;
-  return in_plane(tool.point);
 }
 
 ToolShapes tool_shapes(const Scene& scene) {
@@ -245,20 +132,9 @@ ToolShapes tool_shapes(const Scene& scene) {
 
 void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies,
                const Needs& needs) {
-  world.add_table<Tool>(scene.tools.size());
-  world.add<ToolPosition>();
-  world.add<ToolVelocity>();
-  if (needs.tools) world.add<ToolNormal>();
-  world.add<ToolForce>();
-  for (std::size_t t = 0; t < scene.tools.size(); ++t)
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto axis = static_cast<Eigen::Index>(k);
-      if (needs.tools)
-        world.column<ToolNormal>().values()[tool_axes * t + k] = scene.tools[t].normal[axis];
-      world.column<ToolPosition>().values()[tool_axes * t + k] = start_of(scene.tools[t])[axis];
-    }
+  add_tool_columns(world, scene, needs.tools);
   if (needs.polylines || needs.constraints) world.emplace<ToolShapes>(tool_shapes(scene));
-  add_drives(world, scene, bodies);
+  add_drives<TwoD>(world, scene, bodies);
 }
 
 double shortest_edge(const Bodies& bodies) {
@@ -292,12 +168,6 @@ void add_hollows(World& world, const Bodies& bodies) {
     world.emplace<Hollows>(std::move(hollows));
 }
 
-void add_clock(World& world, const Scene& scene) {
-  Clock& clock = world.emplace<Clock>();
-  clock.safety = scene.time.safety;
-  for (const StageSpec& stage : scene.stages) clock.end += stage.duration;
-}
-
 std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
   if (scene.in_space()) return space::build_world(scene, part);
   const std::vector<BodySpec> particles = place_bodies(scene);
@@ -310,12 +180,12 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
 
   std::unique_ptr<World> world = empty_world(part);
   hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout));
-  add_body_columns(*world, layout.bodies, needs);
+  add_body_columns(*world, layout, needs);
   if (needs.tools || needs.constraints) add_tools(*world, scene, particles, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     add_cell(*world, scene, particles);
-    if (scene.cell) add_drives(*world, scene, particles);
+    if (scene.cell) add_drives<TwoD>(*world, scene, particles);
     world->emplace<ContactQuality>();
     ContactRules& rules = world->emplace<ContactRules>(contact_rules(scene));
     find_thinnest(scene, layout.bodies, rules);
@@ -337,9 +207,8 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
   if (needs.contact() || needs.constraints) add_hollows(*world, layout.bodies);
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);
-  if (needs.flow_laws) world->emplace<FlowLaws>(flow_laws(scene));
-  add_clock(*world, scene);
-  world->emplace<Totals>();
+  add_flow_laws(*world, scene, needs);
+  add_run_state(*world, scene);
   if (has_bonds(scene)) {
     BondTotals& totals = world->emplace<BondTotals>();
     totals.made.assign(scene.bonds.size(), 0);

@@ -13,9 +13,6 @@ namespace pulvis {
 
 namespace {
 
-// Uniform in [0, 1) from the top 53 bits: identical on every machine and standard library.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
 // The order of particles in memory: neighbours in space are close in memory, regardless
 // of their order in the scene.
 class MemoryOrder {
@@ -40,6 +37,8 @@ class MemoryOrder {
 };
 
 }  // namespace
+
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 std::vector<std::vector<Placed>> placed_by_class(const Scene& scene,
                                                  const std::vector<BodySpec>& bodies) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <random>
 #include <vector>
 
 #include "components/particle_classes.hpp"
@@ -9,6 +10,9 @@
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
+
+// In [0, 1) from the top 53 bits: identical on every machine and standard library.
+double uniform(std::mt19937_64& random);
 
 // One particle in its lane: its shape, and the rotation from the shape's frame to the scene's.
 struct Placed {

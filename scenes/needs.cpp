@@ -19,9 +19,11 @@ bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& act
          (needs.tools && std::ranges::any_of(rules.tool_pairs, is));
 }
 
+// Of particles in two dimensions.
 template <class Is>
 bool any_outline(const Scene& scene, const Is& is) {
-  return std::ranges::any_of(scene.particles, [&](const ParticleSpec& p) { return is(p.outline); });
+  return !scene.in_space() &&
+         std::ranges::any_of(scene.particles, [&](const ParticleSpec& p) { return is(p.outline); });
 }
 
 }  // namespace
@@ -29,14 +31,14 @@ bool any_outline(const Scene& scene, const Is& is) {
 Needs needs_of(const Scene& scene, std::size_t particles) {
   Needs needs;
   needs.plastic = any_material_yields(scene);
-  for (const MaterialSpec& m : scene.materials) {
-    needs.flow_laws = needs.flow_laws || m.flow;
-  }
+  needs.flow_laws =
+      std::ranges::any_of(scene.materials, [](const MaterialSpec& m) { return bool(m.flow); });
   const auto any = [&](ToolSpec::Shape shape) {
     return std::ranges::any_of(scene.tools, [&](const ToolSpec& t) { return t.shape == shape; });
   };
   needs.polylines = any(ToolSpec::Shape::polyline);
-  needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
+  needs.tools = std::ranges::any_of(
+      scene.tools, [](const ToolSpec& t) { return t.shape != ToolSpec::Shape::constraint; });
   needs.constraints = any(ToolSpec::Shape::constraint);
   needs.cell = scene.cell.has_value();
   needs.pairs = particles > 1 || needs.cell || (needs.tools && any_outline(scene, can_fold)) ||
@@ -51,9 +53,9 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
     needs.adhesion = needs.contact() && has_adhesion(scene);
     needs.welds = needs.pairs && BondRules::any(bonds.pressed);
     needs.tool_welds = needs.tools && BondRules::any(bonds.tool_pressed);
-    needs.bonds = needs.welds ||
-                  (needs.pairs && (BondRules::any(bonds.initial) || BondRules::any(bonds.inside)));
-    needs.tool_bonds = needs.tool_welds || (needs.tools && BondRules::any(bonds.tool_initial));
+    needs.initial_bonds =
+        needs.pairs && (BondRules::any(bonds.initial) || BondRules::any(bonds.inside));
+    needs.tool_initial_bonds = needs.tools && BondRules::any(bonds.tool_initial);
   }
   needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;

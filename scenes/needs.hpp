@@ -13,18 +13,20 @@ struct Needs {
   bool tools = false;      // something that particles touch
   bool polylines = false;
   bool constraints = false;
-  bool friction = false;   // a coefficient above zero can take effect
-  bool weakening = false;  // and a law beyond Coulomb's
-  bool cell = false;       // periodic
-  bool bonds = false;      // between particles
-  bool tool_bonds = false;
+  bool friction = false;       // a coefficient above zero can take effect
+  bool weakening = false;      // and a law beyond Coulomb's
+  bool cell = false;           // periodic
+  bool initial_bonds = false;  // between particles
+  bool tool_initial_bonds = false;
   bool welds = false;  // formed by pressure, between particles
   bool tool_welds = false;
   bool adhesion = false;      // surfaces attract each other
   bool damping = false;       // of contacts
   bool bulk_damping = false;  // of a material
   Formulation formulation = Formulation::one_point;
-  bool any_bonds() const { return bonds || tool_bonds; }
+  bool bonds() const { return initial_bonds || welds; }
+  bool tool_bonds() const { return tool_initial_bonds || tool_welds; }
+  bool any_bonds() const { return bonds() || tool_bonds(); }
   bool contact() const { return pairs || tools; }
 };
 

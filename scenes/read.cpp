@@ -6,6 +6,7 @@
 #include "engine/files/xxh3.hpp"
 #include "scenes/checks/accuracy.hpp"
 #include "scenes/checks/expect_checks.hpp"
+#include "scenes/checks/solids/accuracy.hpp"
 #include "scenes/checks/state_checks.hpp"
 #include "scenes/fill_die.hpp"
 #include "scenes/grains/grains.hpp"
@@ -22,8 +23,6 @@
 #include "scenes/packing/fill_packings.hpp"
 #include "scenes/scene_checks.hpp"
 #include "scenes/scene_files.hpp"
-#include "scenes/space/accuracy.hpp"
-#include "scenes/space/packing/fill_packings.hpp"
 #include "scenes/spec/flow_laws.hpp"
 #include "scenes/tools/profile.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -159,7 +158,6 @@ void check_family(Scene& scene, const schema::Origins& origins, Problems& proble
 
 // Packings, grains and profiles.
 void make_powder(Scene& scene, const schema::Origins& origins, Problems& problems) {
-  if (scene.in_space()) return space::fill_packings(scene, origins, problems);
   fill_packings(scene, origins, problems);
   problems.throw_if_any();
   make_grains(scene, origins, problems);

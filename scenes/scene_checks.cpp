@@ -8,10 +8,11 @@
 #include "scenes/checks/cell_checks.hpp"
 #include "scenes/checks/outline_particles.hpp"
 #include "scenes/checks/process_checks.hpp"
+#include "scenes/checks/solids/solid_particles.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/observe.hpp"
-#include "scenes/space/solid_particles.hpp"
+#include "scenes/spec/dimension_words.hpp"
 #include "scenes/spec/material_checks.hpp"
 #include "scenes/tools/drawn_face.hpp"
 #include "scenes/tools/tool_checks.hpp"
@@ -99,7 +100,7 @@ class Checks {
     if (total > most)
       problems_.add({{1, 1}, -1}, "particle",
                     fmt::format("all meshes together have {} {}, allowed: at most {}", total,
-                                scene_.in_space() ? "hexahedra" : "quads", most));
+                                words_of(scene_).elements, most));
   }
 
   void packings() {
@@ -139,7 +140,7 @@ class Checks {
       refuse(path + ".spacing",
              fmt::format("required key is missing: only {} have a default spacing, allowed: a "
                          "quantity in m",
-                         scene_.in_space() ? "spheres" : "discs and rings"));
+                         words_of(scene_).round));
   }
 
   // m, of discs, rings and spheres.

@@ -7,9 +7,12 @@
 #include <limits>
 
 #include "engine/portable_math.hpp"
+#include "scenes/checks/bending_error.hpp"
+#include "scenes/checks/bond_checks.hpp"
+#include "scenes/checks/servo_warnings.hpp"
+#include "scenes/checks/solids/solid_warnings.hpp"
 #include "scenes/checks/travel.hpp"
 #include "scenes/packing/place.hpp"
-#include "scenes/space/space_warnings.hpp"
 #include "scenes/spec/elastic_response.hpp"
 #include "scenes/tools/die_sides.hpp"
 
@@ -150,6 +153,18 @@ std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<Bo
       fast.speed > 0 ? scene.tools[static_cast<std::size_t>(fast.tool)].name : "";
   for (const std::string& line : {too_fast(scene, fast, tool), wall_apart(scene)})
     if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> all_warnings(const Scene& scene, const std::vector<BodySpec>& bodies,
+                                      const World* world) {
+  std::vector<std::string> lines = bending_warnings(scene);
+  const auto add = [&](const std::vector<std::string>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+  };
+  if (world != nullptr) add(bond_warnings(scene, *world));
+  add(setup_warnings(scene, bodies));
+  if (world != nullptr) add(servo_warnings(scene, *world));
   return lines;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/world.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
@@ -28,5 +29,10 @@ FastTool fastest_tool(const Scene& scene);
 
 // One line for each warning. The packings must be filled.
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);
+
+// Everything that can be told before the first step: those, and warnings of bonds and servos, which need the world in its
+// initial state. `world`: null if there is not enough memory for it.
+std::vector<std::string> all_warnings(const Scene& scene, const std::vector<BodySpec>& bodies,
+                                      const World* world);
 
 }  // namespace pulvis

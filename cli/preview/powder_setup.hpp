@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/world.hpp"
@@ -9,15 +10,17 @@
 
 namespace pulvis {
 
-// materials, classes (with counts and sizes), particles (outlines as meshed), tools, die, cell, regions, bonds, stages.
+// materials, friction, classes (with counts and sizes), particles, tools, bonds, stages; in two dimensions die, cell and
+// regions.
 nlohmann::json powder_setup(const Scene& scene, const std::vector<BodySpec>& particles,
                             const World& world);
 
-// Also used in three dimensions.
-nlohmann::json materials_setup(const Scene& scene);
-nlohmann::json pairs_setup(
-    const Scene& scene);  // friction between particles, for every pair of materials
-nlohmann::json bond_laws(const Scene& scene);
-void widen(nlohmann::json& range, double value);  // [lowest, highest], null before the first
+struct ClassSize {      // m
+  double diameter = 0;  // of the circle or sphere of equal area or volume
+  std::optional<double> width, height;
+};
+
+// The class that the scene declares: sizes of a packing are classes of their own.
+const ParticleSpec& base_of(const Scene& scene, const BodySpec& body);
 
 }  // namespace pulvis

@@ -8,7 +8,6 @@
 #include "cli/preview/lever_setup.hpp"
 #include "cli/preview/powder_setup.hpp"
 #include "cli/preview/scene_check.hpp"
-#include "cli/preview/space_setup.hpp"
 #include "cli/python_scripts/python_scripts.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/output_error.hpp"
@@ -17,7 +16,6 @@
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
-#include "scenes/space/overlaps.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis {
@@ -41,16 +39,6 @@ json of_powder(const Scene& scene, SceneFindings& findings) {
   Simulation simulation(scene);
   json setup = powder_setup(scene, particles, simulation.world());
   findings = findings_of(scene, particles, need, &simulation);
-  return setup;
-}
-
-json of_space(const Scene& scene, SceneFindings& findings) {
-  const std::vector<BodySpec> bodies = place_bodies(scene);
-  space::check_overlaps(scene, bodies);
-  const MemoryNeed need = require_memory(scene);
-  Simulation simulation(scene);
-  json setup = space_setup(scene, bodies, simulation.world());
-  findings = findings_of(scene, bodies, need, &simulation);
   return setup;
 }
 
@@ -78,9 +66,7 @@ ExitCode draw_preview(const PreviewOptions& options) {
   require_another(scene.file, options.output);
   require_own_or_none(options.output, role::figure);
   SceneFindings findings;
-  json setup = scene.afm          ? of_lever(scene, findings)
-               : scene.in_space() ? of_space(scene, findings)
-                                  : of_powder(scene, findings);
+  json setup = scene.afm ? of_lever(scene, findings) : of_powder(scene, findings);
   tell_findings(findings);
   setup["title"] = scene.title;
   setup["file"] = scene.file.filename().string();

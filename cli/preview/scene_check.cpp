@@ -2,32 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <iterator>
 #include <optional>
 
-#include "cli/pack.hpp"
 #include "cli/preview/estimate.hpp"
 #include "cli/setup_progress.hpp"
 #include "cli/tell.hpp"
 #include "engine/machine_memory.hpp"
 #include "engine/run_failure.hpp"
-#include "scenes/checks/bending_error.hpp"
-#include "scenes/checks/bond_checks.hpp"
 #include "scenes/checks/lever_warnings.hpp"
-#include "scenes/checks/mesh_summary.hpp"
 #include "scenes/checks/overlaps.hpp"
-#include "scenes/checks/servo_warnings.hpp"
+#include "scenes/checks/scene_summary.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/lever/afm_size.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/setup_warnings.hpp"
-#include "scenes/space/overlaps.hpp"
-#include "scenes/space/space_summary.hpp"
 #include "scenes/spec/afm_scene.hpp"
-#include "scenes/tools/bond_rules.hpp"
 
 namespace pulvis {
 namespace {
@@ -42,12 +33,6 @@ std::string estimate_line(Simulation* simulation) {
   }
 }
 
-void add_servo_warnings(const Scene& scene, Simulation* simulation,
-                        std::vector<std::string>& lines) {
-  if (simulation != nullptr)
-    std::ranges::move(servo_warnings(scene, simulation->world()), std::back_inserter(lines));
-}
-
 std::string memory_line(const MemoryNeed& need) {
   return fmt::format("memory: about {}: particles {}, contacts {}, results {}, program {}",
                      bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
@@ -56,24 +41,12 @@ std::string memory_line(const MemoryNeed& need) {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
-                                     Simulation* simulation) {
-  std::vector<std::string> lines;
-  if (!scene.in_space()) lines = bending_warnings(scene);
-  if (simulation != nullptr && !scene.in_space() &&
-      has_bonds(scene))  // bonds are known only after a contact search
-    std::ranges::move(bond_warnings(scene, simulation->world()), std::back_inserter(lines));
-  std::ranges::move(setup_warnings(scene, bodies), std::back_inserter(lines));
-  add_servo_warnings(scene, simulation, lines);
-  return lines;
-}
-
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                           const MemoryNeed& need, Simulation* simulation) {
   SceneFindings findings;
-  findings.sizes = scene.in_space() ? space::packing_summary(scene) + space::mesh_summary(scene)
-                                    : packing_summary(scene) + mesh_summary(scene);
-  findings.warnings = warnings_of(scene, bodies, simulation);
+  findings.sizes = packing_summary(scene) + mesh_summary(scene);
+  findings.warnings =
+      all_warnings(scene, bodies, simulation == nullptr ? nullptr : &simulation->world());
   findings.memory = memory_line(need);
   findings.run = estimate_line(simulation);
   findings.verdict =
@@ -87,7 +60,7 @@ namespace {
 SceneFindings findings_of_powder(const Scene& scene) {
   const SetupProgress progress;
   const std::vector<BodySpec> bodies = place_bodies(scene);
-  scene.in_space() ? space::check_overlaps(scene, bodies) : check_overlaps(scene, bodies);
+  check_overlaps(scene, bodies);
   const MemoryNeed need = memory_need(scene);
   std::optional<Simulation> simulation;
   if (need.total() <= available_memory()) simulation.emplace(scene);

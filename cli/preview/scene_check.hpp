@@ -12,10 +12,6 @@
 
 namespace pulvis {
 
-// Everything that can be said before the first step. `simulation`: at its start; null if memory is too small.
-std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
-                                     Simulation* simulation);
-
 // What is reported about a scene, in the order of its lines.
 struct SceneFindings {
   std::string sizes;                  // of packings and meshes: complete lines
@@ -23,7 +19,7 @@ struct SceneFindings {
   std::string memory, run;            // one line each, or empty
   std::string verdict;                // one line
 };
-// Advances the simulation.
+// Advances the simulation. `simulation`: at its start; null if memory is too small.
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
                           const MemoryNeed& need, Simulation* simulation);
 SceneFindings findings_of(const Scene& scene, const AfmModel& model);

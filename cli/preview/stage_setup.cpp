@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/enum_table.hpp"
-#include "scenes/space/tools/drives.hpp"
+#include "scenes/spec/dimension_words.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/tools/servo_checks.hpp"
 
@@ -16,9 +16,8 @@ constexpr EnumTable<StageSpec::Kind> stage_kinds{"settle", "compact", "hold",
                                                  "unload", "eject",   "shear"};
 
 json vector_of(const Vec3& v, const Scene& scene) {
-  json out{v.x(), v.y()};
-  if (scene.in_space()) out.push_back(v.z());
-  return out;
+  const std::span<const double> components = components_of(scene, v.data());
+  return json(std::vector<double>(components.begin(), components.end()));
 }
 
 const std::string& tool_name(const Scene& scene, int tool) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "cli/report/report.hpp"
@@ -15,7 +14,6 @@
 #include "engine/run_failure.hpp"
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
-#include "scenes/checks/servo_warnings.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/bond_results.hpp"
@@ -55,12 +53,6 @@ void check_limits(const Scene& scene, const Results& results, const World& world
     hold("kinetic_energy", results.kinetic_ratio(), *scene.limits.kinetic_energy);
 }
 
-std::vector<std::string> warnings_at_start(const Scene& scene, const World& world) {
-  std::vector<std::string> lines = setup_warnings(scene, place_bodies(scene));
-  std::ranges::move(servo_warnings(scene, world), std::back_inserter(lines));
-  return lines;
-}
-
 }  // namespace
 
 std::vector<std::string> driven_in(const Checkpoint& checkpoint) {
@@ -94,11 +86,10 @@ void Session::begin() {
                       fmt::format("{:016x}", loaded_.hash), loaded_.scene.seed, options_.threads},
         results_.mesh(), results_.series(), results_.fields(), simulated_time, results_.tables()));
   }
-  if (std::FILE* to = options_.warns_on) {
-    for (const std::string& line : bond_warnings_) tell(to, "warning: {}\n", line);
-    for (const std::string& line : warnings_at_start(loaded_.scene, simulation_->whole()))
+  if (std::FILE* to = options_.warns_on)
+    for (const std::string& line :
+         all_warnings(loaded_.scene, place_bodies(loaded_.scene), &simulation_->whole()))
       tell(to, "warning: {}\n", line);
-  }
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks);
 }
 

@@ -33,7 +33,7 @@ struct Shape {
   // m: xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta.
   static constexpr int modes = 7, stretches = 3, hourglasses = 4;
 
-  // Constants of an element's kinematics (scenes/space/meshes/element_constants.cpp). a_1, a_2, a_3 are the columns of
+  // Constants of an element's kinematics (scenes/meshes/hexahedra/element_constants.cpp). a_1, a_2, a_3 are the columns of
   // dX/d(xi, eta, zeta) at the centre: half its edges.
   struct Element {
     // 1/m: the mean of dN_I/dX over the undeformed element is sum_m mode_sign(m, I) gradient[m]; F = sum_m X_m gradient[m].

@@ -14,6 +14,7 @@
 #include "components/space/bond.hpp"
 #include "engine/portable_math.hpp"
 #include "scenes/language/problem.hpp"
+#include "scenes/spec/dimension_words.hpp"
 
 namespace pulvis {
 namespace {
@@ -77,7 +78,7 @@ void add_interfaces(const World& world, Interfaces& all) {
 
 // In three dimensions; the extent of an interface is that of a square with its area.
 template <class At>
-void add_interfaces_in_space(const World& world, Interfaces& all) {
+void add_face_interfaces(const World& world, Interfaces& all) {
   if (!world.has<space::BondedPoints<At>>()) return;
   const auto& bodies = world.resource<Bodies>();
   const auto& pair = world.column<ContactPair<At>>();
@@ -104,10 +105,10 @@ Interfaces interfaces_of(const World& world) {
   Interfaces all;
   add_interfaces<Contact>(world, all);
   add_interfaces<ToolContact>(world, all);
-  Interfaces in_space;
-  add_interfaces_in_space<FaceContact>(world, in_space);
-  add_interfaces_in_space<FaceToolContact>(world, in_space);
-  for (auto& [key, found] : in_space) {
+  Interfaces of_faces;
+  add_face_interfaces<FaceContact>(world, of_faces);
+  add_face_interfaces<FaceToolContact>(world, of_faces);
+  for (auto& [key, found] : of_faces) {
     found.length = std::sqrt(found.length);
     all[key] = found;
   }
@@ -193,9 +194,8 @@ std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
         "bond[{}] between '{}' and '{}': the cohesive zone ahead of a crack spans {:.3g} {}, at "
         "least {} are needed to resolve it: use {} of {:.3g} m, they are up to {:.3g} m {}",
         law, entry(scene.bonds, law).first, entry(scene.bonds, law).second, worst.zone / worst.edge,
-        scene.in_space() ? "faces" : "boundary edges", edges_in_zone,
-        scene.in_space() ? "faces" : "edges", worst.zone / edges_in_zone, worst.edge,
-        scene.in_space() ? "wide" : "long"));
+        words_of(scene).sides, edges_in_zone, words_of(scene).sides, worst.zone / edges_in_zone,
+        worst.edge, words_of(scene).extent));
   return lines;
 }
 

@@ -25,13 +25,13 @@ void refuse_far(const Scene& scene, const FarParticle& particle);
 
 // Of all `bodies` of a scene in the plane or in space, the one for which round-off counts most. `size_of` gives the size
 // of a class, m.
-template <class Placing, class Body, class SizeOf>
-void check_distance(const Scene& scene, const Placing& placing, const std::vector<Body>& bodies,
+template <class SizeOf>
+void check_distance(const Scene& scene, const std::vector<BodySpec>& bodies,
                     const SizeOf& size_of) {
   std::map<int, double> sizes;
-  const Body* worst = nullptr;
+  const BodySpec* worst = nullptr;
   FarParticle found{"particle", {}, "", 0, 1};
-  for (const Body& body : bodies) {
+  for (const BodySpec& body : bodies) {
     const auto [size, fresh] = sizes.try_emplace(body.particle, 0);
     if (fresh) size->second = size_of(body);
     const double distance = body.position.cwiseAbs().maxCoeff();
@@ -42,9 +42,9 @@ void check_distance(const Scene& scene, const Placing& placing, const std::vecto
   }
   if (worst == nullptr) return;
   found.mark = worst->mark;
-  found.name = placing.particles[static_cast<std::size_t>(worst->particle)].name;
-  for (std::size_t i = 0; i < placing.packings.size(); ++i)
-    if (placing.packings[i].mark == worst->mark) found.key = fmt::format("packing[{}]", i);
+  found.name = scene.class_of(*worst).name;
+  for (std::size_t i = 0; i < scene.packings.size(); ++i)
+    if (scene.packings[i].mark == worst->mark) found.key = fmt::format("packing[{}]", i);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     if (scene.bodies[i].mark == worst->mark) found.key = fmt::format("body[{}].position", i);
   refuse_far(scene, found);

@@ -10,7 +10,7 @@
 #include "scenes/checks/faces.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/outlines/outline.hpp"
-#include "scenes/space/packing/rigid_shape.hpp"
+#include "scenes/packing/solids/rigid_shape.hpp"
 #include "scenes/tools/die_room.hpp"
 #include "scenes/tools/die_sides.hpp"
 
@@ -55,7 +55,8 @@ std::optional<Enclosed> enclosed_volume(const Scene& scene) {
 // None if something else than flat walls, or another run, decides what is enclosed.
 std::optional<Enclosed> enclosed(const Scene& scene) {
   if (scene.initial_state) return std::nullopt;
-  return scene.in_space() ? enclosed_volume(scene) : enclosed_area(scene);
+  if (auto volume = enclosed_volume(scene)) return volume;
+  return enclosed_area(scene);
 }
 
 double content_of(const Scene& scene, const BodySpec& body) {

@@ -9,7 +9,7 @@
 #include "components/bond.hpp"
 #include "components/space/shape.hpp"
 #include "scenes/results/observables/result_rows.hpp"
-#include "scenes/space/results/bonded_faces.hpp"
+#include "scenes/results/solids/bonded_faces.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "systems/contact/contact_outlines.hpp"
 

@@ -3,7 +3,7 @@
 #include "components/body.hpp"
 #include "components/shape.hpp"
 #include "scenes/results/plane_values.hpp"
-#include "scenes/space/results/space_values.hpp"
+#include "scenes/results/solids/space_values.hpp"
 
 namespace pulvis {
 namespace {

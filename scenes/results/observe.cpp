@@ -7,7 +7,7 @@
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
-#include "scenes/space/results/observe.hpp"
+#include "scenes/results/solids/observe.hpp"
 #include "scenes/tools/die_sides.hpp"
 #include "scenes/tools/surface.hpp"
 

@@ -11,7 +11,7 @@
 #include "engine/portable_math.hpp"
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/plane_parts.hpp"
-#include "scenes/space/results/space_parts.hpp"
+#include "scenes/results/solids/space_parts.hpp"
 
 namespace pulvis {
 

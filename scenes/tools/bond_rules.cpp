@@ -8,6 +8,7 @@
 
 #include "engine/entry.hpp"
 #include "scenes/language/problem.hpp"
+#include "scenes/spec/dimension_words.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
@@ -190,8 +191,7 @@ BondRules bounded_by(const Bodies& bodies, const std::vector<SurfaceSprings>& of
            fmt::format("{:.4g} J/m^2 is less than the energy stored in the bond when it starts to "
                        "break at {:.4g} Pa, allowed: >= {:.4g} J/m^2 with this mesh; {} "
                        "or a higher `stiffness` allow less",
-                       energy, strength, least,
-                       scene.in_space() ? "smaller faces" : "finer edges")});
+                       energy, strength, least, words_of(scene).finer_sides)});
     };
     bound("fracture_energy", law.strength, law.energy);
     bound("shear_fracture_energy", law.shear_strength, law.shear_energy);

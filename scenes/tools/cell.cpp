@@ -60,8 +60,9 @@ void tune(MixedControl::Stage& stage, double response, const Powder& powder, dou
   stage.damping = 0.5 * std::sqrt(kernels::dragged_mass * share) * wave * area;
 }
 
-MixedControl control_of(const Scene& scene, const std::vector<BodySpec>& bodies, double area) {
-  const Powder powder = powder_of(scene, bodies);
+MixedControl control_of(const World& world, const Scene& scene, const std::vector<BodySpec>& bodies,
+                        double area) {
+  const Powder powder = powder_of<TwoD>(world, scene, bodies);
   MixedControl control;
   for (const StageSpec& spec : scene.stages) {
     const CellDriveSpec drive = spec.cell.value_or(CellDriveSpec{});
@@ -93,7 +94,7 @@ void add_cell(World& world, const Scene& scene, const std::vector<BodySpec>& bod
   cell.corner =
       cell.vectors.inverse() * Point{corner.x() - cell.centre[0], corner.y() - cell.centre[1]};
   cell.thickness = scene.thickness;
-  cell.control = control_of(scene, bodies, cell.area());
+  cell.control = control_of(world, scene, bodies, cell.area());
 }
 
 bool drives_walls(const Scene& scene) {
@@ -112,7 +113,7 @@ void add_driven_walls(World& world, const Scene& scene, const std::vector<BodySp
   DrivenWalls& walls = world.emplace<DrivenWalls>();
   walls.left = die.left, walls.right = die.right, walls.bottom = die.bottom, walls.top = die.top;
   walls.thickness = scene.thickness;
-  walls.control = control_of(scene, bodies, width * height);
+  walls.control = control_of(world, scene, bodies, width * height);
 }
 
 }  // namespace pulvis

@@ -3,23 +3,30 @@
 #include "scenes/tools/die_relief.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
 #include "engine/access.hpp"
-#include "scenes/outlines/outline.hpp"
 #include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/cell.hpp"
+#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/die_cell.hpp"
+#include "scenes/tools/die_room.hpp"
 #include "scenes/tools/powder.hpp"
 #include "scenes/tools/servo_checks.hpp"
 #include "scenes/tools/tool_drive.hpp"
 
 namespace pulvis {
 namespace {
+
+// The tool position in the history; for a constraint, the centre of its box, or its centre.
+Vec3 start_of(const ToolSpec& tool) {
+  if (tool.shape == ToolSpec::Shape::polyline) return in_space(tool.points.front());
+  if (is_constraint(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
+    return in_space((tool.low + tool.high) / 2);
+  return tool.point;
+}
 
 ToolProgram tool_program(const World& world, const Scene& scene) {
   ToolProgram program;
@@ -42,27 +49,16 @@ ToolProgram tool_program(const World& world, const Scene& scene) {
 }
 
 // ---- servos ---------------------------------------------------------------------------------------
-// Perpendicular to `direction`; particles count as discs of equal area.
-double width_of(const Scene& scene, const std::vector<BodySpec>& bodies, const Vec2& direction) {
-  double low = 1e300, high = -1e300;
-  for (const BodySpec& body : bodies) {
-    const auto& outline = scene.particles[static_cast<std::size_t>(body.particle)].outline;
-    const double radius = std::sqrt(outline_area(outline) / std::numbers::pi);
-    const double at = body.position.x() * direction.y() - body.position.y() * direction.x();
-    low = std::min(low, at - radius);
-    high = std::max(high, at + radius);
-  }
-  return high - low;
-}
-
-ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  const Powder powder = powder_of(scene, bodies);
+template <class D>
+ToolServos tool_servos(const World& world, const Scene& scene,
+                       const std::vector<BodySpec>& bodies) {
+  const Powder powder = powder_of<D>(world, scene, bodies);
   ToolServos servos;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (const ServoSpec& spec : scene.stages[s].servos) {
       const Vec3 direction = direction_of(spec, scene);
-      const double wave =
-          powder.impedance * width_of(scene, bodies, in_plane(direction)) * scene.thickness;
+      const double wave = powder.impedance * section_across<D>(world, scene, bodies, direction) *
+                          thickness_of<D>(scene);
       servos.servos.push_back(force_servo(spec, static_cast<int>(s), scene.stages[s].duration,
                                           values_of(direction), {powder.mass, wave}));
     }
@@ -71,39 +67,68 @@ ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) 
   return servos;
 }
 
+template <class D>
+void add_servos(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
+  world.add<ServoTravel>();
+  world.add<ServoVelocity>();
+  world.add<ServoMass>();
+  world.add<ServoDragged>();
+  world.add<ServoForce>();
+  world.emplace<ToolServos>(tool_servos<D>(world, scene, bodies));
+}
+
 // ---- ends -----------------------------------------------------------------------------------------
+// What a relative density refers to: the box between four tools, or a room between planes or in a die.
+template <class D>
+void set_enclosure(const World& world, const Scene& scene, double content, StageEnds& ends) {
+  if constexpr (D::axes == 2) {
+    ends.cell.particle_area = content;
+    if (const auto cell = die_cell(scene))
+      ends.cell = {cell->left, cell->right, cell->bottom,
+                   cell->top,  content,     relief_of(world, cell->bottom)};
+  } else {
+    ends.room = die_room(scene);
+    if (ends.room) ends.room->particle_volume = content;
+  }
+}
+
+template <class D>
 StageEnds stage_ends(const World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   StageEnds ends;
   ends.ends = early_ends(scene.stages, [&](int number) -> Point3 {
     const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
-    if (tool.shape != ToolSpec::Shape::plane) return {};
-    return values_of(tool.normal);
+    return has_face(tool) ? values_of(tool.normal) : Point3{};
   });
-  ends.cell.particle_area = powder_of(scene, bodies).area;
-  if (const auto cell = die_cell(scene))
-    ends.cell = {cell->left,
-                 cell->right,
-                 cell->bottom,
-                 cell->top,
-                 ends.cell.particle_area,
-                 relief_of(world, cell->bottom)};
+  set_enclosure<D>(world, scene, powder_of<D>(world, scene, bodies).content, ends);
   return ends;
 }
 
 }  // namespace
 
+void add_tool_columns(World& world, const Scene& scene, bool with_normals) {
+  world.add_table<Tool>(scene.tools.size());
+  world.add<ToolPosition>();
+  world.add<ToolVelocity>();
+  if (with_normals) world.add<ToolNormal>();
+  world.add<ToolForce>();
+  for (std::size_t t = 0; t < scene.tools.size(); ++t)
+    for (std::size_t k = 0; k < tool_axes; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      if (with_normals)
+        world.column<ToolNormal>().values()[tool_axes * t + k] = scene.tools[t].normal[axis];
+      world.column<ToolPosition>().values()[tool_axes * t + k] = start_of(scene.tools[t])[axis];
+    }
+}
+
+template <class D>
 void add_drives(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   world.emplace<ToolProgram>(tool_program(world, scene));
-  if (has_servos(scene)) {
-    world.add<ServoTravel>();
-    world.add<ServoVelocity>();
-    world.add<ServoMass>();
-    world.add<ServoDragged>();
-    world.add<ServoForce>();
-    world.emplace<ToolServos>(tool_servos(scene, bodies));
-  }
+  if (has_servos(scene)) add_servos<D>(world, scene, bodies);
   add_driven_walls(world, scene, bodies);
-  if (has_early_ends(scene.stages)) world.emplace<StageEnds>(stage_ends(world, scene, bodies));
+  if (has_early_ends(scene.stages)) world.emplace<StageEnds>(stage_ends<D>(world, scene, bodies));
 }
+
+template void add_drives<TwoD>(World&, const Scene&, const std::vector<BodySpec>&);
+template void add_drives<ThreeD>(World&, const Scene&, const std::vector<BodySpec>&);
 
 }  // namespace pulvis

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scenes/spec/dimension_words.hpp"
 #include "scenes/tools/die_cell.hpp"
 #include "scenes/tools/die_room.hpp"
 
@@ -63,7 +64,7 @@ class ServoChecks {
       return refuse(path, "direction",
                     fmt::format("required key is missing: only planes and punches have a normal, "
                                 "allowed: {} numbers, not all 0",
-                                scene_.in_space() ? "three" : "two"));
+                                words_of(scene_).components));
     if (has_face(tool(servo)) && pulls_off(scene_, tool(servo).name, direction, tool(servo).normal))
       refuse(path, "direction", fmt::format(pulled_off, tool(servo).name));
     for (const MoveSpec& move : stage_.moves)
@@ -113,9 +114,7 @@ class ServoChecks {
                        "along +x, -x, +y and -y"));
   }
 
-  bool has_die() const {
-    return scene_.in_space() ? die_room(scene_).has_value() : die_cell(scene_).has_value();
-  }
+  bool has_die() const { return die_room(scene_).has_value() || die_cell(scene_).has_value(); }
 
   const Scene& scene_;
   const StageSpec& stage_;

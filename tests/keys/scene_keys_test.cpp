@@ -22,7 +22,6 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
-#include "scenes/space/overlaps.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "tests/helpers/left.hpp"
 #include "tests/helpers/paths.hpp"
@@ -73,8 +72,6 @@ std::string fault_of_scene(const std::string& text, const fs::path& folder) {
     const Scene scene = load_scene_text(text, folder / "case.toml").scene;
     if (scene.afm)
       build_afm(scene);
-    else if (scene.in_space())
-      space::check_overlaps(scene, place_bodies(scene));
     else
       check_overlaps(scene, place_bodies(scene));
   });

@@ -8,13 +8,11 @@
 #include "cli/python/module/module.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/language/problem.hpp"
+#include "scenes/meshes/hexahedra/mesh.hpp"
 #include "scenes/meshes/mesh.hpp"
 #include "scenes/packing/packing_file.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
-#include "scenes/space/meshes/mesh.hpp"
-#include "scenes/space/overlaps.hpp"
-#include "scenes/space/packing/packing_file.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis::python {
@@ -46,7 +44,7 @@ py::dict packing_in_space(const Scene& scene) {
   {
     py::gil_scoped_release others_may_run;
     bodies = place_bodies(scene);
-    space::check_overlaps(scene, bodies);
+    check_overlaps(scene, bodies);
   }
   auto centres = table_of<double>(bodies.size(), 3), rotations = table_of<double>(bodies.size(), 4);
   py::array_t<std::int32_t> classes(array_index(bodies.size()));
@@ -66,7 +64,7 @@ py::dict packing_in_space(const Scene& scene) {
   all["rotations"] = rotations;
   all["classes"] = classes;
   all["names"] = names;
-  all["table"] = space::packing_text(scene, bodies);
+  all["table"] = packing_text(scene, bodies);
   return all;
 }
 

@@ -4,17 +4,21 @@
 
 #include <exception>
 #include <memory>
+#include <optional>
 
 #include "cli/python/module/interruptible.hpp"
 #include "cli/python/module/module.hpp"
 #include "cli/save_scene.hpp"
 #include "engine/interruption.hpp"
+#include "engine/machine_memory.hpp"
 #include "scenes/checks/lever_warnings.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/units.hpp"
+#include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/setup_warnings.hpp"
+#include "scenes/simulation.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis::python {
@@ -43,9 +47,13 @@ SharedScene loaded_by(const Read& read) {
   return scene;
 }
 
+// Those that `check` and `run` tell. Throws SceneError if the scene cannot be built.
 std::vector<std::string> warnings(const LoadedScene& loaded) {
-  if (loaded.scene.afm) return lever_warnings(loaded.scene);
-  return setup_warnings(loaded.scene, place_bodies(loaded.scene));
+  const Scene& scene = loaded.scene;
+  if (scene.afm) return lever_warnings(scene);
+  std::optional<Simulation> simulation;
+  if (memory_need(scene).total() <= available_memory()) simulation.emplace(scene);
+  return all_warnings(scene, place_bodies(scene), simulation ? &simulation->world() : nullptr);
 }
 
 // Writes into `folder`, with copies of the files it refers to.

@@ -76,7 +76,10 @@ class Scene:
         return None if self._core.file == NO_FILE else Path(self._core.file)
 
     def warnings(self) -> list[str]:
-        """Possible problems of the scene, although each value is valid: list of str."""
+        """Possible problems of the scene, although each value is valid, as `pulvis check` tells them: list of str.
+
+        Builds the scene, which takes as long as before a run.
+        """
         return self._core.warnings()
 
     def with_(self, overrides: dict[str, Any] | None = None, **keys: Any) -> Scene:

@@ -7,7 +7,7 @@
 #include "components/shape.hpp"
 #include "scenes/results/observables/enclosure.hpp"
 #include "scenes/results/observables/result_rows.hpp"
-#include "scenes/space/results/die_wall.hpp"
+#include "scenes/results/solids/die_wall.hpp"
 #include "scenes/spec/yield.hpp"
 #include "scenes/tools/die_room.hpp"
 

@@ -2,7 +2,7 @@
 // node_spring_energy: energy of the springs that keep the nodes near them (node_springs.hpp).
 // node_distance: how far nodes are from them. Contact does not feel the nodes: they may be beyond what the surface touches.
 //
-// Source   the terms are computed in scenes/space/meshes
+// Source   the terms are computed in scenes/meshes/hexahedra
 // Runs     after integrate; the contacts of the next step use its surfaces
 // Active   if there is contact
 #include <array>

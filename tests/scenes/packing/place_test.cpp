@@ -3,7 +3,6 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/read.hpp"
-#include "scenes/space/overlaps.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -284,9 +283,7 @@ TEST(CheckOverlaps, EveryShippedSceneHasRoom) {
     const Scene scene = read_scene(file);
     if (scene.afm) continue;
     const std::vector<BodySpec> bodies = place_bodies(scene);
-    EXPECT_NO_THROW(scene.in_space() ? space::check_overlaps(scene, bodies)
-                                     : check_overlaps(scene, bodies))
-        << file;
+    EXPECT_NO_THROW(check_overlaps(scene, bodies)) << file;
   }
 }
 

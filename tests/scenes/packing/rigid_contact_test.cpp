@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/packing/convex_pieces.hpp"
-#include "scenes/packing/rigid_contact.hpp"
+#include "scenes/packing/outlines/convex_pieces.hpp"
+#include "scenes/packing/outlines/rigid_contact.hpp"
 
 namespace pulvis {
 namespace {
@@ -54,7 +54,7 @@ TEST(RigidContact, FlatSidesTouchTwice) {
 
 TEST(RigidShape, HasTheMomentsOfItsOutline) {
   const RigidShape r = rigid_shape(RectangleOutline{4, 2}, 2, 1e-4);
-  EXPECT_NEAR(r.area, 2, 1e-9);
+  EXPECT_NEAR(r.content, 2, 1e-9);
   EXPECT_NEAR(r.gyration, (4.0 + 1.0) / 12, 1e-9);
   EXPECT_NEAR(r.min_width, 1, 1e-12);
   EXPECT_NEAR(r.reach, std::sqrt(1.25), 1e-9);
@@ -71,7 +71,7 @@ TEST(RigidShape, HasFewCornersOfACurveThroughManyPoints) {
   ASSERT_EQ(r.pieces.size(), 1U);
   EXPECT_GT(r.pieces[0].corners.size(), 60U);
   EXPECT_LE(r.pieces[0].corners.size(), 240U);
-  EXPECT_NEAR(r.area, std::numbers::pi, 1e-3);
+  EXPECT_NEAR(r.content, std::numbers::pi, 1e-3);
   EXPECT_NEAR(r.pieces[0].radius, 2e-4, 1e-12);  // of the polygon, and of what is left out
   EXPECT_GE(r.reach, 1);
   const RigidPose here{{0, 0}, {}}, beside{{3, 0}, {}};

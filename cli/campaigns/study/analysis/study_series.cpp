@@ -46,8 +46,8 @@ int tool_called(const Scene& scene, const std::string& name) {
 
 std::vector<double> travel(const Scene& scene, const std::string& tool, const History& history) {
   std::vector<double> distance;
-  for (const char* axis : {"x", "y", "z"}) {
-    if (!scene.in_space() && *axis == 'z') continue;
+  constexpr std::string_view axes = "xyz";
+  for (const char axis : axes.substr(0, static_cast<std::size_t>(scene.dimension))) {
     const std::vector<double> at = history("tool/" + tool + "/position_" + axis);
     distance.resize(at.size());
     for (std::size_t i = 0; i < at.size(); ++i)

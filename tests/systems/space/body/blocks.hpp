@@ -10,8 +10,8 @@
 
 #include "components/body.hpp"
 #include "components/run_state.hpp"
-#include "scenes/space/body_columns.hpp"
-#include "scenes/space/meshes/element_constants.hpp"
+#include "scenes/body_columns.hpp"
+#include "scenes/meshes/hexahedra/element_constants.hpp"
 #include "systems/space/body/systems.hpp"
 #include "tests/helpers/random_values.hpp"
 
@@ -72,20 +72,22 @@ class Body {
  public:
   explicit Body(Shape shape, const MaterialSpec& m) {
     Scene scene;
+    scene.dimension = 3;
     scene.materials = {m};
-    Bodies bodies;
-    bodies.formulation = F::stabilised ? Formulation::one_point : Formulation::four_point;
+    scene.element.formulation = F::stabilised ? Formulation::one_point : Formulation::four_point;
+    Layout layout;
+    Bodies& bodies = layout.bodies;
+    bodies.formulation = scene.element.formulation;
     bodies.slots.assign(lane_count, {0, 0, 0, 0, 0});
     for (int l = 0; l < lane_count; ++l) bodies.slots[std::size_t(l)].number = l;
     bodies.slot_of_number.resize(lane_count);
     std::iota(bodies.slot_of_number.begin(), bodies.slot_of_number.end(), 0);
     bodies.hold_all();
-    Shapes shapes;
-    shapes.list.push_back(std::move(shape));
-    add_body_columns(world, scene, bodies, shapes);
-    BodySpec spec;
-    fill_bodies(world, std::vector<std::optional<Placed>>(lane_count, Placed{&spec}), bodies,
-                shapes);
+    layout.shapes.list.push_back(std::move(shape));
+    const BodySpec spec;
+    layout.placed.assign(lane_count, Placed{&spec});
+    add_body_columns(world, layout, needs_of(scene, lane_count));
+    fill_bodies(world, layout);
     fill_materials(world, scene, bodies);
     if (m.flow) {
       FlowLaws laws;
@@ -93,7 +95,7 @@ class Body {
       world.emplace<FlowLaws>(std::move(laws));
     }
     world.emplace<Bodies>(std::move(bodies));
-    world.emplace<Shapes>(std::move(shapes));
+    world.emplace<Shapes>(std::move(layout.shapes));
     world.emplace<Clock>().dt_before = 1;
   }
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "scenes/space/tools/tool_shapes.hpp"
-#include "scenes/space/tools/triangle_mesh.hpp"
+#include "scenes/tools/surfaces/tool_shapes.hpp"
+#include "scenes/tools/surfaces/triangle_mesh.hpp"
 #include "systems/space/contact/tool_search.hpp"
 #include "systems/space/tools/tool_projection.hpp"
 #include "tests/systems/space/contact/touching_bodies.hpp"

@@ -1,0 +1,67 @@
+#include "scenes/build_solids.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/chunk_lane.hpp"
+#include "engine/entry.hpp"
+#include "scenes/body_columns.hpp"
+#include "scenes/checks/overlaps.hpp"
+#include "scenes/checks/travel.hpp"
+#include "scenes/needs.hpp"
+#include "scenes/packing/place.hpp"
+#include "scenes/results/solids/observe.hpp"
+#include "scenes/solid_contact_columns.hpp"
+#include "scenes/solid_layout.hpp"
+#include "scenes/tools/drives.hpp"
+
+namespace pulvis::space {
+namespace {
+
+// m, of every occupied slot.
+std::vector<std::array<double, 3>> centres(const Layout& layout) {
+  std::vector<std::array<double, 3>> all(layout.placed.size());
+  for (std::size_t slot = 0; slot < all.size(); ++slot)
+    if (const auto& placed = layout.placed[slot])
+      all[slot] = {placed->body->position.x(), placed->body->position.y(),
+                   placed->body->position.z()};
+  return all;
+}
+
+std::vector<double> elements_of_chunks(const Layout& layout) {
+  std::vector<double> all;
+  for (int chunk = 0; chunk < layout.bodies.chunks(); ++chunk) {
+    const int shape = entry(layout.bodies.slots, chunk * lane_count).shape;
+    all.push_back(static_cast<double>(entry(layout.shapes.list, shape).elements()));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
+  const std::vector<BodySpec> bodies = place_bodies(scene);
+  check_overlaps(scene, bodies);
+  check_travel(scene, bodies);
+  Layout layout = lay_out(scene, bodies);
+  std::unique_ptr<World> world = empty_world(part);
+  hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout));
+  const Needs needs = needs_of(scene, bodies.size());
+  add_body_columns(*world, layout, needs);
+  fill_bodies(*world, layout);
+  fill_materials(*world, scene, layout.bodies);
+  add_flow_laws(*world, scene, needs);
+  add_run_state(*world, scene);
+  world->emplace<Bodies>(std::move(layout.bodies));
+  world->emplace<Shapes>(std::move(layout.shapes));
+  world->emplace<ParticleClasses>(std::move(layout.classes));
+  if (!scene.tools.empty()) {
+    add_tool_columns(*world, scene, true);
+    add_drives<ThreeD>(*world, scene, bodies);
+  }
+  add_contact(*world, scene, needs);
+  add_observed(*world, scene);
+  return world;
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,32 @@
+// What the dimension of a scene changes in messages and lists.
+#pragma once
+
+#include <span>
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+struct DimensionWords {
+  const char* components;  // of a vector: how many
+  const char* elements;    // of a mesh
+  const char* sides;       // of the elements, where particles touch
+  const char* extent;      // of a side
+  const char* finer_sides;
+  const char* round;  // particles with a diameter
+};
+
+inline const DimensionWords& words_of(const Scene& scene) {
+  static constexpr DimensionWords two{"two",  "quads",       "boundary edges",
+                                      "long", "finer edges", "discs and rings"};
+  static constexpr DimensionWords three{"three", "hexahedra",     "faces",
+                                        "wide",  "smaller faces", "spheres"};
+  return scene.in_space() ? three : two;
+}
+
+// Those of a vector that the scene has.
+inline std::span<const double> components_of(const Scene& scene, const double* v) {
+  return {v, static_cast<std::size_t>(scene.dimension)};
+}
+
+}  // namespace pulvis
