@@ -12,11 +12,6 @@
 namespace pulvis {
 namespace {
 
-const Shape& shape_of(const Layout& layout, int slot) { return layout.bodies.shape_of_slot(slot); }
-const space::Shape& shape_of(const space::Layout& layout, int slot) {
-  return entry(layout.shapes.list, entry(layout.bodies.slots, slot).shape);
-}
-
 template <class Layout, class Count>
 std::vector<std::int32_t> rows_by_chunk(const Layout& layout, const Count& count) {
   std::vector<std::int32_t> rows;

@@ -17,6 +17,7 @@
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 #include "scenes/build_solids.hpp"
+#include "scenes/contact_search.hpp"
 #include "scenes/grains/grains.hpp"
 #include "scenes/highest_mode.hpp"
 #include "scenes/layout.hpp"
@@ -36,10 +37,6 @@
 namespace pulvis {
 
 namespace {
-
-// Surfaces must move by this many skins relative to each other before non-neighbours can come close:
-// more than neighbours move, and few enough to keep lists short.
-constexpr double skins_of_neighbourhood = 8;
 
 template <class At>
 void add_row_columns(World& world, const Needs& needs) {
@@ -191,16 +188,15 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
     find_thinnest(scene, layout.bodies, rules);
     rules.servos = world->has<ServoVelocity>();
     ContactIndex& index = world->emplace<ContactIndex>();
-    index.skin = scene.contact.skin * rules.shortest_edge;
+    double bonds_reach = 0;
     if (needs.any_bonds()) {
       add_bonds(*world, needs);
       const BondRules& bonds = world->emplace<BondRules>(
           bounded_by(layout.bodies, surface_springs(layout.bodies), scene, bond_rules(scene)));
       set_stiffest_bonds(bonds, rules);
-      index.reach = longest_gap(longest_edge(layout.bodies), bonds);
+      bonds_reach = longest_gap(longest_edge(layout.bodies), bonds);
     }
-    index.reach = std::max(index.reach, rules.reach);
-    index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
+    set_reach(index, scene, rules, bonds_reach);
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
     add_highest_mode(*world, layout.bodies, needs);
@@ -209,11 +205,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
   fill_materials(*world, scene, layout.bodies);
   add_flow_laws(*world, scene, needs);
   add_run_state(*world, scene);
-  if (has_bonds(scene)) {
-    BondTotals& totals = world->emplace<BondTotals>();
-    totals.made.assign(scene.bonds.size(), 0);
-    totals.nearest.resize(scene.bonds.size());
-  }
+  add_bond_totals(*world, scene);
   world->emplace<Bodies>(std::move(layout.bodies));
   world->emplace<ParticleClasses>(std::move(layout.classes));
   if (needs.constraints) add_constraints(*world, scene, undeformed_nodes(*world, layout));

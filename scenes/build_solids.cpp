@@ -1,10 +1,5 @@
 #include "scenes/build_solids.hpp"
 
-#include <algorithm>
-#include <array>
-
-#include "engine/chunk_lane.hpp"
-#include "engine/entry.hpp"
 #include "scenes/body_columns.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/checks/travel.hpp"
@@ -16,28 +11,6 @@
 #include "scenes/tools/drives.hpp"
 
 namespace pulvis::space {
-namespace {
-
-// m, of every occupied slot.
-std::vector<std::array<double, 3>> centres(const Layout& layout) {
-  std::vector<std::array<double, 3>> all(layout.placed.size());
-  for (std::size_t slot = 0; slot < all.size(); ++slot)
-    if (const auto& placed = layout.placed[slot])
-      all[slot] = {placed->body->position.x(), placed->body->position.y(),
-                   placed->body->position.z()};
-  return all;
-}
-
-std::vector<double> elements_of_chunks(const Layout& layout) {
-  std::vector<double> all;
-  for (int chunk = 0; chunk < layout.bodies.chunks(); ++chunk) {
-    const int shape = entry(layout.bodies.slots, chunk * lane_count).shape;
-    all.push_back(static_cast<double>(entry(layout.shapes.list, shape).elements()));
-  }
-  return all;
-}
-
-}  // namespace
 
 std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
@@ -60,7 +33,7 @@ std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
     add_drives<ThreeD>(*world, scene, bodies);
   }
   add_contact(*world, scene, needs);
-  add_observed(*world, scene);
+  space::add_observed(*world, scene);
   return world;
 }
 

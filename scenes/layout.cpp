@@ -101,19 +101,4 @@ std::vector<Vec2> placed_nodes(const Shape& shape, const Placed& placed) {
   return nodes;
 }
 
-std::vector<std::array<double, 3>> centres(const Layout& layout) {
-  std::vector<std::array<double, 3>> all(layout.placed.size());
-  for (std::size_t slot = 0; slot < all.size(); ++slot)
-    if (const Placed* placed = layout.placed[slot])
-      all[slot] = {placed->body->position.x(), placed->body->position.y(), 0};
-  return all;
-}
-
-std::vector<double> elements_of_chunks(const Layout& layout) {
-  std::vector<double> all;
-  for (int c = 0; c < layout.bodies.chunks(); ++c)
-    all.push_back(layout.bodies.shape_of_chunk(Chunk{c}).elements());
-  return all;
-}
-
 }  // namespace pulvis

@@ -40,8 +40,29 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
 std::vector<Vec2> turned_nodes(const Shape& shape, double turn);
 // m, the same in scene coordinates.
 std::vector<Vec2> placed_nodes(const Shape& shape, const Placed& placed);
+inline const Shape& shape_of(const Layout& layout, int slot) {
+  return layout.bodies.shape_of_slot(slot);
+}
+
+// ---- of both dimensions ------------------------------------------------------------------------------
 // m, of every occupied slot.
-std::vector<std::array<double, 3>> centres(const Layout& layout);
-std::vector<double> elements_of_chunks(const Layout& layout);
+template <class Layout>
+std::vector<std::array<double, 3>> centres(const Layout& layout) {
+  std::vector<std::array<double, 3>> all(layout.placed.size());
+  for (std::size_t slot = 0; slot < all.size(); ++slot)
+    if (const auto& placed = layout.placed[slot]) {
+      const Vec3& at = placed->body->position;
+      all[slot] = {at.x(), at.y(), at.z()};
+    }
+  return all;
+}
+
+template <class Layout>
+std::vector<double> elements_of_chunks(const Layout& layout) {
+  std::vector<double> all;
+  for (int chunk = 0; chunk < layout.bodies.chunks(); ++chunk)
+    all.push_back(shape_of(layout, chunk * lane_count).elements());
+  return all;
+}
 
 }  // namespace pulvis

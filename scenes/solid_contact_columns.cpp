@@ -10,6 +10,7 @@
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
+#include "scenes/contact_search.hpp"
 #include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/contact_rules.hpp"
@@ -17,9 +18,6 @@
 
 namespace pulvis::space {
 namespace {
-
-// Surfaces must move by this many skins relative to each other before non-neighbours can come close.
-constexpr double skins_of_neighbourhood = 8;
 
 ContactRules rules_of(const Scene& scene) {
   ContactRules rules = contact_rules(scene);
@@ -176,23 +174,16 @@ void add_tool_contact(World& world, const Scene& scene, const Needs& needs) {
 
 void add_contact(World& world, const Scene& scene, const Needs& needs) {
   ContactRules rules = rules_of(scene);
-  if (has_bonds(scene)) {
-    BondTotals& totals = world.emplace<BondTotals>();
-    totals.made.assign(scene.bonds.size(), 0);
-    totals.nearest.resize(scene.bonds.size());
-    world.emplace<Fragments>();
-  }
+  add_bond_totals(world, scene);
+  if (has_bonds(scene)) world.emplace<Fragments>();
   if (!needs.contact()) return;
   find_smallest(world.resource<Shapes>(), rules);
   add_surfaces(world, needs);
   if (needs.pairs) add_pairs(world, needs);
   if (needs.tools) add_tool_contact(world, scene, needs);
   ContactIndex& index = world.emplace<ContactIndex>();
-  index.skin = scene.contact.skin * rules.shortest_edge;
-  index.reach = rules.reach;
-  if (has_bonds(scene))
-    index.reach = std::max(index.reach, add_face_bonds(world, scene, needs, rules));
-  index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
+  const double bonds = has_bonds(scene) ? add_face_bonds(world, scene, needs, rules) : 0;
+  set_reach(index, scene, rules, bonds);
   world.emplace<ContactRules>(std::move(rules));
   world.emplace<ContactQuality>();
 }

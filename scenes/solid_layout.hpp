@@ -7,6 +7,7 @@
 #include "components/particle_classes.hpp"
 #include "components/shape.hpp"
 #include "components/space/shape.hpp"
+#include "engine/entry.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
@@ -23,6 +24,10 @@ struct Layout {
   ParticleClasses classes;
   std::vector<std::optional<Placed>> placed;  // by slot; empty for empty slots
 };
+
+inline const Shape& shape_of(const Layout& layout, int slot) {
+  return entry(layout.shapes.list, entry(layout.bodies.slots, slot).shape);
+}
 
 // Particles of one class after another, as many per chunk as it has lanes; within a class, ordered so that
 // neighbours in space are close to each other. `bodies` must outlive it.

@@ -194,7 +194,7 @@ std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
         "bond[{}] between '{}' and '{}': the cohesive zone ahead of a crack spans {:.3g} {}, at "
         "least {} are needed to resolve it: use {} of {:.3g} m, they are up to {:.3g} m {}",
         law, entry(scene.bonds, law).first, entry(scene.bonds, law).second, worst.zone / worst.edge,
-        words_of(scene).sides, edges_in_zone, words_of(scene).sides, worst.zone / edges_in_zone,
+        words_of(scene).sides, edges_in_zone, words_of(scene).edges, worst.zone / edges_in_zone,
         worst.edge, words_of(scene).extent));
   return lines;
 }

@@ -8,7 +8,7 @@
 
 #include "scenes/checks/far_away.hpp"
 #include "scenes/checks/outline_overlaps.hpp"
-#include "scenes/checks/solid_overlaps.hpp"
+#include "scenes/checks/solids/solid_overlaps.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/packing/solids/rigid_shape.hpp"

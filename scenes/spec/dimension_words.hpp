@@ -11,15 +11,16 @@ struct DimensionWords {
   const char* components;  // of a vector: how many
   const char* elements;    // of a mesh
   const char* sides;       // of the elements, where particles touch
-  const char* extent;      // of a side
+  const char* edges;       // the same in short
+  const char* extent;      // of one
   const char* finer_sides;
   const char* round;  // particles with a diameter
 };
 
 inline const DimensionWords& words_of(const Scene& scene) {
-  static constexpr DimensionWords two{"two",  "quads",       "boundary edges",
+  static constexpr DimensionWords two{"two",  "quads",       "boundary edges", "edges",
                                       "long", "finer edges", "discs and rings"};
-  static constexpr DimensionWords three{"three", "hexahedra",     "faces",
+  static constexpr DimensionWords three{"three", "hexahedra",     "faces",  "faces",
                                         "wide",  "smaller faces", "spheres"};
   return scene.in_space() ? three : two;
 }

@@ -134,3 +134,10 @@ def test_what_may_be_wrong_is_told(scenes):
     file = scenes / "compaction/unit-cell.toml"
     assert pulvis.Scene(file).warnings() == []
     assert any("top" in line for line in pulvis.Scene(file, stage__press__duration="10 us").warnings())
+
+
+def test_a_servo_without_time_is_told_of():
+    given = tables()
+    del given["stage"][0]["move"]
+    given["stage"][0].update(duration="1 us", servo=[{"tool": "top", "force": "1 N"}])
+    assert any("may not reach" in line for line in pulvis.Scene(given).warnings())

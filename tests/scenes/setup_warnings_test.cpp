@@ -20,9 +20,11 @@ namespace pulvis {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 Scene die_of_25(const std::vector<std::string>& overrides = {}) {
   return read_scene(paths::source_dir() + "/scenes/compaction/regular-25.toml", overrides);
@@ -222,6 +224,68 @@ TEST(LeverWarnings, AreOfDimensionsThatNoLeverHas) {
 // E w t^3/(4 L^3) = 200 GPa 50 um (2.2/440)^3/4.
 TEST(LeverWarnings, TheRoughStiffnessIsThatOfABeam) {
   EXPECT_NEAR(*rough_stiffness(afm_scene(beam_with_tip)), 0.3125, 1e-12);
+}
+
+// ---- all of them -------------------------------------------------------------------------------------
+// Two cylinders, end to end, whose glue softens over 0.35 mm, less than three of their faces; pressed for 1 us.
+Scene glued_cylinders() {
+  std::string text = R"(
+family = "compaction"
+dimension = 3
+[[material]]
+name = "stone"
+density = "2000 kg/m^3"
+youngs_modulus = "20 GPa"
+poissons_ratio = 0.0
+[[particle]]
+name = "p"
+material = "stone"
+shape = "cylinder"
+diameter = "1 mm"
+height = "1 mm"
+rounding = "0.05 mm"
+mesh = { divisions = 4, rings = 2, axial_divisions = 6, grid = "extruded" }
+[[bond]]
+between = ["stone", "stone"]
+origin = "initial"
+strength = "10 MPa"
+fracture_energy = "2 J/m^2"
+reach = 0.3
+[[body]]
+particle = "p"
+position = ["0 mm", "0 mm", "0.5 mm"]
+[[body]]
+particle = "p"
+position = ["0 mm", "0 mm", "1.512 mm"]
+[[tool]]
+name = "bottom"
+shape = "plane"
+point = ["0 mm", "0 mm", "-0.012 mm"]
+normal = [0, 0, 1]
+[[tool]]
+name = "top"
+shape = "plane"
+point = ["0 mm", "0 mm", "2.1 mm"]
+normal = [0, 0, -1]
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "1 us"
+[[stage.servo]]
+tool = "top"
+force = "1 N"
+)";
+  return own_scene(text);
+}
+
+TEST(AllWarnings, AreOfBondsAndServosTooInThreeDimensions) {
+  const Scene scene = glued_cylinders();
+  Simulation simulation(scene);
+  const auto lines = all_warnings(scene, place_bodies(scene), &simulation.world());
+  EXPECT_THAT(lines, Contains(HasSubstr("cohesive zone ahead of a crack")));
+  EXPECT_THAT(lines, Contains(HasSubstr("tool 'top' may not reach 1 N")));
+  for (const std::string& line : all_warnings(scene, place_bodies(scene), nullptr))
+    EXPECT_THAT(line, Not(HasSubstr("cohesive zone")));
 }
 
 }  // namespace

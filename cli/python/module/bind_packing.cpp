@@ -38,36 +38,6 @@ py::array_t<Number> table_of(std::size_t rows, std::size_t columns) {
 }
 py::ssize_t array_index(std::size_t i) { return static_cast<py::ssize_t>(i); }
 
-// m, names, and by particle number the quaternion w, x, y, z of the rotation from the body frame.
-py::dict packing_in_space(const Scene& scene) {
-  std::vector<BodySpec> bodies;
-  {
-    py::gil_scoped_release others_may_run;
-    bodies = place_bodies(scene);
-    check_overlaps(scene, bodies);
-  }
-  auto centres = table_of<double>(bodies.size(), 3), rotations = table_of<double>(bodies.size(), 4);
-  py::array_t<std::int32_t> classes(array_index(bodies.size()));
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const auto& turn = bodies[i].rotation;
-    const std::array quaternion{turn.w(), turn.x(), turn.y(), turn.z()};
-    for (std::size_t k = 0; k < 3; ++k)
-      centres.mutable_at(array_index(i), array_index(k)) = bodies[i].position[static_cast<int>(k)];
-    for (std::size_t k = 0; k < 4; ++k)
-      rotations.mutable_at(array_index(i), array_index(k)) = quaternion[k];
-    classes.mutable_at(array_index(i)) = bodies[i].particle;
-  }
-  py::list names;
-  for (const auto& particle : scene.particles) names.append(particle.name);
-  py::dict all;
-  all["centres"] = centres;
-  all["rotations"] = rotations;
-  all["classes"] = classes;
-  all["names"] = names;
-  all["table"] = packing_text(scene, bodies);
-  return all;
-}
-
 py::dict mesh_in_space(const Scene& scene, int number) {
   const auto& particles = scene.particles;
   const auto& particle = particles[static_cast<std::size_t>(number)];
@@ -95,35 +65,54 @@ py::dict mesh_in_space(const Scene& scene, int number) {
   return all;
 }
 
-// m, rad, names: all particles in order of their numbers.
+// By particle number, the quaternion w, x, y, z of the rotation from the body frame.
+py::array_t<double> rotations_of(const std::vector<BodySpec>& bodies) {
+  auto rotations = table_of<double>(bodies.size(), 4);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Rotation& turn = bodies[i].rotation;
+    const std::array quaternion{turn.w(), turn.x(), turn.y(), turn.z()};
+    for (std::size_t k = 0; k < 4; ++k)
+      rotations.mutable_at(array_index(i), array_index(k)) = quaternion[k];
+  }
+  return rotations;
+}
+
+py::array_t<double> angles_of(const std::vector<BodySpec>& bodies) {
+  py::array_t<double> angles(array_index(bodies.size()));
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    angles.mutable_at(array_index(i)) = bodies[i].angle;
+  return angles;
+}
+
+// m, names, and rad or quaternions: all particles in order of their numbers.
 py::dict packing_of(const LoadedScene& loaded) {
   require_particles(loaded);
-  if (loaded.scene.in_space()) return packing_in_space(loaded.scene);
+  const Scene& scene = loaded.scene;
   std::vector<BodySpec> bodies;
   {
     py::gil_scoped_release others_may_run;
-    bodies = place_bodies(loaded.scene);
-    check_overlaps(loaded.scene, bodies);
+    bodies = place_bodies(scene);
+    check_overlaps(scene, bodies);
   }
-  py::array_t<double> centres({bodies.size(), std::size_t{2}}),
-      angles(static_cast<py::ssize_t>(bodies.size()));
-  py::array_t<std::int32_t> classes(static_cast<py::ssize_t>(bodies.size()));
+  auto centres = table_of<double>(bodies.size(), static_cast<std::size_t>(scene.dimension));
+  py::array_t<std::int32_t> classes(array_index(bodies.size()));
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const auto at = static_cast<py::ssize_t>(i);
-    centres.mutable_at(at, 0) = bodies[i].position.x();
-    centres.mutable_at(at, 1) = bodies[i].position.y();
-    angles.mutable_at(at) = bodies[i].angle;
-    classes.mutable_at(at) = bodies[i].particle;
+    for (int k = 0; k < scene.dimension; ++k)
+      centres.mutable_at(array_index(i), k) = bodies[i].position[k];
+    classes.mutable_at(array_index(i)) = bodies[i].particle;
   }
   py::list names;
-  for (const ParticleSpec& particle : loaded.scene.particles) names.append(particle.name);
-  for (const ParticleSpec& grain : loaded.scene.grains) names.append(grain.name);
+  for (const ParticleSpec& particle : scene.particles) names.append(particle.name);
+  for (const ParticleSpec& grain : scene.grains) names.append(grain.name);
   py::dict all;
   all["centres"] = centres;
-  all["angles"] = angles;
+  if (scene.in_space())
+    all["rotations"] = rotations_of(bodies);
+  else
+    all["angles"] = angles_of(bodies);
   all["classes"] = classes;
   all["names"] = names;
-  all["table"] = packing_text(loaded.scene, bodies);
+  all["table"] = packing_text(scene, bodies);
   return all;
 }
 
