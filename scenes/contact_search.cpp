@@ -19,7 +19,7 @@ void set_reach(ContactIndex& index, const Scene& scene, const ContactRules& rule
   // neighbours move, and few enough to keep lists short.
   constexpr double skins_of_neighbourhood = 8;
   index.skin = scene.contact.skin * rules.shortest_edge;
-  index.reach = std::max(bonds, rules.longest_range());
+  index.reach = std::max(bonds, rules.reach);
   index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
 }
 

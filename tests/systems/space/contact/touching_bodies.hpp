@@ -11,6 +11,7 @@
 #include "components/space/contact.hpp"
 #include "engine/system.hpp"
 #include "scenes/meshes/hexahedra/mesh.hpp"
+#include "scenes/needs.hpp"
 #include "scenes/solid_contact_columns.hpp"
 #include "scenes/spec/scene.hpp"
 #include "systems/contact/systems.hpp"
@@ -43,7 +44,7 @@ class TouchingBodies {
     lay_out(shapes);
     world.emplace<Shapes>().list = std::move(shapes);
     add_tools();
-    add_contact(world, scene, bodies);
+    add_contact(world, scene, needs_of(scene, bodies.size()));
     place();
     world.emplace<Totals>();
     world.emplace<Clock>();
