@@ -19,11 +19,12 @@ bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& act
          (needs.tools && std::ranges::any_of(rules.tool_pairs, is));
 }
 
-// Of particles in two dimensions.
+// Solids have no outline.
 template <class Is>
 bool any_outline(const Scene& scene, const Is& is) {
-  return !scene.in_space() &&
-         std::ranges::any_of(scene.particles, [&](const ParticleSpec& p) { return is(p.outline); });
+  return std::ranges::any_of(scene.particles, [&](const ParticleSpec& p) {
+    return outline_area(p.outline) > 0 && is(p.outline);
+  });
 }
 
 }  // namespace

@@ -9,15 +9,16 @@ namespace {
 
 constexpr double parallel = 1e-9;  // 1 - cosine
 
-std::optional<Face> face_of_punch(const ToolSpec& tool) {
-  if (!has_face(tool)) return std::nullopt;
+// Of a plane, or a punch.
+Face flat_face_of(const ToolSpec& tool) {
   double deepest = 0;  // m, of the profile
   for (const Vec2& point : tool.profile) deepest = std::min(deepest, point.y());
   return Face{0, tool.point + deepest * tool.normal, tool.normal};
 }
 
-std::optional<Face> face_of_outline(const ToolSpec& tool) {
-  if (tool.shape == ToolSpec::Shape::constraint) return std::nullopt;
+std::optional<Face> face_of_drawing(const ToolSpec& tool) {
+  if (tool.shape != ToolSpec::Shape::polyline && tool.shape != ToolSpec::Shape::profile)
+    return std::nullopt;
   Face face{0, tool.point, in_space(face_normal(tool))};
   for (const Vec2& corner : tool.points)
     if (&corner == &tool.points.front() || (in_space(corner) - face.point).dot(face.normal) < 0)
@@ -52,7 +53,8 @@ std::optional<Meeting> meeting_in(const StageMoves& stage, const std::vector<Fac
 std::vector<Face> faces_of(const Scene& scene) {
   std::vector<Face> all;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    auto face = scene.in_space() ? face_of_punch(scene.tools[t]) : face_of_outline(scene.tools[t]);
+    auto face =
+        has_face(scene.tools[t]) ? flat_face_of(scene.tools[t]) : face_of_drawing(scene.tools[t]);
     if (!face) continue;
     face->tool = static_cast<int>(t);
     all.push_back(*face);

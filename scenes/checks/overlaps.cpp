@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <string>
 
 #include "scenes/checks/far_away.hpp"
 #include "scenes/checks/outline_overlaps.hpp"
 #include "scenes/checks/solids/solid_overlaps.hpp"
 #include "scenes/language/problem.hpp"
-#include "scenes/outlines/outline.hpp"
-#include "scenes/packing/solids/rigid_shape.hpp"
+#include "scenes/packing/particle_size.hpp"
 #include "scenes/spec/dimension_words.hpp"
 #include "scenes/tools/cell.hpp"
 
@@ -129,17 +127,11 @@ std::vector<BodySpec> with_images(const Scene& scene, const std::vector<BodySpec
   return all;
 }
 
-double size_of_body(const Scene& scene, const BodySpec& body) {
-  const ParticleSpec& particle = scene.class_of(body);
-  return scene.in_space() ? space::diameter_of(particle.shape)
-                          : std::sqrt(outline_area(particle.outline));
-}
-
 }  // namespace
 
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (bodies.empty()) return 0;
-  check_distance(scene, bodies, [&](const BodySpec& body) { return size_of_body(scene, body); });
+  check_distance(scene, bodies, [&](const BodySpec& body) { return size_of(scene, body); });
   const std::vector<BodySpec> all = with_images(scene, bodies);
   const Overlaps found =
       scene.in_space() ? space::solid_overlaps(scene, all) : outline_overlaps(scene, all);

@@ -7,12 +7,13 @@
 #include <tuple>
 
 #include "engine/entry.hpp"
+#include "scenes/spec/dimension_words.hpp"
 
 namespace pulvis {
 
 namespace {
 
-void check_stage_kind(const StageSpec& stage, bool in_space, const std::string& path,
+void check_stage_kind(const Scene& scene, const StageSpec& stage, const std::string& path,
                       const Refuse& refuse) {
   const bool needs_moves =
       stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
@@ -20,7 +21,7 @@ void check_stage_kind(const StageSpec& stage, bool in_space, const std::string& 
     refuse(path + ".kind",
            fmt::format("no tool moves in this stage, allowed: at least one [[stage.move]] or "
                        "[[stage.servo]]{}, or kind = \"settle\" or \"hold\"",
-                       in_space ? "" : ", a [stage.cell]"));
+                       words_of(scene).other_moves));
   if (!needs_moves && !stage.moves.empty())
     refuse(path + ".move[0]",
            "tools do not move in a stage of this kind, allowed: moves in stages of a kind other "
@@ -44,7 +45,7 @@ void check_kept_state(const Scene& scene, std::size_t number, const std::string&
 void check_stages(const Scene& scene, const Refuse& refuse) {
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     const std::string path = fmt::format("stage[{}]", s);
-    check_stage_kind(scene.stages[s], scene.in_space(), path, refuse);
+    check_stage_kind(scene, scene.stages[s], path, refuse);
     check_kept_state(scene, s, path, refuse);
   }
 }

@@ -9,8 +9,7 @@
 
 #include "scenes/checks/faces.hpp"
 #include "scenes/language/problem.hpp"
-#include "scenes/outlines/outline.hpp"
-#include "scenes/packing/solids/rigid_shape.hpp"
+#include "scenes/packing/particle_size.hpp"
 #include "scenes/tools/die_room.hpp"
 #include "scenes/tools/die_sides.hpp"
 
@@ -57,11 +56,6 @@ std::optional<Enclosed> enclosed(const Scene& scene) {
   if (scene.initial_state) return std::nullopt;
   if (auto volume = enclosed_volume(scene)) return volume;
   return enclosed_area(scene);
-}
-
-double content_of(const Scene& scene, const BodySpec& body) {
-  const ParticleSpec& particle = scene.class_of(body);
-  return scene.in_space() ? space::volume_of(particle.shape) : outline_area(particle.outline);
 }
 
 // m^2 or m^3, of all particles.

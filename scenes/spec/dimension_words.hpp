@@ -14,14 +14,37 @@ struct DimensionWords {
   const char* edges;       // the same in short
   const char* extent;      // of one
   const char* finer_sides;
-  const char* round;  // particles with a diameter
+  const char* round;        // particles with a diameter
+  const char* dies;         // to which a relative density can refer
+  const char* other_moves;  // of a stage, besides tools
+  const char* axes;
 };
 
 inline const DimensionWords& words_of(const Scene& scene) {
-  static constexpr DimensionWords two{"two",  "quads",       "boundary edges", "edges",
-                                      "long", "finer edges", "discs and rings"};
-  static constexpr DimensionWords three{"three", "hexahedra",     "faces",  "faces",
-                                        "wide",  "smaller faces", "spheres"};
+  static constexpr DimensionWords two{
+      "two",
+      "quads",
+      "boundary edges",
+      "edges",
+      "long",
+      "finer edges",
+      "discs and rings",
+      "in a periodic cell, or in a scene whose tools are four planes with normals along +x, -x, +y "
+      "and -y",
+      ", a [stage.cell]",
+      "xy"};
+  static constexpr DimensionWords three{
+      "three",
+      "hexahedra",
+      "faces",
+      "faces",
+      "wide",
+      "smaller faces",
+      "spheres",
+      "with six planes with normals along +x, -x, +y, -y, +z and -z, or a round die and a plane or "
+      "punch at either end",
+      "",
+      "xyz"};
   return scene.in_space() ? three : two;
 }
 

@@ -105,13 +105,8 @@ class ServoChecks {
       refuse(path, "tool", "has no effect together with relative_density, allowed: without it");
     if (until.relative_density && !scene_.cell && !has_die())
       refuse(path, "relative_density",
-             fmt::format(
-                 "there is no die to which it could refer, allowed: {}",
-                 scene_.in_space()
-                     ? "with six planes with normals along +x, -x, +y, -y, +z and -z, or a round "
-                       "die and a plane or punch at either end"
-                     : "in a periodic cell, or in a scene whose tools are four planes with normals "
-                       "along +x, -x, +y and -y"));
+             fmt::format("there is no die to which it could refer, allowed: {}",
+                         words_of(scene_).dies));
   }
 
   bool has_die() const { return die_room(scene_).has_value() || die_cell(scene_).has_value(); }

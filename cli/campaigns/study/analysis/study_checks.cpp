@@ -11,6 +11,7 @@
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/language/seed_list.hpp"
+#include "scenes/spec/dimension_words.hpp"
 
 namespace pulvis {
 namespace {
@@ -90,9 +91,10 @@ class StudyChecks {
         study_.spec.curves.push_back({"", x, y, {}});
     };
     add("stress_ratio/axial", "relative_density");
-    const bool in_space = study_.runs.front().scene.in_space();
-    add(in_space ? "tool/top/force_z" : "tool/top/force_y", "travel/top");
-    add(in_space ? "stress/transmission" : "transmission", "relative_density");
+    const std::string_view axes = words_of(study_.runs.front().scene).axes;
+    add(std::string("tool/top/force_") + axes.back(), "travel/top");
+    const bool by_study = find_series(all, "transmission") != nullptr;
+    add(by_study ? "transmission" : "stress/transmission", "relative_density");
     if (study_.spec.curves.empty()) add("energy/external", "time");
     add("probe/force_y", "scanner/y");
     add("probe/force_z", "scanner/z");

@@ -236,11 +236,10 @@ std::vector<FitRuns> groups_of(const Study& study, const StudyFit& fit) {
 std::size_t fewest_runs(Law law) { return law == Law::weibull ? 5 : law == Law::power ? 2 : 3; }
 
 std::optional<double> disc_diameter(const Scene& scene, const std::string& particle) {
-  if (scene.in_space()) return std::nullopt;
   const auto found = std::ranges::find(scene.particles, particle, &ParticleSpec::name);
   if (found == scene.particles.end()) return std::nullopt;
   const auto* disc = std::get_if<DiscOutline>(&found->outline);
-  return disc == nullptr ? std::nullopt : std::optional(disc->diameter);
+  return disc == nullptr || disc->diameter == 0 ? std::nullopt : std::optional(disc->diameter);
 }
 
 std::vector<FittedLaw> fit_study(const Study& study, const SeriesOfRun& series,

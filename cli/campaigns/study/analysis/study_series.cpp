@@ -6,6 +6,7 @@
 
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/results/results.hpp"
+#include "scenes/spec/dimension_words.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/tools/die_cell.hpp"
 
@@ -46,8 +47,7 @@ int tool_called(const Scene& scene, const std::string& name) {
 
 std::vector<double> travel(const Scene& scene, const std::string& tool, const History& history) {
   std::vector<double> distance;
-  constexpr std::string_view axes = "xyz";
-  for (const char axis : axes.substr(0, static_cast<std::size_t>(scene.dimension))) {
+  for (const char axis : std::string_view(words_of(scene).axes)) {
     const std::vector<double> at = history("tool/" + tool + "/position_" + axis);
     distance.resize(at.size());
     for (std::size_t i = 0; i < at.size(); ++i)
