@@ -196,7 +196,11 @@ void fill_bodies(World& world, const Layout& layout) {
 
 NodePlaces undeformed_nodes(const World& world, const Layout& layout) {
   return [&](int slot) {
-    return placed_nodes(world.resource<Bodies>().shape_of_slot(slot), *entry(layout.placed, slot));
+    std::vector<Vec3> places;
+    for (const Vec2& node :
+         placed_nodes(world.resource<Bodies>().shape_of_slot(slot), *entry(layout.placed, slot)))
+      places.push_back(in_space(node));
+    return places;
   };
 }
 
@@ -224,14 +228,6 @@ FlowLaws flow_laws(const Scene& scene) {
   for (const MaterialSpec& m : scene.materials)
     laws.of_material.push_back(m.flow ? *m.flow : FlowLaw{});
   return laws;
-}
-
-// The tool position in the history; for a constraint, the centre of its box, or its centre.
-Vec2 start_of(const ToolSpec& tool) {
-  if (tool.shape == ToolSpec::Shape::polyline) return tool.points.front();
-  if (is_constraint(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
-    return (tool.low + tool.high) / 2;
-  return in_plane(tool.point);
 }
 
 ToolShapes tool_shapes(const Scene& scene) {
@@ -350,7 +346,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
   }
   world->emplace<Bodies>(std::move(layout.bodies));
   world->emplace<ParticleClasses>(std::move(layout.classes));
-  if (needs.constraints) add_constraints(*world, scene, undeformed_nodes(*world, layout));
+  if (needs.constraints) add_constraints<TwoD>(*world, scene, undeformed_nodes(*world, layout));
   add_observed(*world, scene);
   return world;
 }

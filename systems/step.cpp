@@ -191,7 +191,7 @@ StepList step_list_of(World& w) {
   force.add<cell_control>               ("cell_control",      cell);
   add_element_forces<F>(w, force);
   add_time_step<F>(w, force);
-  force.add<apply_constraints>          ("apply_constraints", constraints);
+  force.add<apply_constraints<D>>       ("apply_constraints", constraints);
   force.add<tool_reaction<D>>           ("tool_reaction",     moved);
   force.add<wall_control>               ("wall_control",      w.has<DrivenWalls>());
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());

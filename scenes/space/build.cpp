@@ -11,6 +11,7 @@
 #include "scenes/space/overlaps.hpp"
 #include "scenes/space/results/observe.hpp"
 #include "scenes/space/tools/drives.hpp"
+#include "scenes/tools/constraints.hpp"
 #include "systems/laws/flow_law.hpp"
 
 namespace pulvis::space {
@@ -43,6 +44,17 @@ std::vector<std::array<double, 3>> centres(const Layout& layout) {
   return all;
 }
 
+// m, undeformed.
+NodePlaces node_places(const Shapes& shapes, const Bodies& bodies, const Layout& layout) {
+  return [&](int slot) {
+    const Placed& placed = *entry(layout.placed, slot);
+    std::vector<Vec3> places;
+    for (const Point& p : entry(shapes.list, entry(bodies.slots, slot).shape).nodes)
+      places.emplace_back(placed.body->position + placed.turn * Vec3(p[0], p[1], p[2]));
+    return places;
+  };
+}
+
 std::vector<double> elements_of_chunks(const Layout& layout) {
   std::vector<double> all;
   for (int chunk = 0; chunk < layout.bodies.chunks(); ++chunk) {
@@ -71,6 +83,9 @@ std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   world->emplace<ParticleClasses>(std::move(layout.classes));
   add_tools(*world, scene, bodies);
   add_contact(*world, scene, bodies);
+  if (std::ranges::any_of(scene.tools, is_constraint))
+    add_constraints<ThreeD>(
+        *world, scene, node_places(world->resource<Shapes>(), world->resource<Bodies>(), layout));
   add_observed(*world, scene);
   return world;
 }

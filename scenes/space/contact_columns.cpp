@@ -13,6 +13,7 @@
 #include "scenes/space/tools/tool_shapes.hpp"
 #include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/bond_rules.hpp"
+#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis::space {
@@ -56,7 +57,7 @@ struct Touching {  // what can touch, and how
 
   Touching(const Scene& scene, const ContactRules& rules, std::size_t bodies) {
     pairs = bodies > 1;
-    tools = !scene.tools.empty();
+    tools = has_contact_tools(scene);
     const auto any = [&](const auto& is) {
       return (pairs && std::ranges::any_of(rules.friction, is)) ||
              (tools && std::ranges::any_of(rules.tool_friction, is));

@@ -16,6 +16,7 @@
 #include "scenes/space/packing/near_pairs.hpp"
 #include "scenes/space/tools/tool_depth.hpp"
 #include "scenes/space/tools/tool_shapes.hpp"
+#include "scenes/tools/constraints.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -75,6 +76,7 @@ class BodyOverlaps {
   std::vector<Overlap> with_tool(std::size_t number) {
     std::vector<Overlap> found;
     const ToolSpec& tool = scene_.tools[number];
+    if (is_constraint(tool)) return found;
     const bool solid = is_solid(tool);
     ToolDepth in_tool(tool, tools_.of_tool[number]);
     for (std::size_t i = 0; i < poses_.size(); ++i) {

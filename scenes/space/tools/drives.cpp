@@ -12,6 +12,7 @@
 #include "engine/access.hpp"
 #include "scenes/space/tools/powder.hpp"
 #include "scenes/spec/tool_motion.hpp"
+#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/die_room.hpp"
 #include "scenes/tools/servo_checks.hpp"
 #include "scenes/tools/tool_drive.hpp"
@@ -23,7 +24,7 @@ ToolProgram programme_of(const Scene& scene) {
   ToolProgram program;
   for (const ToolSpec& tool : scene.tools) {
     program.names.push_back(tool.name);
-    program.start.push_back(values_of(tool.point));
+    program.start.push_back(values_of(start_of(tool)));
   }
   double begin = 0;
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
@@ -67,13 +68,15 @@ void add_columns_of_tools(World& world, const Scene& scene) {
   world.add_table<Tool>(scene.tools.size());
   world.add<ToolPosition>();
   world.add<ToolVelocity>();
-  world.add<ToolNormal>();
+  const bool touched = has_contact_tools(scene);
+  if (touched) world.add<ToolNormal>();
   world.add<ToolForce>();
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     for (std::size_t k = 0; k < tool_axes; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      world.column<ToolNormal>().values()[tool_axes * t + k] = scene.tools[t].normal[axis];
-      world.column<ToolPosition>().values()[tool_axes * t + k] = scene.tools[t].point[axis];
+      if (touched)
+        world.column<ToolNormal>().values()[tool_axes * t + k] = scene.tools[t].normal[axis];
+      world.column<ToolPosition>().values()[tool_axes * t + k] = start_of(scene.tools[t])[axis];
     }
 }
 

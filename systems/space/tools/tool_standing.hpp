@@ -28,6 +28,7 @@ inline Standing standing_on_tool(const ToolSurfaces& tools,
       return in_hole(shape.radius, normal, from);
     case ToolShapes::Kind::revolution:
       return on_revolution(shape.meridian, normal, from, size);
+    case ToolShapes::Kind::constraint:  // has no rows
     case ToolShapes::Kind::mesh:
       break;
   }
