@@ -297,8 +297,16 @@ void add_clock(World& world, const Scene& scene) {
   for (const StageSpec& stage : scene.stages) clock.end += stage.duration;
 }
 
+std::unique_ptr<World> build_in_space(const Scene& scene, const Part& part) {
+  std::unique_ptr<World> world = space::build_world(scene, part);
+  if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
+    add_highest_mode(*world, world->resource<Bodies>(), world->resource<space::Shapes>(),
+                     world->has<ContactRules>());
+  return world;
+}
+
 std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
-  if (scene.in_space()) return space::build_world(scene, part);
+  if (scene.in_space()) return build_in_space(scene, part);
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);
   check_travel(scene, particles);
@@ -332,7 +340,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
     index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
-    add_highest_mode(*world, layout.bodies, needs);
+    add_highest_mode(*world, layout.bodies, needs.contact());
   if (needs.contact() || needs.constraints) add_hollows(*world, layout.bodies);
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);

@@ -94,7 +94,7 @@ MemoryNeed memory_need(const Scene& scene) {
   const Needs needs = needs_of(scene, all);
   const bool mode = scene.time.estimate == TimeSpec::Estimate::highest_mode;
   std::uint64_t node = bytes_of<Position<TwoD>, Velocity<TwoD>, InternalForce<TwoD>>();
-  if (mode) node += bytes_of<HighestMode>();
+  if (mode) node += bytes_of<HighestMode<TwoD>>();
   if (needs.bulk_damping) node += bytes_of<DampingForce<TwoD>>();
   const std::uint64_t control = bytes_of<CurvePosition, CurveBefore, CurveForce>() +
                                 (needs.friction || needs.damping ? bytes_of<CurveVelocity>() : 0);

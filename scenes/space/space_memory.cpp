@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/body.hpp"
+#include "components/highest_mode.hpp"
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/formulation.hpp"
@@ -73,13 +74,17 @@ SpaceMemory memory_of(const Scene& scene) {
       scene.contact.friction > 0 || any_friction(scene, [](const Friction& f) { return f.acts(); });
   const bool weakening = any_friction(scene, [](const Friction& f) { return !f.only_coulomb(); });
   const bool plastic = any_material_yields(scene),
+             mode = scene.time.estimate == TimeSpec::Estimate::highest_mode,
              damped = std::ranges::any_of(scene.materials, &MaterialSpec::damped);
   const std::uint64_t element = scene.element.formulation == Formulation::four_point
                                     ? bytes_of_element<EightPoint>(plastic)
                                     : bytes_of_element<OnePoint>(plastic);
   const std::uint64_t node =
       size_of_columns<Position<ThreeD>, Velocity<ThreeD>, InternalForce<ThreeD>>() +
-      (damped ? size_of_columns<DampingForce<ThreeD>>() : 0);
+      (damped ? size_of_columns<DampingForce<ThreeD>>() : 0) +
+      (mode ? size_of_columns<HighestMode<ThreeD>>() : 0);
+  const std::uint64_t outline =
+      size_of_columns<ContactForce<ThreeD>>() + (mode ? size_of_columns<ContactSupport>() : 0);
   const std::uint64_t point = size_of_columns<SurfacePosition, SurfaceBefore>() +
                               (friction ? size_of_columns<SurfaceVelocity>() : 0);
   const std::uint64_t row =
@@ -96,9 +101,9 @@ SpaceMemory memory_of(const Scene& scene) {
                elements = static_cast<std::uint64_t>(mesh.hexahedra()),
                faces = static_cast<std::uint64_t>(mesh.faces()),
                surface = static_cast<std::uint64_t>(mesh.surface_nodes());
-    need.columns += lanes * (nodes * node + elements * element +
-                             static_cast<std::uint64_t>(mesh.surface_points()) * point +
-                             surface * size_of_columns<ContactForce<ThreeD>>());
+    need.columns +=
+        lanes * (nodes * node + elements * element +
+                 static_cast<std::uint64_t>(mesh.surface_points()) * point + surface * outline);
     need.results += particles[c] * copies_in_flight * sizeof(double) * (6 * nodes + 9 * elements);
     need.contacts += static_cast<std::uint64_t>(rows_of_a_face *
                                                 static_cast<double>(particles[c] * faces * row));
