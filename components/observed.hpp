@@ -88,7 +88,7 @@ struct ContactNetwork {
 struct ContactQuality {
   static constexpr const char* resource_name = "contact_quality";
   static constexpr double min_edges = 2;  // narrower contacts are not resolved
-  double overlap = 0;           // m^2, of outlines with each other and with tools; 0 in 3D
+  double overlap = 0;           // m^2, of outlines with each other and with tools; m^3 of surfaces
   double penetration_work = 0;  // J, normal force times penetration, summed; 0 in 3D
   double force = 0;             // N, sum over the contacts
   double narrow_force = 0;      // N, of contacts narrower than two boundary edges

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "components/dimension.hpp"
 #include "components/entities.hpp"
 #include "engine/entry.hpp"
 
@@ -52,12 +53,14 @@ struct ConstrainedNode {  // (node of a particle, direction in which it is const
 struct ConstraintTarget : Component<ConstrainedNode, std::int32_t, 3> {
   static constexpr ComponentInfo info{"target", "-", "node and lane in the chunk, tool"};
 };
-struct ConstraintDirection : Component<ConstrainedNode, double, 2> {
+template <class D>
+struct ConstraintDirection : Component<ConstrainedNode, double, D::axes> {
   static constexpr ComponentInfo info{"direction", "-", "in which the node is held"};
 };
-struct ConstraintTravel : Component<ConstrainedNode, double, 2> {
+template <class D>
+struct ConstraintTravel : Component<ConstrainedNode, double, D::axes> {
   static constexpr ComponentInfo info{
-      "travel", "-", "displacement of the node in its direction, of the tool's x and y"};
+      "travel", "-", "displacement of the node in its direction, per displacement of the tool"};
 };
 struct ConstraintOrigin : Component<ConstrainedNode, double, 1> {
   static constexpr ComponentInfo info{"origin", "m", "place of the node at time 0, in direction"};

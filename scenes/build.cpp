@@ -111,7 +111,11 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
 
 NodePlaces undeformed_nodes(const World& world, const Layout& layout) {
   return [&](int slot) {
-    return placed_nodes(world.resource<Bodies>().shape_of_slot(slot), *entry(layout.placed, slot));
+    std::vector<Vec3> places;
+    for (const Vec2& node :
+         placed_nodes(world.resource<Bodies>().shape_of_slot(slot), *entry(layout.placed, slot)))
+      places.push_back(in_space(node));
+    return places;
   };
 }
 
@@ -165,8 +169,16 @@ void add_hollows(World& world, const Bodies& bodies) {
     world.emplace<Hollows>(std::move(hollows));
 }
 
+std::unique_ptr<World> build_in_space(const Scene& scene, const Part& part) {
+  std::unique_ptr<World> world = space::build_world(scene, part);
+  if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
+    add_highest_mode(*world, world->resource<Bodies>(), world->resource<space::Shapes>(),
+                     world->has<ContactRules>());
+  return world;
+}
+
 std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
-  if (scene.in_space()) return space::build_world(scene, part);
+  if (scene.in_space()) return build_in_space(scene, part);
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);
   check_travel(scene, particles);
@@ -199,7 +211,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
     set_reach(index, scene, rules, bonds_reach);
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
-    add_highest_mode(*world, layout.bodies, needs);
+    add_highest_mode(*world, layout.bodies, needs.contact());
   if (needs.contact() || needs.constraints) add_hollows(*world, layout.bodies);
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);
@@ -208,7 +220,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
   add_bond_totals(*world, scene);
   world->emplace<Bodies>(std::move(layout.bodies));
   world->emplace<ParticleClasses>(std::move(layout.classes));
-  if (needs.constraints) add_constraints(*world, scene, undeformed_nodes(*world, layout));
+  if (needs.constraints) add_constraints<TwoD>(*world, scene, undeformed_nodes(*world, layout));
   add_observed(*world, scene);
   return world;
 }

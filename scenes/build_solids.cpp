@@ -8,9 +8,24 @@
 #include "scenes/results/solids/observe.hpp"
 #include "scenes/solid_contact_columns.hpp"
 #include "scenes/solid_layout.hpp"
+#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/drives.hpp"
 
 namespace pulvis::space {
+namespace {
+
+// m, undeformed.
+NodePlaces node_places(const Shapes& shapes, const Bodies& bodies, const Layout& layout) {
+  return [&](int slot) {
+    const Placed& placed = *entry(layout.placed, slot);
+    std::vector<Vec3> places;
+    for (const Point& p : entry(shapes.list, entry(bodies.slots, slot).shape).nodes)
+      places.emplace_back(placed.body->position + placed.turn * Vec3(p[0], p[1], p[2]));
+    return places;
+  };
+}
+
+}  // namespace
 
 std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
@@ -29,10 +44,13 @@ std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   world->emplace<Shapes>(std::move(layout.shapes));
   world->emplace<ParticleClasses>(std::move(layout.classes));
   if (!scene.tools.empty()) {
-    add_tool_columns(*world, scene, true);
+    add_tool_columns(*world, scene, needs.tools);
     add_drives<ThreeD>(*world, scene, bodies);
   }
   add_contact(*world, scene, needs);
+  if (needs.constraints)
+    add_constraints<ThreeD>(
+        *world, scene, node_places(world->resource<Shapes>(), world->resource<Bodies>(), layout));
   space::add_observed(*world, scene);
   return world;
 }

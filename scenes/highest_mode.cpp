@@ -3,6 +3,7 @@
 #include <random>
 
 #include "components/highest_mode.hpp"
+#include "engine/entry.hpp"
 #include "scenes/meshes/contact_curve.hpp"
 
 namespace pulvis {
@@ -25,31 +26,59 @@ std::vector<double> supports(const Shape& shape) {
   return support;
 }
 
+// A face's spring matrix is at most A/4 A/V on each of its nodes.
+std::vector<double> supports(const space::Shape& shape) {
+  std::vector<double> support(static_cast<std::size_t>(shape.boundary_nodes), 0);
+  for (const space::Shape::Face& face : shape.faces)
+    for (const auto corner : face.corner)
+      entry(support, corner) += 0.25 * face.size * face.size * face.stiffness;
+  return support;
+}
+
 // The same for all particles of a class, so that it does not depend on memory layout. No symmetry: a guess
 // must contain a component of every mode.
-void guess(const Shape& shape, Lane* mode) {
+template <class D>
+void guess(std::size_t nodes, Lane* mode) {
   std::mt19937_64 random(1);
-  for (std::size_t n = 0; n < shape.nodes.size(); ++n)
-    for (std::size_t k = 0; k < 2; ++k)
-      mode[HighestMode::count * n + k] = Lane(static_cast<double>(random() >> 11) * 0x1p-52 - 1);
+  for (std::size_t n = 0; n < nodes; ++n)
+    for (std::size_t k = 0; k < D::axes; ++k)
+      mode[HighestMode<D>::count * n + k] = Lane(static_cast<double>(random() >> 11) * 0x1p-52 - 1);
+}
+
+// `shape_of`: of a chunk.
+template <class D, class ShapeOf>
+void add_columns(World& world, const Bodies& bodies, const ShapeOf& shape_of, bool contact) {
+  world.add<HighestMode<D>>();
+  auto& mode = world.column<HighestMode<D>>();
+  world.add<ModeGain>();
+  if (contact) world.add<ContactSupport>();
+  for (std::int32_t c = 0; c < bodies.chunks(); ++c) {
+    const auto& shape = shape_of(c);
+    guess<D>(shape.nodes.size(),
+             mode.lanes() + HighestMode<D>::count * entry(mode.table.chunk_begin, c));
+    if (!contact) continue;
+    auto& support = world.column<ContactSupport>();
+    Lane* of_chunk = support.lanes() + entry(support.table.chunk_begin, c);
+    for (const double s : supports(shape)) *of_chunk++ = Lane(s);
+  }
 }
 
 }  // namespace
 
-void add_highest_mode(World& world, const Bodies& bodies, const Needs& needs) {
-  world.add<HighestMode>();
-  world.add<ModeGain>();
-  auto& mode = world.column<HighestMode>();
-  if (needs.contact()) world.add<ContactSupport>();
-  for (std::int32_t c = 0; c < bodies.chunks(); ++c) {
-    const auto at = static_cast<std::size_t>(c);
-    const Shape& shape = bodies.shape_of_chunk(Chunk{c});
-    guess(shape, mode.lanes() + HighestMode::count * mode.table.chunk_begin[at]);
-    if (!needs.contact()) continue;
-    auto& support = world.column<ContactSupport>();
-    Lane* of_chunk = support.lanes() + support.table.chunk_begin[at];
-    for (const double s : supports(shape)) *of_chunk++ = Lane(s);
-  }
+void add_highest_mode(World& world, const Bodies& bodies, bool contact) {
+  add_columns<TwoD>(
+      world, bodies, [&](int chunk) -> const Shape& { return bodies.shape_of_chunk(Chunk{chunk}); },
+      contact);
+}
+
+void add_highest_mode(World& world, const Bodies& bodies, const space::Shapes& shapes,
+                      bool contact) {
+  add_columns<ThreeD>(
+      world, bodies,
+      [&](int chunk) -> const space::Shape& {
+        return entry(shapes.list, entry(bodies.slots, chunk * lane_count).shape);
+      },
+      contact);
 }
 
 }  // namespace pulvis

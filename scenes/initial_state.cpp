@@ -38,20 +38,22 @@ void start_tools(World& world) {
 }
 
 // Constraints hold their nodes where the state has them: travel counts from there.
+template <class D>
 void start_constraints(World& world) {
-  if (!world.has<ConstraintOrigin>()) return;
+  if (!world.has<ConstraintDirection<D>>()) return;
   const Bodies& bodies = world.resource<Bodies>();
-  const auto& places = world.column<Position<TwoD>>();
+  const auto& places = world.column<Position<D>>();
   const std::vector<std::int32_t>& begin = world.resource<ConstraintIndex>().begin;
   const std::int32_t* target = world.column<ConstraintTarget>().values();
-  const double* direction = world.column<ConstraintDirection>().values();
+  const double* direction = world.column<ConstraintDirection<D>>().values();
   double* origin = world.column<ConstraintOrigin>().values();
   for (int chunk = 0; chunk < bodies.chunks(); ++chunk)
     for (int row = entry(begin, chunk); row < entry(begin, chunk + 1); ++row) {
       const int node = target[3 * row], lane = target[3 * row + 1];
       if (!bodies.owns(chunk * lane_count + lane)) continue;
-      const Lane* at = places.lanes() + 2 * (entry(places.table.chunk_begin, chunk) + node);
-      origin[row] = direction[2 * row] * at[0][lane] + direction[2 * row + 1] * at[1][lane];
+      const Lane* at = places.lanes() + D::axes * (entry(places.table.chunk_begin, chunk) + node);
+      origin[row] = 0;
+      for (int k = 0; k < D::axes; ++k) origin[row] += direction[D::axes * row + k] * at[k][lane];
     }
 }
 
@@ -83,7 +85,8 @@ void begin_with_state(World& world, const Scene& scene) {
   clock.end = end;
   clock.next_look = 0;
   start_tools(world);
-  start_constraints(world);
+  start_constraints<TwoD>(world);
+  start_constraints<ThreeD>(world);
   if (world.has<PeriodicCell>()) start_cell(world.resource<PeriodicCell>());
 }
 

@@ -88,7 +88,7 @@ Bytes bytes_in_plane(const Scene& scene, const Needs& needs) {
   constexpr std::uint64_t copies = 3;
   const bool mode = scene.time.estimate == TimeSpec::Estimate::highest_mode;
   Bytes bytes;
-  bytes.node = node_bytes<TwoD>(needs) + bytes_if<HighestMode>(mode);
+  bytes.node = node_bytes<TwoD>(needs) + bytes_if<HighestMode<TwoD>>(mode);
   bytes.element =
       with_formulation(needs.formulation, [&]<class F>(F) { return quad_bytes<F>(needs); });
   bytes.boundary_node = bytes_of<ContactForce<TwoD>>() + bytes_if<ContactSupport>(mode);
@@ -137,10 +137,11 @@ Bytes bytes_in_space(const Scene& scene, const Needs& needs) {
   // Of a frame: gathered; and for its largest fields, the data packed for the file and the journal.
   constexpr std::uint64_t copies = 2;
   Bytes bytes;
-  bytes.node = node_bytes<ThreeD>(needs);
+  const bool mode = scene.time.estimate == TimeSpec::Estimate::highest_mode;
+  bytes.node = node_bytes<ThreeD>(needs) + bytes_if<HighestMode<ThreeD>>(mode);
   bytes.element = space::with_hexahedra(needs.formulation,
                                         [&]<class F>(F) { return hexahedron_bytes<F>(needs); });
-  bytes.boundary_node = bytes_of<ContactForce<ThreeD>>();
+  bytes.boundary_node = bytes_of<ContactForce<ThreeD>>() + bytes_if<ContactSupport>(mode);
   bytes.control_point = bytes_of<space::SurfacePosition, space::SurfaceBefore>() +
                         bytes_if<space::SurfaceVelocity>(needs.friction || needs.damping);
   bytes.side = rows_of_a_face * static_cast<double>(face_row_bytes(scene, needs));

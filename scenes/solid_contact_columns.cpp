@@ -13,6 +13,7 @@
 #include "scenes/contact_search.hpp"
 #include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/bond_rules.hpp"
+#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "scenes/tools/surfaces/tool_shapes.hpp"
 

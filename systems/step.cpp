@@ -63,10 +63,10 @@ template <class F>
 void add_time_step(World& w, SystemList& list) {
   if constexpr (in_plane<typename F::Dimension>) {
     list.add<stable_time_step<F::points>>("stable_time_step");
-    list.add<highest_mode<F::points>>("highest_mode", w.has<HighestMode>());
   } else {
     list.add<space::stable_time_step<F>>("stable_time_step");
   }
+  list.add<highest_mode<F>>("highest_mode", w.has<HighestMode<typename F::Dimension>>());
 }
 
 template <class F>
@@ -191,7 +191,7 @@ StepList step_list_of(World& w) {
   force.add<cell_control>               ("cell_control",      cell);
   add_element_forces<F>(w, force);
   add_time_step<F>(w, force);
-  force.add<apply_constraints>          ("apply_constraints", constraints);
+  force.add<apply_constraints<D>>       ("apply_constraints", constraints);
   force.add<tool_reaction<D>>           ("tool_reaction",     moved);
   force.add<wall_control>               ("wall_control",      w.has<DrivenWalls>());
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
@@ -357,8 +357,9 @@ Step::Step(World& world)
       failure_(std::make_unique<StepFailure>()),
       whole_(watched(whole_step(world), world, *failure_), chunks_of(world), passes_of(world),
              Transients::dropped, from_memory(world) ? &world : nullptr),
-      observed_(watched(joined(step_list(world).forces, step_list(world).observe), world, *failure_),
-                chunks_of(world), passes_of(world)),
+      observed_(
+          watched(joined(step_list(world).forces, step_list(world).observe), world, *failure_),
+          chunks_of(world), passes_of(world)),
       motion_(watched(step_list(world).motion, world, *failure_), chunks_of(world)) {}
 
 void Step::start() {

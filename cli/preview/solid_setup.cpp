@@ -11,6 +11,7 @@
 #include "scenes/packing/solids/rigid_shape.hpp"
 #include "scenes/results/parts/visit_particles.hpp"
 #include "scenes/results/solids/tool_sheets.hpp"
+#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis {
@@ -65,6 +66,15 @@ Eigen::AlignedBox3d box_of(const json& particles) {
   return box;
 }
 
+json touching_tool(const Scene& scene, const ToolSpec& tool) {
+  json friction = json::object();
+  for (const MaterialSpec& m : scene.materials)
+    friction[m.name] = friction_of(scene, m.name, tool.name).coefficient;
+  return {{"shape", tool_shape_names[tool.shape]},
+          {"normal", triple(tool.normal)},
+          {"friction", friction}};
+}
+
 json tools_in_space(const Scene& scene, const json& particles, const World& world) {
   if (scene.tools.empty()) return json::array();
   const space::ToolSheets sheets(scene, box_of(particles));
@@ -73,21 +83,19 @@ json tools_in_space(const Scene& scene, const json& particles, const World& worl
       sheets.points({world.column<ToolPosition>().values(), tool_axes * scene.tools.size()});
   json out = json::array();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    json friction = json::object();
-    for (const MaterialSpec& m : scene.materials)
-      friction[m.name] = friction_of(scene, m.name, scene.tools[t].name).coefficient;
-    out.push_back({{"name", scene.tools[t].name},
-                   {"shape", faces.kinds[t]},
-                   {"normal", triple(scene.tools[t].normal)},
-                   {"friction", friction},
-                   {"pieces", json::array()}});
+    const ToolSpec& tool = scene.tools[t];
+    json one = is_constraint(tool) ? constraint_setup(scene, world, static_cast<int>(t))
+                                   : touching_tool(scene, tool);
+    one["name"] = tool.name;
+    one["pieces"] = json::array();
+    out.push_back(std::move(one));
   }
   for (std::size_t i = 0; i < faces.corners.size(); i += 4) {
     json piece = json::array();
     for (std::size_t k = 0; k < 4; ++k)
       for (std::size_t axis = 0; axis < 3; ++axis)
         piece.push_back(xyz[3 * static_cast<std::size_t>(faces.corners[i + k]) + axis]);
-    out[static_cast<std::size_t>(faces.tool[i / 4])]["pieces"].push_back(std::move(piece));
+    out[sheets.number_of(faces.tool[i / 4])]["pieces"].push_back(std::move(piece));
   }
   return out;
 }

@@ -20,6 +20,9 @@ namespace {
 using nlohmann::json;
 
 json point_of(const Vec2& v) { return {v.x(), v.y()}; }
+json point_of(const Scene& scene, const Vec3& v) {
+  return scene.in_space() ? json{v.x(), v.y(), v.z()} : point_of(in_plane(v));
+}
 
 // By material; for a pair with a contact law of its own, that law's sliding coefficient.
 json friction_setup(const Scene& scene, const ToolSpec& tool) {
@@ -30,36 +33,22 @@ json friction_setup(const Scene& scene, const ToolSpec& tool) {
 }
 
 // Positions of the nodes that it holds.
+template <class D>
 json held_nodes(const World& world, int tool) {
   const auto& target = world.column<ConstraintTarget>();
   const auto& begin = world.resource<ConstraintIndex>().begin;
-  const auto& x = world.column<Position<TwoD>>();
-  std::set<std::array<double, 2>> places;
+  const auto& x = world.column<Position<D>>();
+  std::set<typename D::Point> places;
   for (std::size_t chunk = 0; chunk + 1 < begin.size(); ++chunk)
     for (auto row = begin[chunk]; row < begin[chunk + 1]; ++row) {
       const std::int32_t* of = target.values() + 3 * static_cast<std::size_t>(row);
       if (of[2] != tool) continue;
       const auto node = static_cast<std::size_t>(x.table.chunk_begin[chunk] + of[0]);
-      places.insert({x.lanes()[2 * node][of[1]], x.lanes()[2 * node + 1][of[1]]});
+      typename D::Point place;
+      for (std::size_t k = 0; k < D::axes; ++k) place[k] = x.lanes()[D::axes * node + k][of[1]];
+      places.insert(place);
     }
-  json out = json::array();
-  for (const auto& place : places) out.push_back(json::array({place[0], place[1]}));
-  return out;
-}
-
-json constraint_setup(const ToolSpec& tool, const World& world, int number) {
-  static constexpr EnumTable<ToolSpec::Holds> directions{"x", "y", "both", "radial"};
-  json out{{"shape", "constraint"},
-           {"holds", directions[tool.holds]},
-           {"nodes", held_nodes(world, number)}};
-  if (tool.radius) {
-    out["point"] = point_of(in_plane(tool.point));
-    out["radius"] = *tool.radius;
-  } else {
-    out["low"] = point_of(tool.low);
-    out["high"] = point_of(tool.high);
-  }
-  return out;
+  return places;
 }
 
 json touching_setup(const Scene& scene, const ToolSpec& tool, const Vec2& position) {
@@ -85,12 +74,29 @@ double face_of(const json& tool, const char* axis, bool largest) {
 
 }  // namespace
 
+json constraint_setup(const Scene& scene, const World& world, int number) {
+  static constexpr EnumTable<ToolSpec::Holds> directions{"x", "y", "both", "radial", "z", "all"};
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
+  json out{{"shape", "constraint"},
+           {"holds", directions[tool.holds]},
+           {"nodes", scene.in_space() ? held_nodes<ThreeD>(world, number)
+                                      : held_nodes<TwoD>(world, number)}};
+  if (tool.radius) {
+    out["point"] = point_of(scene, tool.point);
+    out["radius"] = *tool.radius;
+  } else {
+    out["low"] = point_of(scene, tool.low);
+    out["high"] = point_of(scene, tool.high);
+  }
+  return out;
+}
+
 json tool_setup(const Scene& scene, const World& world) {
   json tools = json::array();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];
     const double* at = world.column<ToolPosition>().values() + tool_axes * t;
-    json out = is_constraint(tool) ? constraint_setup(tool, world, static_cast<int>(t))
+    json out = is_constraint(tool) ? constraint_setup(scene, world, static_cast<int>(t))
                                    : touching_setup(scene, tool, {at[0], at[1]});
     out["name"] = tool.name;
     tools.push_back(std::move(out));

@@ -11,6 +11,9 @@ namespace pulvis {
 // [{name, shape, point, normal, points, friction by material, ...}] at their initial positions.
 nlohmann::json tool_setup(const Scene& scene, const World& world);
 
+// What a constraint holds: {shape, holds, nodes, ...} at their initial positions.
+nlohmann::json constraint_setup(const Scene& scene, const World& world, int number);
+
 // The space between four tools: {left, right, bottom, top} as names, x and y of their faces. Null if there is none.
 nlohmann::json die_setup(const Scene& scene, const nlohmann::json& tools);
 

@@ -37,8 +37,8 @@ struct ToolShapes {
   static constexpr const char* resource_name = "space_tool_shapes";
   static constexpr bool fixed = true;
   // A hole is round, along the tool's normal, without an end. A body of revolution is about that normal: a punch, a die
-  // with a mouth.
-  enum class Kind { plane, hole, revolution, mesh };
+  // with a mouth. A constraint touches nothing.
+  enum class Kind { plane, hole, revolution, mesh, constraint };
   struct Shape {
     Kind kind = Kind::plane;
     double radius = 0;     // m, of a hole

@@ -253,8 +253,7 @@ const TableDeclaration<TimeSpec>& time() {
                "from the highest frequency of each whole particle, tracked by power "
                "iteration; up to a quarter longer"}}),
          .fallback = value_of("element"),
-         .doc = "Basis of the stable time step.",
-         .dimension = Dimension::two},
+         .doc = "Basis of the stable time step."},
         word_to(&TimeSpec::estimate)}}};
   return declaration;
 }

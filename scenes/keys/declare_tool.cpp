@@ -42,30 +42,37 @@ Key<ToolSpec> corners_rounding_key() {
 }
 
 Key<ToolSpec> holds_key() {
-  return {{.name = "holds",
-           .kind = Kind::choice,
-           .choices = words_of<ToolSpec::Holds>(
-               {{"x", "nodes follow the constraint in x and are free in y"},
-                {"y", "nodes follow the constraint in y and are free in x"},
-                {"both", "nodes follow the constraint"},
-                {"radial",
-                 "nodes move radially away from `point` by the first component of the "
-                 "displacement and are free in the tangential direction; force_x of the "
-                 "constraint is the sum of the radial forces"}}),
-           .required = true,
-           .only_for = "constraint",
-           .doc = "Constrained direction."},
-          word_to(&ToolSpec::holds)};
+  return {
+      {.name = "holds",
+       .kind = Kind::choice,
+       .choices = words_of<ToolSpec::Holds>(
+           {{"x", "nodes follow the constraint in x and are free otherwise"},
+            {"y", "nodes follow the constraint in y and are free otherwise"},
+            {"both", "nodes follow the constraint", "", Dimension::two},
+            {"radial",
+             "nodes move radially away from `point` by the first component of the "
+             "displacement and are free across it; force_x of the constraint is the sum of "
+             "the radial forces"},
+            {"z", "nodes follow the constraint in z and are free otherwise", "", Dimension::three},
+            {"all", "nodes follow the constraint", "", Dimension::three}}),
+       .required = true,
+       .only_for = "constraint",
+       .doc = "Constrained direction.",
+       .in_3d = {.doc = "Constrained direction. Two constraints with the same box constrain "
+                        "two of them."}},
+      word_to(&ToolSpec::holds)};
 }
 
-Key<ToolSpec> box_corner_key(const char* name, Vec2 ToolSpec::*member, const char* doc) {
+Key<ToolSpec> box_corner_key(const char* name, Vec3 ToolSpec::*member, const char* doc,
+                             const char* doc_3d) {
   return {{.name = name,
            .kind = Kind::vector,
            .unit = "m",
            .range = within(-largest_size, largest_size),
            .only_for = "constraint",
            .doc = doc,
-           .fallback_doc = "required unless `radius` is given"},
+           .fallback_doc = "required unless `radius` is given",
+           .in_3d = {.doc = doc_3d}},
           to(member)};
 }
 
@@ -78,7 +85,9 @@ Key<ToolSpec> radius_key() {
            .doc = "Instead of the box: constrains nodes within this distance of `point` in the "
                   "initial state. The nodes of a hole lie slightly outside its circle, because "
                   "the polygon has the same area.",
-           .fallback_doc = "the box"},
+           .fallback_doc = "the box",
+           .in_3d = {.doc = "Instead of the box: constrains nodes within this distance of `point` "
+                            "in the initial state."}},
           to(&ToolSpec::radius)};
 }
 
@@ -101,9 +110,9 @@ Key<ToolSpec> shape_key() {
            {{"plane", "fills the half-plane or half-space behind its surface"},
             {"polyline", "fills the region to the right of a chain of points", "", two},
             {"constraint",
-             "prescribes the displacement of the nodes of one particle in a box or a "
-             "circle; has no contact",
-             "grip", two},
+             "prescribes the displacement of the nodes of one particle in a box, a circle or a "
+             "sphere; has no contact",
+             "grip"},
             {"profile", "a target surface: fills the region below a relief along x", "", two},
             {"die",
              "a round hole: fills everything outside a cylinder, up to `height` if it is given", "",
@@ -127,6 +136,7 @@ Key<ToolSpec> point_key() {
                         "the height at which the foremost part of a punch or plane, or the lowest "
                         "part of an STL surface, rests on the packing; with several packings, the "
                         "highest"}},
+           .optional_for = "constraint",
            .doc = "A point on the surface of a plane, a crest of a profile, or the centre of a "
                   "constraint with holds = \"radial\" or a `radius`. A polyline from a drawing "
                   "is moved so that its furthest part along `normal` is level with this point, "
@@ -134,7 +144,9 @@ Key<ToolSpec> point_key() {
            .fallback_doc = "required for these; for a polyline from a drawing: its position in the "
                            "drawing; not allowed elsewhere",
            .in_3d = {.doc = "A point on the surface of a plane or on the axis of a die, the centre "
-                            "of a punch face, or the position of the origin of an STL file.",
+                            "of a punch face, the position of the origin of an STL file, or the "
+                            "centre of a constraint with holds = \"radial\" or a `radius`; other "
+                            "constraints have none.",
                      .required = true}},
           [](ToolSpec& spec, const Decoded& value) {
             spec.point = value.vector3;
@@ -177,16 +189,22 @@ std::vector<Key<ToolSpec>> keys_of_plane_shapes() {
                   "file, by its id or Inkscape label.",
                   "the whole drawing"),
       corners_rounding_key(),
-      body_key(),
-      box_corner_key("low", &ToolSpec::low,
-                     "Lower left corner of the box. Nodes on the boundary are included; positions "
-                     "are those of the initial state."),
-      box_corner_key("high", &ToolSpec::high, "Upper right corner of the box."),
-      radius_key(),
-      holds_key()};
+  };
   for (Key<ToolSpec>& key : profile_keys()) all.push_back(std::move(key));
   for (Key<ToolSpec>& key : all) key.info.dimension = Dimension::two;
   return all;
+}
+
+std::vector<Key<ToolSpec>> keys_of_constraints() {
+  return {body_key(),
+          box_corner_key("low", &ToolSpec::low,
+                         "Lower left corner of the box. Nodes on the boundary are included; "
+                         "positions are those of the initial state.",
+                         "Corner of the box with the smallest coordinates. Nodes on the boundary "
+                         "are included; positions are those of the initial state."),
+          box_corner_key("high", &ToolSpec::high, "Upper right corner of the box.",
+                         "Corner of the box with the largest coordinates."),
+          radius_key(), holds_key()};
 }
 
 std::vector<Key<ToolSpec>> keys_of_dies_and_punches() {
@@ -252,7 +270,8 @@ std::vector<Key<ToolSpec>> stl_keys() {
 
 std::vector<Key<ToolSpec>> keys() {
   std::vector<Key<ToolSpec>> all = place_keys();
-  for (Key<ToolSpec>& key : keys_of_plane_shapes()) all.push_back(std::move(key));
+  for (auto keys : {keys_of_plane_shapes(), keys_of_constraints()})
+    for (Key<ToolSpec>& key : keys) all.push_back(std::move(key));
   for (auto keys : {keys_of_dies_and_punches(), stl_keys()})
     for (Key<ToolSpec>& key : keys) {
       key.info.dimension = Dimension::three;
@@ -270,7 +289,9 @@ TableDeclaration<ToolSpec> declared() {
   table.info.doc =
       "A rigid punch, wall or surface, or a constraint: support, symmetry plane or "
       "prescribed displacement. A tool without a move stays fixed.";
-  table.info.doc_3d = "A rigid punch, die or wall. A tool without a move stays fixed.";
+  table.info.doc_3d =
+      "A rigid punch, die or wall, or a constraint: support, symmetry plane or prescribed "
+      "displacement. A tool without a move stays fixed.";
   table.keys = keys();
   return table;
 }

@@ -73,8 +73,11 @@ void add_contact_series(const Scene& scene, Observables& all) {
         space ? "deepest so far, relative to the size of a face"
               : "deepest so far, relative to the boundary edge length",
         [](const Observation& now) { return now.world.resource<Totals>().worst_penetration; }},
-       {"contact_overlap", "-", "overlap over particle area",
-        "area in which outlines overlap / area of the particles", overlap_of_particles, !space},
+       {"contact_overlap", "-",
+        space ? "overlap over particle volume" : "overlap over particle area",
+        space ? "volume in which surfaces overlap / volume of the particles"
+              : "area in which outlines overlap / area of the particles",
+        overlap_of_particles},
        {"narrow_contacts", "-", "share of force on narrow contacts",
         space ? "share of the contact force carried by contacts narrower than two faces"
               : "share of the contact force carried by contacts narrower than two boundary "

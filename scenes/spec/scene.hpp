@@ -269,7 +269,7 @@ struct PackingSpec {
 // about its normal through `point`; an STL tool is a closed surface with outward normals that moves as a whole.
 struct ToolSpec {
   enum class Shape { plane, polyline, constraint, profile, die, punch, stl };
-  enum class Holds { x, y, both, radial };
+  enum class Holds { x, y, both, radial, z, all };
   std::string name;
   Vec3 point = Vec3::Zero();  // m; for a radial constraint, and one with a radius: its centre
   bool on_packing = false;    // point's last component is the top of the highest packing
@@ -284,8 +284,8 @@ struct ToolSpec {
   ProfileSpec relief = {};  // of a profile whose crests are at the height of `point`
   double rounding = 0;  // m, radius of a polyline's convex corners, of the edge of a die's mouth
   int body = 0;         // of a constraint, in the order of placement
-  Vec2 low = Vec2::Zero();  // m, corners of a constraint's box
-  Vec2 high = Vec2::Zero();
+  Vec3 low = Vec3::Zero();  // m, corners of a constraint's box
+  Vec3 high = Vec3::Zero();
   std::optional<double> radius = {};  // m, about `point`, instead of the box
   Holds holds = Holds::both;
   double diameter = 0;  // m, of a die, of a punch

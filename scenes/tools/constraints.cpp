@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "components/dimension.hpp"
 #include "components/shape.hpp"
 #include "components/surface.hpp"
 #include "scenes/language/problem.hpp"
@@ -19,9 +20,9 @@ constexpr double round_off =
 
 struct Held {
   std::int32_t chunk, node, lane, tool;
-  Vec2 place;
-  Vec2 direction = Vec2::Zero();
-  Vec2 travel = Vec2::Zero();  // of the node, along `direction`, per x and y of the tool
+  Vec3 place;
+  Vec3 direction = Vec3::Zero();
+  Vec3 travel = Vec3::Zero();  // of the node, along `direction`, per displacement of the tool
 };
 
 [[noreturn]] void refuse(const Scene& scene, int tool, const std::string& key,
@@ -31,39 +32,38 @@ struct Held {
                      fmt::format("tool[{}].{}", tool, key), message}});
 }
 
-double size_of(const std::vector<Vec2>& places) {
+double size_of(const std::vector<Vec3>& places) {
   double size = 0;
-  for (const Vec2& p : places) size = std::max(size, (p - places.front()).norm());
+  for (const Vec3& p : places) size = std::max(size, (p - places.front()).norm());
   return size;
 }
 
 void hold_node(const Scene& scene, const Held& node, double size, std::vector<Held>& held) {
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(node.tool)];
-  const auto add = [&](const Vec2& direction, const Vec2& travel) {
+  const auto add = [&](const Vec3& direction, const Vec3& travel) {
     held.push_back(node);
     held.back().direction = direction;
     held.back().travel = travel;
   };
-  using Holds = ToolSpec::Holds;
-  if (tool.holds == Holds::x || tool.holds == Holds::both) add(Vec2::UnitX(), Vec2::UnitX());
-  if (tool.holds == Holds::y || tool.holds == Holds::both) add(Vec2::UnitY(), Vec2::UnitY());
-  if (tool.holds != Holds::radial) return;
-  const Vec2 arm = node.place - in_plane(tool.point);
+  for (int axis = 0; axis < scene.dimension; ++axis)
+    if (holds_axis(tool.holds, axis)) add(Vec3::Unit(axis), Vec3::Unit(axis));
+  if (tool.holds != ToolSpec::Holds::radial) return;
+  const Vec3 arm = node.place - tool.point;
   if (arm.norm() <= round_off * size)
     refuse(scene, node.tool, "point",
            fmt::format("node {} of particle {} lies at the centre, where the radial direction is "
                        "undefined, allowed: a point where the constraint holds no node",
                        node.node, tool.body));
-  add(arm.normalized(), Vec2::UnitX());
+  add(arm.normalized(), Vec3::UnitX());
 }
 
-bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
-  if (tool.radius) return (place - in_plane(tool.point)).norm() <= *tool.radius + margin;
+bool holds_place(const ToolSpec& tool, const Vec3& place, double margin) {
+  if (tool.radius) return (place - tool.point).norm() <= *tool.radius + margin;
   return (place.array() >= tool.low.array() - margin).all() &&
          (place.array() <= tool.high.array() + margin).all();
 }
 
-[[noreturn]] void refuse_empty(const Scene& scene, int number, const std::vector<Vec2>& places) {
+[[noreturn]] void refuse_empty(const Scene& scene, int number, const std::vector<Vec3>& places) {
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
   if (!tool.radius)
     refuse(scene, number, "low",
@@ -71,27 +71,31 @@ bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
                        "node in it",
                        tool.body));
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Vec2& place : places)
-    nearest = std::min(nearest, (place - in_plane(tool.point)).norm());
+  for (const Vec3& place : places) nearest = std::min(nearest, (place - tool.point).norm());
   refuse(scene, number, "radius",
          fmt::format("no node of particle {} lies within it, allowed: at least {:.6g} m, the "
                      "distance of the nearest one",
                      tool.body, nearest));
 }
 
+// All grains of a particle count as the particle.
+int particle_in(const Bodies::Slot& slot) {
+  return slot.parent == Bodies::empty_slot ? slot.number : slot.parent;
+}
+
 std::vector<Held> held_by(const Scene& scene, const Bodies& bodies, const NodePlaces& places_of,
                           int number) {
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
-  int last = 0;  // all grains of a particle are held
-  for (const Bodies::Slot& slot : bodies.slots) last = std::max(last, slot.parent);
+  int last = 0;
+  for (const Bodies::Slot& slot : bodies.slots) last = std::max(last, particle_in(slot));
   if (tool.body > last)
     refuse(scene, number, "body",
            fmt::format("there is no particle {}, allowed: >= 0 and <= {}", tool.body, last));
-  std::vector<Vec2> all;
+  std::vector<Vec3> all;
   std::vector<Held> held;
   for (int slot = 0; slot < static_cast<int>(bodies.slots.size()); ++slot) {
-    if (entry(bodies.slots, slot).parent != tool.body) continue;
-    const std::vector<Vec2> places = places_of(slot);
+    if (particle_in(entry(bodies.slots, slot)) != tool.body) continue;
+    const std::vector<Vec3> places = places_of(slot);
     const double size = size_of(places);
     for (std::size_t n = 0; n < places.size(); ++n)
       if (holds_place(tool, places[n], round_off * size))
@@ -105,6 +109,11 @@ std::vector<Held> held_by(const Scene& scene, const Bodies& bodies, const NodePl
   return held;
 }
 
+std::string place_text(const Scene& scene, const Vec3& at) {
+  return scene.in_space() ? fmt::format("({:.6g}, {:.6g}, {:.6g})", at.x(), at.y(), at.z())
+                          : fmt::format("({:.6g}, {:.6g})", at.x(), at.y());
+}
+
 // Two constraints may hold a node only at right angles: otherwise they conflict.
 void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
   for (std::size_t i = 0; i < sorted.size(); ++i)
@@ -113,14 +122,16 @@ void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
       if (std::tie(a.chunk, a.lane, a.node) != std::tie(b.chunk, b.lane, b.node)) break;
       if (std::abs(a.direction.dot(b.direction)) < round_off) continue;
       refuse(scene, std::max(a.tool, b.tool), "holds",
-             fmt::format("node {} of particle {} at ({:.6g}, {:.6g}) m is held by '{}' and '{}' in "
+             fmt::format("node {} of particle {} at {} m is held by '{}' and '{}' in "
                          "the same direction, allowed: one constraint, or two at right angles",
-                         a.node, scene.tools[static_cast<std::size_t>(a.tool)].body, a.place.x(),
-                         a.place.y(), scene.tools[static_cast<std::size_t>(a.tool)].name,
+                         a.node, scene.tools[static_cast<std::size_t>(a.tool)].body,
+                         place_text(scene, a.place),
+                         scene.tools[static_cast<std::size_t>(a.tool)].name,
                          scene.tools[static_cast<std::size_t>(b.tool)].name));
     }
 }
 
+template <class D>
 void fill(World& world, const std::vector<Held>& held) {
   const Bodies& bodies = world.resource<Bodies>();
   for (std::size_t r = 0; r < held.size(); ++r) {
@@ -128,10 +139,10 @@ void fill(World& world, const std::vector<Held>& held) {
     if (!bodies.owns(h.chunk * lane_count + h.lane)) continue;
     std::int32_t* target = world.column<ConstraintTarget>().values() + 3 * r;
     std::tie(target[0], target[1], target[2]) = std::tie(h.node, h.lane, h.tool);
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < D::axes; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      world.column<ConstraintDirection>().values()[2 * r + k] = h.direction[axis];
-      world.column<ConstraintTravel>().values()[2 * r + k] = h.travel[axis];
+      world.column<ConstraintDirection<D>>().values()[D::axes * r + k] = h.direction[axis];
+      world.column<ConstraintTravel<D>>().values()[D::axes * r + k] = h.travel[axis];
     }
     world.column<ConstraintOrigin>().values()[r] = h.direction.dot(h.place);
   }
@@ -139,6 +150,14 @@ void fill(World& world, const std::vector<Held>& held) {
 
 }  // namespace
 
+Vec3 start_of(const ToolSpec& tool) {
+  if (tool.shape == ToolSpec::Shape::polyline) return in_space(tool.points.front());
+  if (is_constraint(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
+    return (tool.low + tool.high) / 2;
+  return tool.point;
+}
+
+template <class D>
 void add_constraints(World& world, const Scene& scene, const NodePlaces& places_of) {
   const Bodies& bodies = world.resource<Bodies>();
   std::vector<Held> held;
@@ -157,12 +176,15 @@ void add_constraints(World& world, const Scene& scene, const NodePlaces& places_
   for (const Held& h : held) rows[static_cast<std::size_t>(h.chunk)] += 1;
   world.add_table<ConstrainedNode>(rows);
   world.add<ConstraintTarget>();
-  world.add<ConstraintDirection>();
-  world.add<ConstraintTravel>();
+  world.add<ConstraintDirection<D>>();
+  world.add<ConstraintTravel<D>>();
   world.add<ConstraintOrigin>();
   world.add<ConstraintReaction>();
   world.emplace<ConstraintIndex>().begin = world.table<ConstrainedNode>().chunk_begin;
-  fill(world, held);
+  fill<D>(world, held);
 }
+template void add_constraints<TwoD>(World& world, const Scene& scene, const NodePlaces& places_of);
+template void add_constraints<ThreeD>(World& world, const Scene& scene,
+                                      const NodePlaces& places_of);
 
 }  // namespace pulvis

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/spec/scene.hpp"
+#include "scenes/tools/constraints.hpp"
 
 namespace pulvis {
 namespace {
@@ -39,6 +39,7 @@ std::optional<DieRoom> box_of(const Scene& scene) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];
     const int number = static_cast<int>(t);
+    if (is_constraint(tool)) continue;
     if (tool.shape != ToolSpec::Shape::plane) return std::nullopt;
     if (!stand_on(room, DieRoom::left, Vec3::UnitX(), tool, number) &&
         !stand_on(room, DieRoom::front, Vec3::UnitY(), tool, number) &&
@@ -60,7 +61,7 @@ std::optional<DieRoom> round_of(const Scene& scene) {
   room.mouth = die->height;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];
-    if (static_cast<int>(t) == room.die) continue;
+    if (static_cast<int>(t) == room.die || is_constraint(tool)) continue;
     if (!has_face(tool) || !stand_on(room, DieRoom::bottom, die->normal, tool, static_cast<int>(t)))
       return std::nullopt;
     room.in_faces += volume_of_face(tool);

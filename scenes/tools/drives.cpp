@@ -20,14 +20,6 @@
 namespace pulvis {
 namespace {
 
-// The tool position in the history; for a constraint, the centre of its box, or its centre.
-Vec3 start_of(const ToolSpec& tool) {
-  if (tool.shape == ToolSpec::Shape::polyline) return in_space(tool.points.front());
-  if (is_constraint(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
-    return in_space((tool.low + tool.high) / 2);
-  return tool.point;
-}
-
 ToolProgram tool_program(const World& world, const Scene& scene) {
   ToolProgram program;
   const double* start = scene.tools.empty() ? nullptr : world.column<ToolPosition>().values();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/profile.hpp"
 #include "scenes/tools/servo_checks.hpp"
 #include "scenes/tools/surface.hpp"
@@ -20,10 +21,8 @@ class ToolChecks {
   void run() {
     for (std::size_t t = 0; t < scene_.tools.size(); ++t) {
       const std::string path = fmt::format("tool[{}]", t);
-      if (!scene_.in_space()) {  // there the declaration of the keys says all
-        point(scene_.tools[t], path);
-        normal(scene_.tools[t], path);
-      }
+      if (!scene_.in_space() || is_constraint(scene_.tools[t])) point(scene_.tools[t], path);
+      if (!scene_.in_space()) normal(scene_.tools[t], path);  // in space, its key says all
       if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::profile)
         check_profile(scene_.tools[t], path, origins_, problems_);
@@ -41,6 +40,10 @@ class ToolChecks {
  private:
   bool given(const std::string& path) const { return origins_.contains(path); }
 
+  const char* quantities() const {
+    return scene_.in_space() ? "three quantities [x, y, z]" : "two quantities [x, y]";
+  }
+
   void refuse(const std::string& path, const std::string& key, const std::string& message) {
     const std::string at = path + "." + key;
     problems_.add(origins_.at(given(at) ? at : path), at, message);
@@ -55,15 +58,20 @@ class ToolChecks {
     const bool allowed = wanted || is_drawn(tool, path);
     if (wanted && !given(path + ".point"))
       refuse(path, "point",
-             fmt::format("required key is missing: {}, allowed: two quantities [x, y] in m",
+             fmt::format("required key is missing: {}, allowed: {} in m",
                          plane     ? "the plane goes through it"
                          : profile ? "a crest stands there"
                          : radial  ? "nodes move radially from it"
-                                   : "it is the centre of the radius"));
+                                   : "it is the centre of the radius",
+                         quantities()));
     if (!allowed && given(path + ".point"))
       refuse(path, "point",
-             "has no effect, allowed: only with shape = \"plane\" or \"profile\", with a file of a "
-             "polyline, or with shape = \"constraint\" and holds = \"radial\" or a radius");
+             scene_.in_space()
+                 ? "has no effect on this constraint, allowed: only with holds = \"radial\" or a "
+                   "radius"
+                 : "has no effect, allowed: only with shape = \"plane\" or \"profile\", with a "
+                   "file of "
+                   "a polyline, or with shape = \"constraint\" and holds = \"radial\" or a radius");
   }
 
   bool is_drawn(const ToolSpec& tool, const std::string& path) const {
@@ -108,13 +116,17 @@ class ToolChecks {
         refuse(path, corner,
                "has no effect together with radius, allowed: low and high, or radius alone");
       if (!tool.radius && !there)
-        refuse(path, corner,
-               "required key is missing, allowed: two quantities [x, y] in m, or radius instead of "
-               "low and high");
+        refuse(
+            path, corner,
+            fmt::format("required key is missing, allowed: {} in m, or radius instead of low and "
+                        "high",
+                        quantities()));
     }
     const bool box = !tool.radius && given(path + ".low") && given(path + ".high");
     if (!box || (tool.low.array() <= tool.high.array()).all()) return;
-    refuse(path, "high", "the box is empty, allowed: not below and not left of low");
+    refuse(path, "high",
+           fmt::format("the box is empty, allowed: not below and not left of low{}",
+                       scene_.in_space() ? ", nor in front of it" : ""));
   }
 
   // From the axis outward, to the full width of the punch.
@@ -156,16 +168,15 @@ class ToolChecks {
   void move(const MoveSpec& move, const std::string& path) {
     const ToolSpec& tool = scene_.tools[static_cast<std::size_t>(move.tool)];
     if (tool.shape != ToolSpec::Shape::constraint) return;
-    using Holds = ToolSpec::Holds;
-    const bool x_free = tool.holds == Holds::y;
-    const bool y_free = tool.holds == Holds::x || tool.holds == Holds::radial;
-    if ((x_free && move.displacement.x() != 0) || (y_free && move.displacement.y() != 0))
-      refuse(path, "displacement",
-             fmt::format("'{}' does not hold its nodes in {}, allowed: 0 m there{}", tool.name,
-                         x_free ? "x" : "y",
-                         tool.holds == Holds::radial
-                             ? ", the radial displacement as the first component"
-                             : ""));
+    const bool radial = tool.holds == ToolSpec::Holds::radial;
+    for (int axis = 0; axis < scene_.dimension; ++axis) {
+      const bool holds = radial ? axis == 0 : holds_axis(tool.holds, axis);
+      if (holds || move.displacement[axis] == 0) continue;
+      return refuse(path, "displacement",
+                    fmt::format("'{}' does not hold its nodes in {}, allowed: 0 m there{}",
+                                tool.name, "xyz"[axis],
+                                radial ? ", the radial displacement as the first component" : ""));
+    }
   }
 
   void friction(const FrictionSpec& friction, std::size_t number) {

@@ -123,13 +123,14 @@ struct stable_time_step {
   void operator()(Chunk chunk) const;
 };
 
-template <int Points>
+template <class F>
 struct highest_mode {
-  Read<Bodies> bodies;
+  using D = typename F::Dimension;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
-  Read<Position<TwoD>> position;
+  Read<Position<D>> position;
   Material material;
-  Read<DeviatoricStress<TwoD, Points>> deviator;
+  Read<DeviatoricStress<D, F::points>> deviator;
   struct Springs {
     Read<ContactSupport> support;
     Read<ContactRules> rules;
@@ -137,7 +138,7 @@ struct highest_mode {
   Optional<Springs> springs;
   Optional<BulkDamping> damping;
   struct Estimate {
-    Write<HighestMode> mode;
+    Write<HighestMode<D>> mode;
     Write<ModeGain> gain;
     Write<StableTimeStep> stable;
   } estimate;

@@ -113,6 +113,7 @@ double left_of_tool(const ContactIndex& index, const ToolSurfaces& tools, int t,
 // Motion away from a plane is not counted: if it were, rows would be rebuilt at other times, and bits change.
 double left_of_tool(const ContactIndex& index, const space::ToolSurfaces& tools, int t,
                     const OutlineMotion<ThreeD>& m) {
+  if (tools.shape(t).kind == space::ToolShapes::Kind::constraint) return 1e300;
   if (tools.shape(t).kind != space::ToolShapes::Kind::plane)
     return index.skin - kernels::closing(m.displacement, BoxOf<ThreeD>{});
   const space::Point normal = tools.normal_of(t);

@@ -16,23 +16,24 @@ namespace pulvis {
 namespace {
 
 // Programmed displacement of a tool from its initial position.
-Point tool_travel(const ToolProgram& program, int tool, double time) {
+Point3 tool_travel(const ToolProgram& program, int tool, double time) {
   const Point3 now = tool_position_at(program, tool, time);
   const Point3& start = entry(program.start, tool);
-  return {now[0] - start[0], now[1] - start[1]};
+  return {now[0] - start[0], now[1] - start[1], now[2] - start[2]};
 }
 
 }  // namespace
 
-void apply_constraints::operator()(Chunk chunk) const {
-  const Shape& shape = bodies->shape_of_chunk(chunk);
+template <class D>
+void apply_constraints<D>::operator()(Chunk chunk) const {
+  const auto& shape = bodies.shape_of(chunk);
   const auto x = motion.position.chunk(chunk);
   const auto v = motion.velocity.chunk(chunk);
   const auto f = forces.internal.chunk(chunk);
   const auto c = static_cast<std::size_t>(chunk.index);
   const double kick = 0.5 * (clock->dt_before + clock->dt);
   int tool = -1;
-  Point displacement{};
+  Point3 displacement{};
   for (int r = constraints.index->begin[c]; r < constraints.index->begin[c + 1]; ++r) {
     const Row<ConstrainedNode> row(r);
     const Row<Node> node(constraints.target(row, 0));
@@ -41,10 +42,10 @@ void apply_constraints::operator()(Chunk chunk) const {
       tool = constraints.target(row, 2);
       displacement = tool_travel(*program, tool, clock->time + clock->dt);
     }
-    const double mass = density.chunk(chunk)(Row<Particle>())[lane] * bodies->thickness *
-                        entry(shape.nodal_area, node.value);
+    const double mass = density.chunk(chunk)(Row<Particle>())[lane] * bodies.depth() *
+                        shape.size_of_node(node.value);
     double at = 0, speed = 0, free = 0;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < D::axes; ++k) {
       const double d = constraints.direction(row, k);
       at += d * x(node, k)[lane];
       speed += d * v(node, k)[lane];
@@ -52,12 +53,15 @@ void apply_constraints::operator()(Chunk chunk) const {
       if (forces.contact && node.value < shape.boundary_nodes)
         free += d * forces.contact->chunk(chunk)(Row<BoundaryNode>(node.value), k)[lane];
     }
-    const double place = constraints.origin(row) + constraints.travel(row, 0) * displacement[0] +
-                         constraints.travel(row, 1) * displacement[1];
+    double place = constraints.origin(row);
+    for (std::size_t k = 0; k < D::axes; ++k)
+      place += constraints.travel(row, static_cast<int>(k)) * displacement[k];
     const double held = kernels::constraint_force(place, at, speed, free, mass, kick, clock->dt);
-    for (int k = 0; k < 2; ++k) f(node, k)[lane] += held * constraints.direction(row, k);
+    for (int k = 0; k < D::axes; ++k) f(node, k)[lane] += held * constraints.direction(row, k);
     reaction.chunk(chunk)(Row<ConstrainedNode>(r - constraints.index->begin[c])) = held;
   }
 }
+template struct apply_constraints<TwoD>;
+template struct apply_constraints<ThreeD>;
 
 }  // namespace pulvis

@@ -126,28 +126,30 @@ struct tool_bond_forces {
   void operator()(SmallTasks) const;
 };
 
+template <class D>
 struct apply_constraints {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   Read<ToolProgram> program;
   struct Constraints {
     Read<ConstraintIndex> index;
     Read<ConstraintTarget> target;
-    Read<ConstraintDirection> direction;
-    Read<ConstraintTravel> travel;
+    Read<ConstraintDirection<D>> direction;
+    Read<ConstraintTravel<D>> travel;
     Read<ConstraintOrigin> origin;
   } constraints;
   Read<Density> density;
-  Motion<TwoD> motion;
-  NodalForces<Write, TwoD> forces;
+  Motion<D> motion;
+  NodalForces<Write, D> forces;
   Write<ConstraintReaction> reaction;
   void operator()(Chunk chunk) const;
 };
 
+template <class D>
 struct ConstraintReactions {
   Read<ConstraintIndex> index;
   Read<ConstraintTarget> target;
-  Read<ConstraintTravel> travel;
+  Read<ConstraintTravel<D>> travel;
   Read<ConstraintReaction> reaction;
 };
 template <class D>
@@ -155,7 +157,7 @@ struct tool_reaction {
   Read<Bodies> bodies;
   Read<Clock> clock;
   Optional<TouchingRows<typename D::ToolContact>> contacts;
-  Optional<ConstraintReactions> constraints;  // in two dimensions
+  Optional<ConstraintReactions<D>> constraints;
   Read<ToolVelocity> velocity;
   Write<ToolForce> tool_force;
   Write<Totals> totals;

@@ -28,12 +28,14 @@ void add_contacts(const TouchingRows<At>& rows, Forces& forces) {
 
 // A radial constraint moves in x only and stores the sum of the radial forces as x: work is force times
 // displacement for every constraint.
-void add_constraints(const Bodies& bodies, const ConstraintReactions& constraints, Forces& forces) {
+template <class D>
+void add_constraints(const Bodies& bodies, const ConstraintReactions<D>& constraints,
+                     Forces& forces) {
   const std::vector<std::int32_t>& begin = constraints.index->begin;
   for (const int chunk : bodies.own_chunks)
     for (int r = entry(begin, chunk); r < entry(begin, chunk + 1); ++r) {
       const Row<ConstrainedNode> row(r);
-      for (int k = 0; k < 2; ++k)
+      for (int k = 0; k < D::axes; ++k)
         entry(forces, tool_axes * constraints.target(row, 2) + k)
             .add(-constraints.travel(row, k) * constraints.reaction(row));
     }

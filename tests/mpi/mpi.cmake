@@ -31,7 +31,7 @@ gtest_discover_tests(test_launch TEST_PREFIX mpi. PROPERTIES TIMEOUT ${PULVIS_TE
 
 # Bitwise identical results on any number of ranks, some with migrating chunks. For a long manual run of every case:
 # tests/mpi/ranks_runs.py PROGRAM . --case NAME, --kills 50
-foreach(case die damped-servo shear bonds tool-bonds constraints space-round space-welds space-mixture)
+foreach(case die damped-servo shear bonds tool-bonds constraints space-round space-welds space-mixture space-constraints)
   set(quick --quick)
   if(case STREQUAL die)
     set(quick)
@@ -44,7 +44,7 @@ add_executable(rebalanced_run ${CMAKE_CURRENT_LIST_DIR}/rebalanced_run.cpp)
 target_link_libraries(rebalanced_run PRIVATE pulvis_cli)
 add_dependencies(rebalanced_run pulvis_mpi)
 optimise(rebalanced_run 1)
-foreach(case friction cell welds space-die space-welds space-stl)
+foreach(case friction cell welds space-die space-welds space-stl space-constraints)
   add_test(NAME mpi.ranks_run_rebalanced_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
                    --case ${case} --quick --rebalanced $<TARGET_FILE:rebalanced_run>)

@@ -112,10 +112,7 @@ TEST_F(PlaneState, OfDrivenWallsGoesOnUnderMoves) {
   EXPECT_LT(rest.results.energy_balance_error(), 0.005);
 }
 
-// A bar that one run has drawn is drawn on by another.
-TEST_F(PlaneState, OfConstraintsGoesOnFromWhereTheyAre) {
-  const std::string bar = R"(
-family = "compaction"
+const std::string steel_bar = R"(
 [[material]]
 name = "steel"
 density = "7850 kg/m^3"
@@ -126,6 +123,8 @@ mass_proportional = "1e5 1/s"
 [[particle]]
 name = "bar"
 material = "steel"
+)";
+const std::string plane_bar = "family = \"compaction\"\n" + steel_bar + R"(
 outline = "rectangle"
 width = "20 mm"
 height = "5 mm"
@@ -146,11 +145,41 @@ low = ["20 mm", "-2.5 mm"]
 high = ["20 mm", "2.5 mm"]
 holds = "x"
 )";
-  const auto drawn = [](const std::string& name, const std::string& keys = "") {
+const std::string space_bar = "family = \"compaction\"\ndimension = 3\n" + steel_bar + R"(
+shape = "cylinder"
+diameter = "5 mm"
+height = "20 mm"
+rounding = "0 mm"
+mesh = { grid = "extruded", divisions = 2, rings = 1, axial_divisions = 8 }
+[[body]]
+particle = "bar"
+position = ["10 mm", "0 mm", "0 mm"]
+angle = "90 deg"
+axis = [0, 1, 0]
+[[tool]]
+name = "left"
+shape = "constraint"
+low = ["0 mm", "-2.5 mm", "-2.5 mm"]
+high = ["0 mm", "2.5 mm", "2.5 mm"]
+holds = "all"
+[[tool]]
+name = "right"
+shape = "constraint"
+low = ["20 mm", "-2.5 mm", "-2.5 mm"]
+high = ["20 mm", "2.5 mm", "2.5 mm"]
+holds = "x"
+)";
+
+// A bar that one run has drawn is drawn on by another.
+class ConstraintState : public InitialState, public testing::WithParamInterface<bool> {};
+
+TEST_P(ConstraintState, GoesOnFromWhereTheyAre) {
+  const std::string& bar = GetParam() ? space_bar : plane_bar;
+  const std::string along =
+      GetParam() ? "[\"0.002 mm\", \"0 mm\", \"0 mm\"]" : "[\"0.002 mm\", \"0 mm\"]";
+  const auto drawn = [&](const std::string& name, const std::string& keys = "") {
     return "[[stage]]\nname = \"" + name + "\"\nkind = \"compact\"\nduration = \"0.3 ms\"\n" +
-           keys +
-           "[[stage.move]]\ntool = \"right\"\ndisplacement = [\"0.002 mm\", \"0 mm\"]\nramp = "
-           "0.5\n";
+           keys + "[[stage.move]]\ntool = \"right\"\ndisplacement = " + along + "\nramp = 0.5\n";
   };
   const std::string first = drawn("first", "keep_state = true\n"), second = drawn("second");
   Experiment whole(own_scene(bar + first + second));
@@ -164,6 +193,8 @@ holds = "x"
   EXPECT_LT(rest.results.energy_balance_error(), 0.005);
 }
 
+INSTANTIATE_TEST_SUITE_P(In, ConstraintState, testing::Bool(),
+                         [](const auto& of) { return std::string(of.param ? "space" : "plane"); });
 INSTANTIATE_TEST_SUITE_P(In, DieState, testing::Range(std::size_t{0}, dies.size()),
                          [](const auto& of) { return dies[of.param].name; });
 

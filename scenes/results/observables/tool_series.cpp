@@ -14,12 +14,15 @@ struct ToolWords {
   bool radial = false;   // a constraint on displacements along its radius
 };
 
-ToolWords words_of(const ToolSpec& tool) {
+ToolWords words_of(const Scene& scene, const ToolSpec& tool) {
   using Shape = ToolSpec::Shape;
   const bool constraint = tool.shape == Shape::constraint;
   if (constraint && tool.holds == ToolSpec::Holds::radial)
     return {tool.name, "x: position of its centre plus the radial displacement of its nodes", true};
-  if (tool.radius) return {tool.name, "of the centre of its circle, which moves with its nodes"};
+  if (tool.radius)
+    return {tool.name, scene.in_space()
+                           ? "of the centre of its sphere, which moves with its nodes"
+                           : "of the centre of its circle, which moves with its nodes"};
   if (constraint) return {tool.name, "of the centre of its box, which moves with its nodes"};
   if (tool.shape == Shape::die) return {tool.name, "of a point on its axis"};
   if (tool.shape == Shape::punch) return {tool.name, "of the centre of its face"};
@@ -60,7 +63,7 @@ void add_tool(const Scene& scene, int tool, const ToolWords& words, Observables&
 
 void add_tool_series(const Scene& scene, Observables& all) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
-    add_tool(scene, static_cast<int>(t), words_of(scene.tools[t]), all);
+    add_tool(scene, static_cast<int>(t), words_of(scene, scene.tools[t]), all);
 }
 
 }  // namespace pulvis

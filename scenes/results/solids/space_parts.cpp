@@ -52,8 +52,8 @@ class SpaceParts : public ResultParts {
     return ToolSheets::field();
   }
   std::vector<double> tool_points() const override {
-    return sheets_.points(
-        {world_.column<ToolPosition>().values(), tool_axes * sheets_.faces().names.size()});
+    const auto& places = world_.column<ToolPosition>();
+    return sheets_.points({places.values(), tool_axes * places.table.rows});
   }
 
   double powder() const override { return volume_; }

@@ -7,6 +7,7 @@
 
 #include "engine/enum_table.hpp"
 #include "engine/portable_math.hpp"
+#include "scenes/tools/constraints.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -85,7 +86,11 @@ ToolSheets::ToolSheets(const Scene& scene, const Box& powder) : box_(powder) {
     const Vec3 foot = middle + tool.normal.dot(tool.point - middle) * tool.normal;
     if ((foot - middle).norm() < powder.diagonal().norm()) box_.extend(foot);
   }
-  for (const ToolSpec& tool : scene.tools) add_tool(scene, tool);
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (is_constraint(scene.tools[t])) continue;
+    numbers_.push_back(t);
+    add_tool(scene, scene.tools[t]);
+  }
 }
 
 void ToolSheets::add_tool(const Scene& scene, const ToolSpec& tool) {
@@ -213,7 +218,7 @@ std::vector<double> ToolSheets::points(std::span<const double> places) const {
   xyz.reserve(3 * corners_.size());
   for (std::size_t i = 0; i < corners_.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      xyz.push_back(places[3 * static_cast<std::size_t>(tool_[i]) + k] +
+      xyz.push_back(places[3 * number_of(tool_[i]) + k] +
                     corners_[i][static_cast<Eigen::Index>(k)]);
   return xyz;
 }

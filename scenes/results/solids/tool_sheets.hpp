@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/entry.hpp"
 #include "engine/files/record.hpp"
 #include "scenes/spec/scene.hpp"
 
@@ -18,6 +19,8 @@ class ToolSheets {
 
   static FieldInfo field();
   const ToolFaces& faces() const { return faces_; }
+  // Position in Scene::tools of a tool in faces(): constraints have no surface.
+  std::size_t number_of(int tool) const { return entry(numbers_, tool); }
   // Rows of the field: `places` holds x, y, z of the tools in order.
   std::vector<double> points(std::span<const double> places) const;
 
@@ -36,7 +39,8 @@ class ToolSheets {
   Eigen::AlignedBox3d box_;
   ToolFaces faces_;
   std::vector<Vec3> corners_;  // m, relative to the tool's position
-  std::vector<int> tool_;      // of each corner
+  std::vector<int> tool_;      // of each corner, position in faces_.names
+  std::vector<std::size_t> numbers_;
 };
 
 }  // namespace pulvis::space

@@ -28,6 +28,8 @@ Kind kind_of(const ToolSpec& tool) {
       return tool.height ? Kind::revolution : Kind::hole;
     case ToolSpec::Shape::punch:
       return Kind::revolution;
+    case ToolSpec::Shape::constraint:
+      return Kind::constraint;
     default:  // a closed surface from a file
       return Kind::mesh;
   }

@@ -63,6 +63,8 @@ bool FaceLook::can_touch(int slot, int face, int tool) const {
       return false;
     case ToolShapes::Kind::revolution:
       return near_meridian(shape.meridian, points, at, normal, reach);
+    case ToolShapes::Kind::constraint:
+      return false;
     case ToolShapes::Kind::mesh:
       break;
   }

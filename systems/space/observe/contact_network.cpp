@@ -6,89 +6,52 @@
 //          area of the points with a force, mean of both sides
 // Runs     in sampled steps, after the narrow phases
 // Active   if the scene asks for contacts
-#include <cmath>
-
 #include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
 #include "systems/observe/gathered_contacts.hpp"
-#include "systems/space/contact/gauss_points.hpp"
-#include "systems/space/observe/systems.hpp"
-#include "systems/space/tools/tool_gap.hpp"
+#include "systems/space/observe/surface_points.hpp"
 
 namespace pulvis::space {
 namespace {
 
-using VectorOfPoint = kernels::Vector<double>;
-
-// Gauss-Legendre weights on [0,1], of kernels::gauss_at.
-constexpr std::array<double, 4> weight_at{0.173927422568726928687, 0.326072577431273071313,
-                                          0.326072577431273071313, 0.173927422568726928687};
-
-double length_of(const VectorOfPoint& a) { return std::sqrt(dot(a, a)); }
-
 using Gathered = GatheredContact<ThreeD>;
 
-Point point_of(const VectorOfPoint& v) { return {v.x, v.y, v.z}; }
+Point point_of(const SurfaceVector& v) { return {v.x, v.y, v.z}; }
 
 struct Looker {
   const contact_network& s;
 
   int number(int slot) const { return entry(s.bodies.bodies->slots, slot).number; }
-  // Point and slopes on a particle's surface.
-  kernels::PatchSlopes<double> surface(int slot, int face, double u, double v) const {
-    return kernels::patch_slopes<double>(s.bodies.patch(s.position.values(), slot, face), u, v);
-  }
-
   // Adds the points of a face with a force: force_at(g), and normal_at(g), which points into the sampled particle.
   template <class ForceAt, class NormalAt>
   void add_points(int slot, int number, double side, const ForceAt& force_at,
                   const NormalAt& normal_at, Gathered& contact) const {
     for (int g = 0; g < face_points; ++g) {
-      const VectorOfPoint force = force_at(g);
+      const SurfaceVector force = force_at(g);
       if (force.x == 0 && force.y == 0 && force.z == 0) continue;
-      const double u = entry(kernels::gauss_at, g % 4), v = entry(kernels::gauss_at, g / 4);
-      const auto own = surface(slot, number, u, v);
-      const double stretch = length_of(cross(own.u, own.v));
-      contact.add({point_of(own.x), point_of(normal_at(g)), point_of(force),
-                   entry(weight_at, g % 4) * entry(weight_at, g / 4) * stretch},
-                  side);
+      const SampledPoint own = sampled_point(s.bodies.patch(s.position.values(), slot, number), g);
+      contact.add({point_of(own.x), point_of(normal_at(g)), point_of(force), own.area}, side);
     }
   }
   void add_pair(Row<FaceContact> row, double side, Gathered& contact) const {
-    const auto number_of = [&](int g, int what) {
-      return s.pairs->point(row, ContactPoint::numbers * g + what);
-    };
     const auto force_at = [&](int g) {
       const auto part = [&](int k) { return s.pairs->force(row, 3 * g + k); };
-      return VectorOfPoint{part(0), part(1), part(2)};
+      return SurfaceVector{part(0), part(1), part(2)};
     };
     const auto normal_at = [&](int g) {
-      const double spot = number_of(g, ContactPoint::face_u), v = number_of(g, ContactPoint::v);
-      const int face = static_cast<int>(spot);
-      const auto other = surface(s.pairs->pair(row, 2), face, spot - face, v);
-      const VectorOfPoint across = cross(other.u, other.v);
-      return (1 / length_of(across)) * across;
+      return closest_point(s.bodies, s.position.values(), s.pairs->point, row, g,
+                           s.pairs->pair(row, 2))
+          .normal;
     };
     add_points(s.pairs->pair(row, 0), s.pairs->pair(row, 1), side, force_at, normal_at, contact);
   }
   void add_tool(Row<FaceToolContact> row, Gathered& contact) const {
     const int slot = s.tools->rows.pair(row, 0), face = s.tools->rows.pair(row, 1);
-    const PatchNumbers points = s.bodies.patch(s.position.values(), slot, face);
-    const double size = entry(s.bodies.shape_of(slot).faces, face).size;
-    std::array<VectorLanes, 2> normal;
-    for (int half = 0; half < 2; ++half)
-      entry(normal, half) =
-          gap_to_tool(s.tools->surfaces, s.tools->triangles, s.tools->rows.pair(row, 2), row,
-                      sampled_points(points, half), size)
-              .normal;
-    const auto normal_at = [&](int g) {
-      const VectorLanes& n = entry(normal, g / lane_count);
-      const int lane = g % lane_count;
-      return VectorOfPoint{n.x[lane], n.y[lane], n.z[lane]};
-    };
+    const auto gaps = gaps_to_tool(s.bodies, s.position.values(), *s.tools, row);
+    const auto normal_at = [&](int g) { return normal_of(gaps, g); };
     const auto force_at = [&](int g) {
       const auto part = [&](int k) { return s.tools->rows.force(row, face_points * k + g); };
-      return VectorOfPoint{part(0), part(1), part(2)};
+      return SurfaceVector{part(0), part(1), part(2)};
     };
     add_points(slot, face, 1, force_at, normal_at, contact);
   }

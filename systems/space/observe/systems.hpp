@@ -9,6 +9,12 @@
 
 namespace pulvis::space {
 
+struct TouchingTools {
+  TouchingRows<FaceToolContact> rows;
+  ToolSurfaces surfaces;
+  Optional<ToolTriangles> triangles;
+};
+
 struct contact_network {
   ShapedBodies<ThreeD> bodies;
   Read<ContactIndex> index;
@@ -21,12 +27,7 @@ struct contact_network {
     Read<FacePairs> of;
   };
   Optional<Pairs> pairs;
-  struct Tools {
-    TouchingRows<FaceToolContact> rows;
-    ToolSurfaces surfaces;
-    Optional<ToolTriangles> triangles;
-  };
-  Optional<Tools> tools;
+  Optional<TouchingTools> tools;
   Write<ContactNetwork<ThreeD>> network;
   void operator()() const;
 };
@@ -34,8 +35,13 @@ struct contact_network {
 struct contact_quality {
   ShapedBodies<ThreeD> bodies;
   Read<ContactIndex> index;
-  Optional<contact_force::Pairs> pairs;
-  Optional<TouchingRows<FaceToolContact>> tools;
+  Read<SurfacePosition> position;
+  struct Pairs {
+    contact_force::Pairs rows;
+    Read<ContactPoint> point;
+  };
+  Optional<Pairs> pairs;
+  Optional<TouchingTools> tools;
   Write<ContactQuality> quality;
   Link link;
   void operator()() const;

@@ -28,6 +28,7 @@ inline SurfaceGap gap_to_tool(const ToolSurfaces& tools, const Optional<ToolTria
       return in_hole(shape.radius, normal, from);
     case ToolShapes::Kind::revolution:
       return on_revolution(shape.meridian, normal, from, size);
+    case ToolShapes::Kind::constraint:  // has no rows
     case ToolShapes::Kind::mesh:
       break;
   }

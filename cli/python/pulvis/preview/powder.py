@@ -229,7 +229,7 @@ class PowderDrawing:
         for tool in self.setup["tools"]:
             swatch = {"facecolor": drawn_tools.face_colour(tool), "edgecolor": drawn_tools.EDGE, "linewidth": 0.6}
             if tool["shape"] == "constraint":
-                held = {"both": "x and y", "radial": "the radial direction"}.get(tool["holds"], tool["holds"])
+                held = {"both": "x and y", "all": "x, y and z", "radial": "the radial direction"}.get(tool["holds"], tool["holds"])
                 column.line(f"{tool['name']}: holds {words.counted(len(tool['nodes']), 'node')} in {held}", swatch)
                 continue
             values = sorted(set(tool["friction"].values()))

@@ -36,6 +36,7 @@ class SpaceDrawing(PowderDrawing):
             colours += [one["material"]] * len(faces[-1])
         self.faces, self.owner = np.concatenate(faces), np.array(colours)
         self.pieces = [np.reshape(tool["pieces"], (-1, 4, 3)) for tool in setup["tools"]]
+        self.held = {tool["name"]: np.array(tool["nodes"]) for tool in setup["tools"] if tool["shape"] == "constraint"}
         super().__init__(setup)
 
     def outer_points(self):
@@ -78,6 +79,7 @@ class SpaceDrawing(PowderDrawing):
         axes.set_aspect("equal", anchor="N", adjustable="box")
         self.draw_tools(axes, rows)
         self.draw_particles(axes, rows)
+        self.draw_held(axes, rows)
         self.draw_moves(axes, rows)
         self.motion.draw(axes, self.span, self.factor * rows[:2].T)
         if not with_axes:
@@ -105,9 +107,15 @@ class SpaceDrawing(PowderDrawing):
             axes.add_collection(PolyCollection(flat[inside], facecolors=drawn_tools.face_colour(tool), edgecolors="none", alpha=0.55, zorder=1))
             axes.add_collection(LineCollection(self.factor * rims(pieces) @ rows[:2].T, colors=drawn_tools.EDGE, linewidths=0.7, zorder=1.1))
 
+    def draw_held(self, axes, rows):
+        for name, nodes in self.held.items():
+            axes.plot(*(self.factor * nodes @ rows[:2].T).T, linestyle="", marker="o", markersize=2.6,
+                      color=drawn_tools.HELD, markeredgecolor=INK, markeredgewidth=0.3, zorder=6, gid=f"tool-{name}")
+
     def draw_moves(self, axes, rows):
-        """Arrows from the middle of a tool's surface, numbered by stage."""
+        """Arrows from the middle of a tool's surface, or of the nodes that it holds, numbered by stage."""
         middles = {tool["name"]: pieces.reshape(-1, 3).mean(axis=0) for tool, pieces in zip(self.setup["tools"], self.pieces) if len(pieces)}
+        middles |= {name: nodes.mean(axis=0) for name, nodes in self.held.items()}
         shown = {}
         for index, stage in enumerate(self.setup["stages"]):
             drives = [(move["tool"], move["displacement"]) for move in stage["moves"]] + \

@@ -92,7 +92,6 @@ const std::vector<WrongSpaceScene> wrong_in_space{
      as_it_is,
      "material[0].damping.mass_proportional",
      {">= 0"}},
-    {"Constraint", {"tool.top.shape=constraint"}, as_it_is, "tool[1].shape", {"two dim", "plane"}},
     {"Shear", {"stage.press.kind=shear"}, as_it_is, "stage[0].kind", {"two dimensions", "compact"}},
     {"NothingMoves",
      {},
@@ -218,6 +217,125 @@ INSTANTIATE_TEST_SUITE_P(Of, WrongSpaceScenes, testing::ValuesIn(wrong_in_space)
 
 TEST(RightSpaceScene, IsAccepted) {
   EXPECT_TRUE(problems_in_space({"Right", {}, as_it_is, "", {}}).empty());
+}
+
+// ---- constraints ------------------------------------------------------------------------------------
+// `keys`: of a third tool, and what follows it. The pill is at (10, 10, 15) mm, 8 mm wide and 6 mm high.
+struct WrongConstraint {
+  const char* name;
+  std::string keys;
+  const char* key;
+  std::vector<const char*> says;
+};
+
+void PrintTo(const WrongConstraint& wrong, std::ostream* stream) { *stream << wrong.name; }
+
+std::vector<SceneProblem> problems_of_constraint(const std::string& keys) {
+  const std::string text =
+      right_space_scene + std::string("[[tool]]\nname = \"held\"\nshape = \"constraint\"\n") + keys;
+  return problems_in([&] { build_world(load_scene_text(text, "wrong.toml").scene); });
+}
+
+const std::string on_pill =
+    "low = [\"6 mm\", \"6 mm\", \"17 mm\"]\nhigh = [\"14 mm\", \"14 mm\", \"19 mm\"]\n";
+const std::string stage_with =
+    "[[stage]]\nname = \"draw\"\nkind = \"eject\"\nduration = \"1 ms\"\n";
+const std::vector<WrongConstraint> wrong_constraints{
+    {"WithoutABox", "holds = \"z\"\n", "tool[2].low", {"three quantities [x, y, z]", "radius"}},
+    {"OfBothAxes", on_pill + "holds = \"both\"\n", "tool[2].holds", {"two dimensions", "all"}},
+    {"OfNothing", on_pill, "tool[2].holds", {"required"}},
+    {"EmptyBox",
+     "low = [\"6 mm\", \"6 mm\", \"18 mm\"]\nhigh = [\"14 mm\", \"14 mm\", \"17 mm\"]\nholds = "
+     "\"z\"\n",
+     "tool[2].high",
+     {"the box is empty"}},
+    {"BoxWithoutNodes",
+     "low = [\"6 mm\", \"6 mm\", \"19 mm\"]\nhigh = [\"14 mm\", \"14 mm\", \"19 mm\"]\nholds = "
+     "\"z\"\n",
+     "tool[2].low",
+     {"no node of particle 0", "at least one node"}},
+    {"SphereWithoutNodes",
+     "point = [\"10 mm\", \"10 mm\", \"19 mm\"]\nradius = \"0.5 mm\"\nholds = \"z\"\n",
+     "tool[2].radius",
+     {"no node of particle 0", "at least 0.0019"}},
+    {"RadiusWithoutAPoint",
+     "radius = \"1 mm\"\nholds = \"z\"\n",
+     "tool[2].point",
+     {"required key is missing", "three quantities"}},
+    {"PointOfABox",
+     "point = [\"10 mm\", \"10 mm\", \"18 mm\"]\n" + on_pill + "holds = \"z\"\n",
+     "tool[2].point",
+     {"has no effect", "radius"}},
+    {"RadiusAndBox",
+     "point = [\"10 mm\", \"10 mm\", \"18 mm\"]\nradius = \"1 mm\"\n" + on_pill + "holds = \"z\"\n",
+     "tool[2].low",
+     {"has no effect together with radius"}},
+    {"Normal",
+     on_pill + "holds = \"z\"\nnormal = [0, 0, 1]\n",
+     "tool[2].normal",
+     {"has no effect with shape"}},
+    {"CentreOfTheRadius",
+     "body = 1\npoint = [\"5 mm\", \"5 mm\", \"5 mm\"]\nradius = \"1 mm\"\nholds = \"radial\"\n",
+     "tool[2].point",
+     {"lies at the centre"}},
+    {"NoSuchBody",
+     "body = 9\n" + on_pill + "holds = \"z\"\n",
+     "tool[2].body",
+     {"there is no particle 9", "<= 4"}},
+    {"HeldTwice",
+     on_pill +
+         "holds = \"all\"\n[[tool]]\nname = \"again\"\nshape = \"constraint\"\nholds = \"z\"\n" +
+         on_pill,
+     "tool[3].holds",
+     {"is held by 'held' and 'again' in the same direction"}},
+    {"MoveOfAFreeDirection",
+     on_pill + "holds = \"z\"\n" + stage_with +
+         "move = [{ tool = \"held\", displacement = [\"0 mm\", \"1 mm\", \"1 mm\"] }]\n",
+     "stage[1].move[0].displacement",
+     {"'held' does not hold its nodes in y"}},
+    {"RadialMoveAcross",
+     "point = [\"20 mm\", \"10 mm\", \"15 mm\"]\n" + on_pill + "holds = \"radial\"\n" + stage_with +
+         "move = [{ tool = \"held\", displacement = [\"1 mm\", \"0 mm\", \"1 mm\"] }]\n",
+     "stage[1].move[0].displacement",
+     {"in z", "as the first component"}},
+    {"ServoOfAConstraint",
+     on_pill + "holds = \"z\"\n" + stage_with + "servo = [{ tool = \"held\", force = \"1 N\" }]\n",
+     "stage[1].servo[0].tool",
+     {"'held' is a constraint"}},
+    {"SpringOfAConstraint",
+     on_pill + "holds = \"z\"\n" + stage_with +
+         "move = [{ tool = \"held\", displacement = [\"0 mm\", \"0 mm\", \"1 mm\"], stiffness = "
+         "\"1e6 N/m\", mass = \"1 kg\" }]\n",
+     "stage[1].move[0].stiffness",
+     {"'held' is a constraint"}},
+    {"Friction",
+     on_pill + "holds = \"z\"\n[[friction]]\nbetween = [\"316L\", \"held\"]\ncoefficient = 0.1\n",
+     "friction[1].between",
+     {"the constraint 'held' has no contact"}},
+};
+
+class WrongConstraints : public testing::TestWithParam<WrongConstraint> {};
+
+TEST_P(WrongConstraints, AreRefused) {
+  const auto problems = problems_of_constraint(GetParam().keys);
+  const auto found = std::ranges::find(problems, GetParam().key, &SceneProblem::key);
+  ASSERT_NE(found, problems.end()) << (problems.empty() ? "accepted" : problems[0].text());
+  for (const char* words : GetParam().says) EXPECT_THAT(found->message, HasSubstr(words));
+  EXPECT_THAT(found->message, HasSubstr("allowed: "));
+  EXPECT_GT(found->line, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(InSpace, WrongConstraints, testing::ValuesIn(wrong_constraints),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(RightConstraintInSpace, IsAccepted) {
+  for (const std::string& keys :
+       {on_pill + "holds = \"all\"\n",
+        on_pill + "holds = \"radial\"\npoint = [\"0 mm\", \"0 mm\", \"0 mm\"]\n",
+        std::string(
+            "point = [\"10 mm\", \"10 mm\", \"15 mm\"]\nradius = \"3 mm\"\nholds = \"x\"\n")})
+    for (const SceneProblem& problem : problems_of_constraint(keys))
+      ADD_FAILURE() << problem.text();
 }
 
 }  // namespace

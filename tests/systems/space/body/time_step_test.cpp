@@ -1,7 +1,11 @@
 // The stable time step of bodies in three dimensions against their exact highest frequency: the eigenvalues of the
 // assembled stiffness, by differences of the internal force.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "components/highest_mode.hpp"
+#include "scenes/highest_mode.hpp"
+#include "scenes/space/class_shape.hpp"
 #include "tests/systems/space/body/blocks.hpp"
 
 namespace pulvis::space {
@@ -153,6 +157,102 @@ TYPED_TEST(TimeSteps, OfAMeshIsStable) {
     const double ratio = step_ratio(body);
     EXPECT_LT(ratio, 1) << nu;
     EXPECT_GT(ratio, TypeParam::stabilised ? 0.55 : 0.4) << nu;
+  }
+}
+
+// ---- the highest mode of a whole body ---------------------------------------------------------------
+struct Estimate {
+  double of_elements, of_body;  // steps over what is exact
+};
+template <class F>
+Estimate estimate(Body<F>& body) {
+  if (!body.world.template has<ModeGain>())
+    add_highest_mode(body.world, body.world.template resource<Bodies>(),
+                     body.world.template resource<Shapes>(), false);
+  const double exact = 2 / highest_frequency(body);
+  body.find_forces();
+  body.template run<stable_time_step<F>>();
+  const double bound = body.template number<StableTimeStep>(0);
+  body.template run<highest_mode<F>>();
+  return {bound / exact, body.template number<StableTimeStep>(0) / exact};
+}
+
+// Safe (the bound of a cube is exact), not below the bound, and `near` to what is exact unless that is beyond the largest gain.
+template <class F>
+void expect_estimate(Body<F>& body, double near, const std::string& what) {
+  const Estimate found = estimate(body);
+  EXPECT_LT(found.of_body, 1 + 1e-6) << what;
+  EXPECT_GE(found.of_body, found.of_elements) << what;
+  EXPECT_GT(found.of_body, std::min(near, 1.299 * found.of_elements)) << what;
+}
+
+TYPED_TEST(TimeSteps, OfTheHighestModeAreSafeForAnyElement) {
+  Random random(7);
+  for (const double distortion : {0.0, 0.2, 0.35})
+    for (const double by : {0.0, 0.1, 0.3})
+      for (const double shaken : {0.0, 0.03})
+        for (int i = 0; i < 12; ++i) {
+          const double nu[4] = {0, 0.3, 0.45, 0.499};
+          Body<TypeParam> body(distorted_block({1, 1, 1}, distortion, std::uint64_t(i)),
+                               material(1e6, nu[i % 4]));
+          const Matrix f = random_stretch(random, by);
+          body.place(
+              [&](const Vector& x) { return Vector(f * x + shaken * random_vector(random)); });
+          expect_estimate(body, by + shaken > 0 ? 0.5 : 0.96,
+                          fmt::format("{} {} {} {}", distortion, by, shaken, i));
+        }
+}
+
+TYPED_TEST(TimeSteps, OfTheHighestModeAreSafeForClosingElements) {
+  Random random(8);
+  for (const double r : {0.7, 0.5, 0.4, 0.3, 0.25, 0.2})
+    for (int i = 0; i < 12; ++i) {
+      const double nu[4] = {0, 0.3, 0.45, 0.499};
+      Body<TypeParam> body(distorted_block({1, 1, 1}, 0.05, std::uint64_t(i)),
+                           material(1e6, nu[i % 4]));
+      const double by = (1 - r) * std::sqrt(3.0) / 2;
+      const int along = i % 3, across = (i + 1 + i / 3 % 2) % 3;
+      const Matrix f = random_stretch(random, 0.2);
+      body.place([&](const Vector& x) {
+        Vector bent = x;
+        bent[along] += by * (x[along] < 0.5 ? 1 : -1) * (x[across] < 0.5 ? 1 : -1);
+        return Vector(f * bent);
+      });
+      expect_estimate(body, 0.15, fmt::format("{} {}", r, i));
+    }
+}
+
+TYPED_TEST(TimeSteps, OfTheHighestModeOfAMeshAreNearlyExact) {
+  for (const double nu : {0.0, 0.3, 0.499})
+    for (const double by : {0.0, 0.25}) {
+      Body<TypeParam> body(distorted_block({4, 3, 3}, by, 3), material(1e6, nu));
+      expect_estimate(body, 0.95, fmt::format("{} {}", nu, by));
+      Random random(4);
+      body.place([&](const Vector& x) {
+        return Vector(Vector(1, 0.8, 1.1).cwiseProduct(x) + 0.02 * random_vector(random));
+      });
+      expect_estimate(body, 0.6, fmt::format("{} {}, deformed", nu, by));
+    }
+}
+
+Shape ball_of(int divisions, int rings) {
+  Scene scene;
+  scene.dimension = 3;
+  scene.materials = {material(1e6, 0.3)};
+  ParticleSpec& ball = scene.particles.emplace_back();
+  ball.shape = SphereShape{1};
+  ball.hex_mesh.divisions = divisions;
+  ball.hex_mesh.rings = rings;
+  return class_shape(scene, 0);
+}
+
+// The elements of a ball cannot all oscillate at once: its step is longer than theirs by the largest gain, or nearly.
+TYPED_TEST(TimeSteps, OfTheHighestModeOfABallGainAThird) {
+  for (const double nu : {0.0, 0.3}) {
+    Body<TypeParam> body(ball_of(2, 2), material(1e6, nu));
+    const Estimate found = estimate(body);
+    EXPECT_GT(found.of_body / found.of_elements, 1.29) << nu;
+    EXPECT_LT(found.of_body, 0.981) << nu;
   }
 }
 
