@@ -43,7 +43,7 @@ class TouchingBodies {
     lay_out(shapes);
     world.emplace<Shapes>().list = std::move(shapes);
     add_tools();
-    add_contact(world, scene, bodies);
+    add_contact(world, scene, needs_of(scene, bodies.size()));
     place();
     world.emplace<Totals>();
     world.emplace<Clock>();
