@@ -64,8 +64,8 @@ void PackedSolids::put_on(ToolSpec& tool, double top) {
 }
 
 double PackedSolids::Reach::upwards(const BodySpec& body) const {
-  const V3 up = turned_back(turn_of(body.rotation), {0, 0, 1});
-  return dot(shape_.support(up), up);
+  const V3 upward = turned_back(turn_of(body.rotation), {0, 0, 1});
+  return dot(shape_.support(upward), upward);
 }
 
 }  // namespace pulvis::space
