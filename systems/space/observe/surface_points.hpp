@@ -54,15 +54,15 @@ inline PointOnSurface closest_point(const ShapedBodies<ThreeD>& bodies,
 
 // Of all points of a row against a tool.
 inline std::array<SurfaceGap, 2> gaps_to_tool(const ShapedBodies<ThreeD>& bodies,
-                                                 std::span<const double> surface,
-                                                 const TouchingTools& tools,
-                                                 Row<FaceToolContact> row) {
+                                              std::span<const double> surface,
+                                              const TouchingTools& tools,
+                                              Row<FaceToolContact> row) {
   const int slot = tools.rows.pair(row, 0), face = tools.rows.pair(row, 1);
   const PatchNumbers points = bodies.patch(surface, slot, face);
   const double size = entry(bodies.shape_of(slot).faces, face).size;
   const auto of = [&](int half) {
     return gap_to_tool(tools.surfaces, tools.triangles, tools.rows.pair(row, 2), row,
-                            sampled_points(points, half), size);
+                       sampled_points(points, half), size);
   };
   return {of(0), of(1)};
 }

@@ -5,7 +5,7 @@
 
 #include "components/highest_mode.hpp"
 #include "scenes/highest_mode.hpp"
-#include "scenes/space/class_shape.hpp"
+#include "scenes/checks/solids/class_shape.hpp"
 #include "tests/systems/space/body/blocks.hpp"
 
 namespace pulvis::space {
