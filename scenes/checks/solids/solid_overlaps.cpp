@@ -12,7 +12,6 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/packing/solids/container.hpp"
 #include "scenes/packing/solids/near_pairs.hpp"
-#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/surfaces/tool_depth.hpp"
 #include "scenes/tools/surfaces/tool_shapes.hpp"
 
@@ -68,7 +67,7 @@ class BodyOverlaps {
   std::vector<Overlap> with_tool(std::size_t number) {
     std::vector<Overlap> found;
     const ToolSpec& tool = scene_.tools[number];
-    if (is_constraint(tool)) return found;
+    if (tool.shape == ToolSpec::Shape::constraint) return found;
     const bool solid = is_solid(tool);
     ToolDepth in_tool(tool, tools_.of_tool[number]);
     for (std::size_t i = 0; i < poses_.size(); ++i) {
