@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/preview/powder_setup.hpp"
+#include "cli/preview/tool_setup.hpp"
 #include "components/body.hpp"
 #include "components/contact.hpp"
 #include "components/space/bond.hpp"
