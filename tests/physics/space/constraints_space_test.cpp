@@ -13,7 +13,7 @@ namespace {
 constexpr double youngs = 200e9, poisson = 0.3, side = 10e-3;
 
 // A steel cube with corners at 0 and 10 mm. `then`: its constraints and stages.
-std::string cube(const std::string& then) {
+std::string held_cube(const std::string& then) {
   return R"(
 family = "compaction"
 dimension = 3
@@ -57,7 +57,7 @@ const std::string formulations[] = {"", "[element]\nformulation = \"eight-point\
 // Free sides: uniaxial stress.
 TEST(SpaceConstraint, CubeIsDrawnAsYoungsModulusSays) {
   for (const std::string& formulation : formulations) {
-    Experiment e(own_scene(cube(
+    Experiment e(own_scene(held_cube(
         constraint("low", "z", "0", "0") + constraint("high", "z", "10", "10") +
         stage("draw", move("high", "[\"0 mm\", \"0 mm\", \"0.001 mm\"]")) + rest + formulation)));
     e.run(40);
@@ -82,7 +82,7 @@ TEST(SpaceConstraint, CubeIsDrawnAsYoungsModulusSays) {
 // All nodes stay in their planes, and the sides are free along x: simple shear.
 TEST(SpaceConstraint, CubeIsShearedAsTheShearModulusSays) {
   for (const std::string& formulation : formulations) {
-    Experiment e(own_scene(cube(
+    Experiment e(own_scene(held_cube(
         constraint("low", "x", "0", "0") + constraint("high", "x", "10", "10") +
         constraint("across", "y", "0", "10") + constraint("level", "z", "0", "10") +
         stage("shear", move("high", "[\"0.001 mm\", \"0 mm\", \"0 mm\"]")) + rest + formulation)));
@@ -99,8 +99,9 @@ TEST(SpaceConstraint, CubeIsShearedAsTheShearModulusSays) {
 // The force on a body that is carried along is its mass times the acceleration; it has no stress. A half ramp accelerates
 // and brakes all the time: sampled while it moves.
 TEST(SpaceConstraint, CarriesABodyWithoutStress) {
-  Experiment e(own_scene(cube(constraint("all", "all", "0", "10") +
-                              stage("carry", move("all", "[\"1 mm\", \"-2 mm\", \"3 mm\"]")))));
+  Experiment e(
+      own_scene(held_cube(constraint("all", "all", "0", "10") +
+                          stage("carry", move("all", "[\"1 mm\", \"-2 mm\", \"3 mm\"]")))));
   const auto& x = e.column<Position<ThreeD>>();
   e.run(20, [&] {
     EXPECT_LT(e.results.energies().elastic, 1e-9 * e.results.energies().kinetic + 1e-12);
@@ -115,11 +116,11 @@ TEST(SpaceConstraint, CarriesABodyWithoutStress) {
 
 // Nodes move away from the point; the work of the radial force is the energy.
 TEST(SpaceConstraint, NodesMoveRadially) {
-  Experiment e(own_scene(
-      cube("[[tool]]\nname = \"spread\"\nshape = \"constraint\"\nlow = [\"10 mm\", \"0 mm\", \"0 "
-           "mm\"]\nhigh = [\"10 mm\", \"10 mm\", \"10 mm\"]\nholds = \"radial\"\npoint = [\"5 "
-           "mm\", \"5 mm\", \"5 mm\"]\n" +
-           stage("spread", move("spread", "[\"0.001 mm\", \"0 mm\", \"0 mm\"]")))));
+  Experiment e(own_scene(held_cube(
+      "[[tool]]\nname = \"spread\"\nshape = \"constraint\"\nlow = [\"10 mm\", \"0 mm\", \"0 "
+      "mm\"]\nhigh = [\"10 mm\", \"10 mm\", \"10 mm\"]\nholds = \"radial\"\npoint = [\"5 "
+      "mm\", \"5 mm\", \"5 mm\"]\n" +
+      stage("spread", move("spread", "[\"0.001 mm\", \"0 mm\", \"0 mm\"]")))));
   const auto& x = e.column<Position<ThreeD>>();
   std::vector<std::pair<std::size_t, double>> held;  // node, distance
   const auto distance = [&](std::size_t n) {
@@ -168,7 +169,7 @@ duration = "30 us"
 }
 
 TEST(SpaceConstraint, ExistsOnlyWhereAsked) {
-  Experiment with(own_scene(cube(constraint("low", "z", "0", "0") + rest)));
+  Experiment with(own_scene(held_cube(constraint("low", "z", "0", "0") + rest)));
   EXPECT_TRUE(with.simulation.world().has<ConstraintReaction>());
   EXPECT_FALSE(with.simulation.world().has<ContactPair<FaceToolContact>>());
   Experiment without("compaction-3d/one-sphere.toml");

@@ -9,7 +9,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double radius = 5e-3, way = 0.2e-3, pi = std::numbers::pi;
+constexpr double held_radius = 5e-3, way = 0.2e-3, pi = std::numbers::pi;
 
 // Balls of 10 mm whose nodes are all held; the first one goes down by 0.2 mm.
 Scene rigid_balls(const std::string& more) {
@@ -42,7 +42,7 @@ double integral(double up_to, const DepthAt& depth_at) {
   constexpr int parts = 1000;
   double sum = 0;
   for (int i = 0; i < parts; ++i) sum += depth_at((i + 0.5) / parts * up_to);
-  return 2 * pi * radius * up_to * sum / parts;
+  return 2 * pi * held_radius * up_to * sum / parts;
 }
 
 TEST(ContactOverlapInSpace, OfABallWithAPlane) {
@@ -50,9 +50,9 @@ TEST(ContactOverlapInSpace, OfABallWithAPlane) {
       rigid_balls("[[tool]]\nname = \"floor\"\nshape = \"plane\"\npoint = [\"0 mm\", \"0 mm\", \"0 "
                   "mm\"]\nnormal = [0, 0, 1]\n"));
   e.run(5);
-  const double volume = 4.0 / 3 * pi * std::pow(radius, 3);
+  const double volume = 4.0 / 3 * pi * std::pow(held_radius, 3);
   const double wanted = integral(way, [](double height) { return way - height; });
-  EXPECT_NEAR(wanted / (pi * radius * way * way), 1, 1e-4);
+  EXPECT_NEAR(wanted / (pi * held_radius * way * way), 1, 1e-4);
   EXPECT_NEAR(e.value("contact_overlap") * volume / wanted, 1, 0.02);
   EXPECT_NEAR(e.value("tool/floor/force_z") / -e.value("tool/first/force_z"), 1, 0.02);
 }
@@ -64,13 +64,13 @@ TEST(ContactOverlapInSpace, OfTwoBalls) {
       "\"second\"\nshape = \"constraint\"\nbody = 1\npoint = [\"0 mm\", \"0 mm\", \"-5 "
       "mm\"]\nradius = \"5.1 mm\"\nholds = \"all\"\n"));
   e.run(5);
-  const double volume = 2 * 4.0 / 3 * pi * std::pow(radius, 3), apart = 2 * radius - way;
+  const double volume = 2 * 4.0 / 3 * pi * std::pow(held_radius, 3), apart = 2 * held_radius - way;
   const double wanted = integral(way, [&](double height) {
     const double away =
-        std::sqrt(std::pow(radius - way, 2) + 2 * apart * height);  // from the other's centre
-    return std::max(radius - away, 0.0);
+        std::sqrt(std::pow(held_radius - way, 2) + 2 * apart * height);  // from the other's centre
+    return std::max(held_radius - away, 0.0);
   });
-  EXPECT_NEAR(wanted / (pi * radius * way * way / 2), 1, 0.05);
+  EXPECT_NEAR(wanted / (pi * held_radius * way * way / 2), 1, 0.05);
   EXPECT_NEAR(e.value("contact_overlap") * volume / wanted, 1, 0.03);
 }
 
