@@ -198,8 +198,9 @@ Json branch(const schema::TableView& view, const std::string& selector, const st
       return one->only_for.empty() || one->only_for.has(selected);
     };
     if (std::ranges::none_of(keys_called(key.name, view), is_meant)) properties[key.name] = false;
-    if (key.only_for.has(selected) && schema::is_required(key, selected))
-      required.push_back(key.name);
+    const bool by_value =
+        key.only_for.empty() ? !key.optional_for.empty() : key.only_for.has(selected);
+    if (by_value && schema::is_required(key, selected)) required.push_back(key.name);
   }
   for (const schema::TableView* child : children(view.info.path, language))
     if (child->info.selector == selector || child->info.selector_3d == selector)
@@ -262,7 +263,8 @@ Json table(const schema::TableView& view, const schema::Language& language, Exte
   Json required = Json::array();
   for (const schema::KeyInfo& key : view.keys) {
     json["properties"][key.name] = property(keys_called(key.name, view));
-    if (key.required && key.only_for.empty()) required.push_back(key.name);
+    if (key.required && key.only_for.empty() && key.optional_for.empty())
+      required.push_back(key.name);
     if (!key.needs.empty() && extent == Extent::whole)
       json["dependentRequired"][key.name] = {key.needs};
   }
