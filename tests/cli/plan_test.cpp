@@ -93,8 +93,8 @@ TEST(Plan, PlasticSceneWithFrictionHasBoth) {
                                          "element/isochoric_scale", "particle/plastic_work",
                                          "particle/yield_stress", "particle/hardening_modulus"}));
   EXPECT_THAT(asked.called(friction_columns),
-              UnorderedElementsAreArray({"contact/elastic_slip", "contact/slope_load",
-                                         "tool_contact/elastic_slip"}));
+              UnorderedElementsAreArray(
+                  {"contact/elastic_slip", "contact/slope_load", "tool_contact/elastic_slip"}));
   EXPECT_THAT(asked.names, IsSupersetOf({"trial_stress", "j2_return_map", "plastic_work"}));
   EXPECT_THAT(asked.names, Not(Contains("elastic_stress")));
 }

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "components/highest_mode.hpp"
-#include "scenes/highest_mode.hpp"
 #include "scenes/checks/solids/class_shape.hpp"
+#include "scenes/highest_mode.hpp"
 #include "tests/systems/space/body/blocks.hpp"
 
 namespace pulvis::space {
