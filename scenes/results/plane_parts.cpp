@@ -1,14 +1,13 @@
 #include "scenes/results/plane_parts.hpp"
 
 #include "components/body.hpp"
-#include "scenes/results/particle_tags.hpp"
 #include "scenes/results/parts/visit_particles.hpp"
 
 namespace pulvis {
 
-PlaneParts::PlaneParts(const Scene& scene, const World& world)
+PlaneParts::PlaneParts(const Scene& scene, const World& world, std::vector<ParticleTag> tags)
     : world_(world),
-      tags_(particle_tags(scene, world)),
+      tags_(std::move(tags)),
       outlines_(scene, world, node_values<TwoD, Position<TwoD>>(world)) {
   visit_particles<TwoD>(world, [&](std::size_t, int, const Shape& shape) {
     particle_area_ += shape.area;

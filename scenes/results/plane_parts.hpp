@@ -10,7 +10,8 @@ namespace pulvis {
 
 class PlaneParts : public ResultParts {
  public:
-  PlaneParts(const Scene& scene, const World& world);
+  // `tags`: scenes/results/particle_tags.hpp
+  PlaneParts(const Scene& scene, const World& world, std::vector<ParticleTag> tags);
 
   RunMesh mesh() const override;
   std::optional<FieldInfo> tool_field() const override;

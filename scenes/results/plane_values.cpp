@@ -6,6 +6,7 @@
 #include "components/body.hpp"
 #include "components/shape.hpp"
 #include "engine/access.hpp"
+#include "scenes/results/parts/mesh_rows.hpp"
 
 namespace pulvis {
 namespace {
@@ -72,34 +73,17 @@ void plastic_strain(const World& world, int slot, std::vector<double>& out) {
     out.push_back(Elements<F>::mean_of(strain + e * F::points * lane_count, F::points));
 }
 
-template <class C>
-void of_nodes(const World& world, int slot, std::vector<double>& out) {
-  append_rows<C>(world, slot, world.resource<Bodies>().shape_of_slot(slot).nodes.size(), out);
-}
-
 template <class F>
 std::vector<MeshField> fields_of(const World& world) {
   using Out = std::vector<double>;
-  std::vector<MeshField> all{
-      {{"position", "m", "position $x$", "of the node", FieldPlace::node, 2},
-       of_nodes<Position<TwoD>>},
-      {{"velocity", "m/s", "velocity $v$", "of the node, half a step later", FieldPlace::node, 2},
-       of_nodes<Velocity<TwoD>>},
-      {{"effective_stress", "Pa", "effective stress $\\sigma_\\mathrm{eff}$",
-        "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
-       of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.effective); })},
-      {{"pressure", "Pa", "pressure $p$", "minus the mean stress; compression > 0",
-        FieldPlace::cell, 1},
-       of_stress<F>([](const CellStress& c, Out& out) { out.push_back(c.pressure); })},
-      {{"stress", "Pa", "stress $\\sigma$", "Cauchy: xx yy zz xy", FieldPlace::cell, 4},
-       of_stress<F>([](const CellStress& c, Out& out) {
-         out.insert(out.end(), {c.xx, c.yy, c.zz, c.xy});
-       })}};
-  if (world.has<PlasticStrain<F::points>>())
-    all.push_back({{"plastic_strain", "-", "plastic strain $\\bar\\varepsilon_p$",
-                    "accumulated, mean of the Gauss points", FieldPlace::cell, 1},
-                   plastic_strain<F>});
-  return all;
+  return mesh_rows<TwoD>(
+      {.effective = of_stress<F>([](const CellStress& s, Out& out) { out.push_back(s.effective); }),
+       .pressure = of_stress<F>([](const CellStress& s, Out& out) { out.push_back(s.pressure); }),
+       .stress = of_stress<F>([](const CellStress& s, Out& out) {
+         out.insert(out.end(), {s.xx, s.yy, s.zz, s.xy});
+       }),
+       .plastic_strain = world.has<PlasticStrain<F::points>>() ? ParticleValues(plastic_strain<F>)
+                                                               : ParticleValues()});
 }
 
 }  // namespace

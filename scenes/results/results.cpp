@@ -10,6 +10,7 @@
 #include "components/space/contact.hpp"
 #include "engine/portable_math.hpp"
 #include "scenes/results/bond_results.hpp"
+#include "scenes/results/particle_tags.hpp"
 #include "scenes/results/plane_parts.hpp"
 #include "scenes/results/solids/space_parts.hpp"
 
@@ -37,8 +38,9 @@ double largest_tool_force(const World& world) {
 }
 
 std::unique_ptr<ResultParts> make_parts(const Scene& scene, const World& world) {
-  if (scene.in_space()) return space::result_parts(scene, world);
-  return std::make_unique<PlaneParts>(scene, world);
+  std::vector<ParticleTag> tags = particle_tags(scene, world);
+  if (scene.in_space()) return space::result_parts(scene, world, std::move(tags));
+  return std::make_unique<PlaneParts>(scene, world, std::move(tags));
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ struct EdgePass {
                points,
                rates};
     p.points = sampled_edges(points, two);
-    if (s.images) shift_to_images(s.images->cell->vectors, two, p.points);
+    if (s.images) move_to_images(s.images->cell->vectors, s.images->image, two, p.points);
     p.at = CurvePoints::of(s.points.closest, two);
     p.curve = gather(p.other, points, p.at);
     return p;
@@ -90,9 +90,6 @@ struct EdgePass {
                           list + 2 * s.points.place(two[1], 0));
   }
 
-  void shift_to_images(const Tensor2& vectors, const Two& two, PointLanes& p) const {
-    move_to_images(vectors, s.images->image, two, p);
-  }
   bool itself(Row<Contact> row) const {
     return s.columns.pair(row, 2) == s.columns.pair(row, 0) &&
            (!s.images || s.images->of(row) == Image{});
@@ -101,7 +98,7 @@ struct EdgePass {
   [[gnu::always_inline]] PointMotion motion_at(const Two& two, const Projection& p) const {
     if (rates == nullptr) return motion_of(p, {});
     PointLanes velocity = sampled_edges(rates, two);
-    if (s.images) shift_to_images(s.images->cell->rate, two, velocity);
+    if (s.images) move_to_images(s.images->cell->rate, s.images->image, two, velocity);
     return motion_of(p, velocity);
   }
 

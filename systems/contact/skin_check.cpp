@@ -34,8 +34,8 @@ constexpr double min_left = 0.2;  // of the skin: with less left, checking costs
 // What the next step may use up, if steps are long relative to the skin: surfaces must be found before they
 // meet. (A fold of an outline first seen when its sides have passed through each other looks like the back face
 // of a thin part.)
-double look_ahead(const ContactIndex& index, double travel) {
-  const double step = travel - index.motion_seen;
+double look_ahead(const ContactIndex& index, double relative_motion) {
+  const double step = relative_motion - index.motion_seen;
   return step > min_left * index.skin ? step : 0;
 }
 

@@ -3,7 +3,6 @@
 #include "components/body.hpp"
 #include "components/contact.hpp"
 #include "scenes/results/parts/visit_particles.hpp"
-#include "scenes/results/solids/space_tags.hpp"
 #include "scenes/results/solids/tool_sheets.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/tools/powder.hpp"
@@ -20,10 +19,10 @@ Eigen::AlignedBox3d box_of_nodes(const World& world) {
 
 class SpaceParts : public ResultParts {
  public:
-  SpaceParts(const Scene& scene, const World& world)
+  SpaceParts(const Scene& scene, const World& world, std::vector<ParticleTag> tags)
       : world_(world),
         volume_(volume_of_particles(world)),
-        tags_(particle_tags(scene, world)),
+        tags_(std::move(tags)),
         sheets_(scene, box_of_nodes(world)) {
     visit_particles<ThreeD>(
         world, [&](std::size_t, int, const Shape& shape) { elements_ += shape.elements(); });
@@ -70,8 +69,9 @@ class SpaceParts : public ResultParts {
 
 }  // namespace
 
-std::unique_ptr<ResultParts> result_parts(const Scene& scene, const World& world) {
-  return std::make_unique<SpaceParts>(scene, world);
+std::unique_ptr<ResultParts> result_parts(const Scene& scene, const World& world,
+                                          std::vector<ParticleTag> tags) {
+  return std::make_unique<SpaceParts>(scene, world, std::move(tags));
 }
 
 }  // namespace pulvis::space

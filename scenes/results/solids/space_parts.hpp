@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "engine/world.hpp"
 #include "scenes/results/parts/result_parts.hpp"
@@ -9,6 +10,8 @@
 
 namespace pulvis::space {
 
-std::unique_ptr<ResultParts> result_parts(const Scene& scene, const World& world);
+// `tags`: scenes/results/particle_tags.hpp
+std::unique_ptr<ResultParts> result_parts(const Scene& scene, const World& world,
+                                          std::vector<ParticleTag> tags);
 
 }  // namespace pulvis::space

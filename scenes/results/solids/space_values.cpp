@@ -8,6 +8,7 @@
 #include "components/space/formulation.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
+#include "scenes/results/parts/mesh_rows.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -63,34 +64,19 @@ void plastic_strain(const World& world, int slot, std::vector<double>& out) {
   }
 }
 
-template <class C>
-void of_nodes(const World& world, int slot, std::vector<double>& out) {
-  append_rows<C>(world, slot, shape_in(world, slot).nodes.size(), out);
-}
-
 template <class F>
 std::vector<MeshField> fields_of(const World& world) {
   using Out = std::vector<double>;
-  std::vector<MeshField> all{
-      {{"position", "m", "position $x$", "of the node", FieldPlace::node, 3},
-       of_nodes<Position<ThreeD>>},
-      {{"velocity", "m/s", "velocity $v$", "of the node, half a step later", FieldPlace::node, 3},
-       of_nodes<Velocity<ThreeD>>},
-      {{"effective_stress", "Pa", "effective stress $\\sigma_\\mathrm{eff}$",
-        "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
-       of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.effective); })},
-      {{"pressure", "Pa", "pressure $p$", "minus the mean stress; compression > 0",
-        FieldPlace::cell, 1},
-       of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.pressure); })},
-      {{"stress", "Pa", "stress $\\sigma$", "Cauchy: xx yy zz xy yz zx", FieldPlace::cell, 6},
-       of_stress<F>([](const ElementStresses& s, Out& out) {
+  return mesh_rows<ThreeD>(
+      {.effective =
+           of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.effective); }),
+       .pressure =
+           of_stress<F>([](const ElementStresses& s, Out& out) { out.push_back(s.pressure); }),
+       .stress = of_stress<F>([](const ElementStresses& s, Out& out) {
          out.insert(out.end(), s.stress.begin(), s.stress.end());
-       })}};
-  if (world.has<PlasticStrain<F::points>>())
-    all.push_back({{"plastic_strain", "-", "plastic strain $\\bar\\varepsilon_p$",
-                    "accumulated, mean of the Gauss points", FieldPlace::cell, 1},
-                   plastic_strain<F>});
-  return all;
+       }),
+       .plastic_strain = world.has<PlasticStrain<F::points>>() ? ParticleValues(plastic_strain<F>)
+                                                               : ParticleValues()});
 }
 
 }  // namespace
