@@ -57,7 +57,8 @@ struct WorstJacobian {
 // ---- contact ------------------------------------------------------------------------------------
 struct ContactCurves {
   Read<CurvePosition> position;
-  Optional<Read<CurveVelocity>> velocity;  // only with friction or damping
+  Optional<Read<CurveVelocity>> velocity;          // only with friction or damping
+  Optional<Read<SurfaceHardness<TwoD>>> hardness;  // only where surfaces indent
 };
 // The surfaces of the tools; polylines need more than a normal.
 struct ToolSurfaces {

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "components/dimension.hpp"
 #include "components/entities.hpp"
 
 namespace pulvis {
@@ -133,6 +134,25 @@ struct ElasticSlip : Component<At, double, (At::axes == 2 ? 1 : 3) * At::points>
       At::axes == 2 ? "stretch of the tangential springs: history"
                     : "stretch of the tangential springs, x of all, y, z: history"};
 };
+// ---- only where surfaces indent --------------------------------------------------------------------
+template <class At>
+struct PointIndentation : Component<At, double, At::points> {
+  static constexpr ComponentInfo info{"indentation", "m",
+                                      "part of the gap that does not press any more: history"};
+};
+// Of an edge, or of a face.
+template <class D>
+struct SurfaceHardness : Component<typename D::OutlinePart, double, 3> {
+  static constexpr ComponentInfo info{"hardness", "SI",
+                                      "pressure per undeformed area at which it indents, share of "
+                                      "an indentation that is left after the "
+                                      "step, plastic strain of the element behind"};
+  enum Number {
+    pressure,  // Pa
+    left,      // -
+    strain     // -
+  };
+};
 // ---- only if the friction of a pair is more than a Coulomb coefficient, or surfaces attract each other ----------
 template <class At>
 struct SurfaceLawNumber : Component<At, std::int32_t, 1> {
@@ -179,6 +199,7 @@ struct alignas(64) BlockSums {
   double energy = 0;                    // J, stored in the contact springs
   double friction_work = 0;             // J, dissipated by sliding in the last step
   double damping_work = 0;              // J, dissipated by contact damping in the last step
+  double indentation_work = 0;          // J, dissipated by indenting surfaces in the last step
   double depth = 0;                     // -, largest penetration over edge length; NaN if any is
   std::int32_t deepest = -1;            // its row; -1 if nothing touches
   std::int32_t touching = 0;            // rows with a touching point
@@ -188,8 +209,8 @@ struct alignas(64) BlockSums {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(energy, friction_work, damping_work, depth, deepest, touching, projections, unconverged,
-          first_unconverged);
+    bytes(energy, friction_work, damping_work, indentation_work, depth, deepest, touching,
+          projections, unconverged, first_unconverged);
   }
 };
 

@@ -7,6 +7,8 @@ namespace pulvis {
 
 struct Shape;
 struct Contact;
+struct ControlPoint;
+struct SurfaceFace;
 struct ToolContact;
 struct FaceContact;
 struct FaceToolContact;
@@ -28,6 +30,7 @@ struct TwoD {
   using Contact = pulvis::Contact;
   using ToolContact = pulvis::ToolContact;
   // The smooth outlines of the particles: contact curves.
+  using OutlinePart = ControlPoint;  // an edge, given by its first control point
   using OutlinePosition = CurvePosition;
   using OutlineVelocity = CurveVelocity;
   using OutlineBefore = CurveBefore;
@@ -40,6 +43,7 @@ struct ThreeD {
   using Contact = FaceContact;
   using ToolContact = FaceToolContact;
   // Contact surfaces.
+  using OutlinePart = SurfaceFace;
   using OutlinePosition = space::SurfacePosition;
   using OutlineVelocity = space::SurfaceVelocity;
   using OutlineBefore = space::SurfaceBefore;

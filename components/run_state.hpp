@@ -18,6 +18,9 @@
 
 namespace pulvis {
 
+// Most steps between two evaluations of the stable time step, and of what changes as slowly.
+inline constexpr std::int64_t max_steps_between_looks = 8;
+
 // Leapfrog clock (T 5.4, 5.5): positions at t_n, velocities half a step before and after.
 struct Clock {
   static constexpr const char* resource_name = "clock";
@@ -85,8 +88,11 @@ struct ToolProgram {
 struct ContactRules {
   static constexpr const char* resource_name = "contact_rules";
   static constexpr bool fixed = true;
-  double stiffness = 1;             // -, k of kappa = k K L/A
-  double damping = 0;               // -, fraction of critical damping
+  double stiffness = 1;   // -, k of kappa = k K L/A
+  double tangential = 1;  // -, springs of friction over those of contact; 0: no friction
+  double hardness = 0;    // -, pressure over flow stress at which a surface indents; 0: never
+  double inertance = 0;   // -, c of the inerters at the boundary (systems/body/inerter_kernel.hpp)
+  double damping = 0;     // -, fraction of critical damping
   double penetration_limit = 0.5;   // -, of the edge length
   double unconverged_limit = 1e-3;  // -, share of the closest-point projections
   double shortest_edge = 0;         // m
@@ -179,6 +185,7 @@ struct Totals {
   double largest_work = 0;       // J, of the tools in one step, absolute value
   double friction_work = 0;      // J, dissipated
   double damping_work = 0;       // J, dissipated by contact damping
+  double indentation_work = 0;   // J, dissipated by indenting surfaces
   double damping_power = 0;      // W, of this step
   double contact_energy = 0;     // J, stored in contact springs
   double penetration = 0;        // -, penetration / edge length, maximum in this step
@@ -197,8 +204,9 @@ struct Totals {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(external_work, largest_work, friction_work, damping_work, damping_power, contact_energy,
-          penetration, worst_penetration, min_jacobian, touching, projections, unconverged);
+    bytes(external_work, largest_work, friction_work, damping_work, indentation_work, damping_power,
+          contact_energy, penetration, worst_penetration, min_jacobian, touching, projections,
+          unconverged);
   }
 };
 

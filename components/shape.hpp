@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/body.hpp"
+#include "components/boundary_pairs.hpp"
 #include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
 
@@ -43,6 +44,8 @@ struct Shape {
     int next = no_edge;
     double length = 0;               // m, undeformed
     double stiffness = 0;            // 1/m: edge length / area of the element behind it
+    int element = 0;                 // the element behind it
+    std::array<Row<Node>, 2> ends;   // nodes, counter-clockwise
     std::array<double, 4> weight{};  // m: length of each of its Gauss points
   };
 
@@ -62,11 +65,11 @@ struct Shape {
   std::vector<Hourglass> hourglass;  // [elements]
   std::vector<double> nodal_area;    // m^2: a quarter of every adjacent element
   int boundary_nodes = 0;
+  BoundaryPairs pairs;
   std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;
   std::vector<Edge> edges;
-  std::vector<std::int32_t>
-      edge_from;  // [control points]: the edge that starts with it
+  std::vector<std::int32_t> edge_from;      // [control points]: the edge that starts with it
   std::vector<CornerMoment> corner_moment;  // [elements]
   std::vector<double>
       contact_frequency;           // 1/m^2, [elements]: rho omega^2 / (k K) of its edge springs

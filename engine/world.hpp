@@ -107,6 +107,14 @@ struct Table {
   std::size_t rows_of_largest_chunk() const;
 };
 
+// Of a table stored by particle: the first row of a slot.
+inline std::ptrdiff_t first_row(const Table& table, int slot) {
+  const auto chunk = static_cast<std::size_t>(slot / lane_count);
+  const std::ptrdiff_t begin = table.chunk_begin[chunk],
+                       rows = (table.chunk_begin[chunk + 1] - begin) / lane_count;
+  return begin + slot % lane_count * rows;
+}
+
 template <IsComponent C>
 class Column : public ColumnBase {
  public:

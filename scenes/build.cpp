@@ -46,6 +46,7 @@ void add_row_columns(World& world, const Needs& needs) {
   world.add<ReactivationDistance<At>>();
   world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();
+  if (needs.indentation) world.add<PointIndentation<At>>();
   if (needs.friction) world.add<ElasticSlip<At>>();
   if (needs.weakening) world.add<SlipWeakening<At>>();
   if (needs.weakening || needs.adhesion) world.add<SurfaceLawNumber<At>>();
@@ -99,6 +100,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
   world.add<CurveForce>();
   world.add<MaximumSpeed>();
   if (needs.friction || needs.damping) world.add<CurveVelocity>();
+  if (needs.indentation) world.add<SurfaceHardness<TwoD>>();
   if (needs.pairs) {
     add_row_columns<Contact>(world, needs);
     world.add<ContactPlace>();
@@ -210,10 +212,10 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
     }
     set_reach(index, scene, rules, bonds_reach);
   }
-  if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
-    add_highest_mode(*world, layout.bodies, needs.contact());
   if (needs.contact() || needs.constraints) add_hollows(*world, layout.bodies);
   fill_bodies(*world, layout);
+  if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
+    add_highest_mode(*world, layout.bodies, needs.contact());
   fill_materials(*world, scene, layout.bodies);
   add_flow_laws(*world, scene, needs);
   add_run_state(*world, scene);

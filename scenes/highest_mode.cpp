@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "components/body.hpp"
 #include "components/highest_mode.hpp"
 #include "engine/entry.hpp"
 #include "scenes/meshes/contact_curve.hpp"
@@ -35,14 +36,23 @@ std::vector<double> supports(const space::Shape& shape) {
   return support;
 }
 
-// The same for all particles of a class, so that it does not depend on memory layout. No symmetry: a guess
-// must contain a component of every mode.
+// The same for all particles of a class but for their rotation, so that it depends neither on the memory layout nor on the
+// frame: random combinations of vectors between nodes. No symmetry: a guess must contain a component of every mode.
 template <class D>
-void guess(std::size_t nodes, Lane* mode) {
+void guess(std::size_t nodes, const Lane* position, Lane* mode) {
   std::mt19937_64 random(1);
-  for (std::size_t n = 0; n < nodes; ++n)
-    for (std::size_t k = 0; k < D::axes; ++k)
-      mode[HighestMode<D>::count * n + k] = Lane(static_cast<double>(random() >> 11) * 0x1p-52 - 1);
+  const auto number = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+  constexpr std::size_t axes = D::axes;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    for (std::size_t k = 0; k < axes; ++k) mode[HighestMode<D>::count * n + k] = Lane{};
+    for (std::size_t i = 1; i <= axes; ++i) {
+      const std::size_t other = (n + i * nodes / (axes + 1) + i) % nodes;
+      const double share = number();
+      for (std::size_t k = 0; k < axes; ++k)
+        mode[HighestMode<D>::count * n + k] +=
+            share * (position[axes * other + k] - position[axes * n + k]);
+    }
+  }
 }
 
 // `shape_of`: of a chunk.
@@ -54,8 +64,9 @@ void add_columns(World& world, const Bodies& bodies, const ShapeOf& shape_of, bo
   if (contact) world.add<ContactSupport>();
   for (std::int32_t c = 0; c < bodies.chunks(); ++c) {
     const auto& shape = shape_of(c);
-    guess<D>(shape.nodes.size(),
-             mode.lanes() + HighestMode<D>::count * entry(mode.table.chunk_begin, c));
+    const std::int32_t first = entry(mode.table.chunk_begin, c);
+    guess<D>(shape.nodes.size(), world.column<Position<D>>().lanes() + D::axes * first,
+             mode.lanes() + HighestMode<D>::count * first);
     if (!contact) continue;
     auto& support = world.column<ContactSupport>();
     Lane* of_chunk = support.lanes() + entry(support.table.chunk_begin, c);

@@ -72,6 +72,7 @@ std::uint64_t edge_row_bytes(const Needs& needs) {
   bytes += bytes_if<ElasticSlip<At>>(needs.friction);
   bytes += bytes_if<SlopeLoad>(needs.friction || needs.bonds());
   bytes += bytes_if<SlipWeakening<At>>(needs.weakening);
+  bytes += bytes_if<PointIndentation<At>>(needs.indentation);
   bytes += bytes_if<SurfaceLawNumber<At>>(needs.weakening || needs.adhesion);
   if (needs.bonds())
     bytes += bytes_of<BondLawNumber<At>, BondedPoints<At>, BondOffset<At>, BondStrength<At>,
@@ -93,7 +94,8 @@ Bytes bytes_in_plane(const Scene& scene, const Needs& needs) {
       with_formulation(needs.formulation, [&]<class F>(F) { return quad_bytes<F>(needs); });
   bytes.boundary_node = bytes_of<ContactForce<TwoD>>() + bytes_if<ContactSupport>(mode);
   bytes.control_point = bytes_of<CurvePosition, CurveBefore, CurveForce>() +
-                        bytes_if<CurveVelocity>(needs.friction || needs.damping);
+                        bytes_if<CurveVelocity>(needs.friction || needs.damping) +
+                        bytes_if<SurfaceHardness<TwoD>>(needs.indentation);
   bytes.side = rows_of_an_edge * static_cast<double>(edge_row_bytes(needs));
   bytes.frame_node = copies * 5 * sizeof(double);
   bytes.frame_element = copies * 7 * sizeof(double);
@@ -125,6 +127,7 @@ std::uint64_t face_row_bytes(const Scene& scene, const Needs& needs) {
                space::ContactPoint>() +
       sizeof(space::PairLoads::Load);
   bytes += bytes_if<SlipWeakening<At>>(needs.weakening);
+  bytes += bytes_if<PointIndentation<At>>(needs.indentation);
   bytes += bytes_if<space::ContactPointForce>(scene.output.contacts);
   if (needs.bonds()) bytes += bytes_of<space::BondedPoints<At>, BondDamage<At>, BondStrength<At>>();
   bytes += bytes_if<space::BondOffset<At>>(needs.initial_bonds);
@@ -143,7 +146,8 @@ Bytes bytes_in_space(const Scene& scene, const Needs& needs) {
                                         [&]<class F>(F) { return hexahedron_bytes<F>(needs); });
   bytes.boundary_node = bytes_of<ContactForce<ThreeD>>() + bytes_if<ContactSupport>(mode);
   bytes.control_point = bytes_of<space::SurfacePosition, space::SurfaceBefore>() +
-                        bytes_if<space::SurfaceVelocity>(needs.friction || needs.damping);
+                        bytes_if<space::SurfaceVelocity>(needs.friction || needs.damping) +
+                        bytes_if<SurfaceHardness<ThreeD>>(needs.indentation);
   bytes.side = rows_of_a_face * static_cast<double>(face_row_bytes(scene, needs));
   bytes.frame_node = copies * 6 * sizeof(double);
   bytes.frame_element = copies * 9 * sizeof(double);

@@ -58,6 +58,7 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
         needs.pairs && (BondRules::any(bonds.initial) || BondRules::any(bonds.inside));
     needs.tool_initial_bonds = needs.tools && BondRules::any(bonds.tool_initial);
   }
+  needs.indentation = needs.contact() && needs.plastic && scene.contact.hardness;
   needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;
   needs.bulk_damping = std::ranges::any_of(scene.materials, &MaterialSpec::damped);

@@ -5,6 +5,7 @@
 #include "engine/files/input_file.hpp"
 #include "engine/files/xxh3.hpp"
 #include "scenes/checks/accuracy.hpp"
+#include "scenes/checks/contact_defaults.hpp"
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/checks/solids/accuracy.hpp"
 #include "scenes/checks/state_checks.hpp"
@@ -125,7 +126,7 @@ CompleteTree complete_tree(const std::string& text, const std::filesystem::path&
   std::optional<MissingWidth> missing_width = fill_die(root, problems);
   problems.throw_if_any();
   in_space ? space::fill_meshes(root, problems) : fill_meshes(root, problems);
-  if (in_space) space::fill_contact_stiffness(root);
+  fill_contact(root, dimension_of(root));
   schema::fill_defaults(root, language_of(root));
   return {std::move(root), std::move(missing_width)};
 }

@@ -135,6 +135,7 @@ void add_surfaces(World& world, const Needs& needs) {
   world.add<Roughness>();
   world.add<NodeDistance>();
   if (needs.friction || needs.damping) world.add<SurfaceVelocity>();
+  if (needs.indentation) world.add<SurfaceHardness<ThreeD>>();
 }
 
 template <class At>
@@ -149,6 +150,7 @@ void add_rows(World& world) {
 void add_pairs(World& world, const Needs& needs) {
   add_rows<FaceContact>(world);
   world.add<ContactPoint>();
+  if (needs.indentation) world.add<PointIndentation<FaceContact>>();
   if (needs.weakening) world.add<SlipWeakening<FaceContact>>();
   world.emplace<FacePairs>();
   world.emplace<PairLoads>();
@@ -158,6 +160,7 @@ void add_pairs(World& world, const Needs& needs) {
 void add_tool_contact(World& world, const Scene& scene, const Needs& needs) {
   add_rows<FaceToolContact>(world);
   world.add<PointForce<FaceToolContact>>();
+  if (needs.indentation) world.add<PointIndentation<FaceToolContact>>();
   if (needs.friction) world.add<ElasticSlip<FaceToolContact>>();
   if (needs.weakening) world.add<SlipWeakening<FaceToolContact>>();
   world.emplace<RowBlocks<FaceToolContact>>();

@@ -201,6 +201,7 @@ StepList step_list_of(World& w) {
   move.add<integrate<D>>                ("integrate");
   move.add<contact_curve>               ("contact_curve",     in_plane<D> && contacts.any());
   move.add<space::contact_surface>      ("contact_surface",   in_space<D> && contacts.any());
+  move.add<surface_hardness<F>>         ("surface_hardness",  w.has<SurfaceHardness<D>>());
   move.add<send_outlines<D>>            ("send_outlines",     contacts.ranks);
   move.add<cell_motion>                 ("cell_motion",       cell);
   move.add<element_health>              ("element_health");
@@ -247,6 +248,7 @@ std::vector<System> start_list_of(World& w) {
   SystemList start(w);
   start.add<contact_curve>("contact_curve", in_plane<D> && touching);
   start.add<space::contact_surface>("contact_surface", in_space<D> && touching);
+  start.add<surface_hardness<F>>("surface_hardness", w.has<SurfaceHardness<D>>());
   add_first_contacts<D>(w, start);
   add_time_step<F>(w, start);
   start.add<first_time_step>("first_time_step");

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "components/boundary_pairs.hpp"
 #include "components/entities.hpp"
 #include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
@@ -92,8 +93,7 @@ struct Shape {
     int element = 0;       // the element behind it
     double size = 0;       // m: square root of its undeformed area
     double stiffness = 0;  // 1/m: undeformed area over the volume of the element behind it
-    std::array<double, gauss_points>
-        weight{};  // m^2: undeformed area of each Gauss point
+    std::array<double, gauss_points> weight{};  // m^2: undeformed area of each Gauss point
   };
 
   // A surface node and the point of the smooth surface that belongs to it (systems/space/contact/node_springs.hpp).
@@ -107,13 +107,14 @@ struct Shape {
   std::string name;
   std::vector<Point> nodes;  // m; surface nodes first
   int boundary_nodes = 0;    // on the surface
+  BoundaryPairs pairs;
   std::vector<std::array<Row<Node>, 8>> hexahedra;
   std::vector<Element> element;                  // [elements]
   std::vector<std::array<GaussPoint, 8>> gauss;  // [elements]
   std::vector<double> nodal_volume;              // m^3, lumped: times density gives the nodal mass
   std::vector<Face> faces;
   std::vector<SurfaceNode> surface_node;  // [surface nodes]
-  Terms net;  // [surface nodes], in terms of surface nodes
+  Terms net;                              // [surface nodes], in terms of surface nodes
   // [Bezier points], in terms of the net; in face order, padded to a multiple of eight by complete_points().
   Terms points;
   double mean_face_stiffness = 0;  // 1/m: of its faces, weighted by area

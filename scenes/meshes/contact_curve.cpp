@@ -117,6 +117,18 @@ void cornered_curve(Shape& shape, const std::vector<int>& corners) {
   }
 }
 
+namespace {
+
+// The nodes of the element's side that starts at boundary node i.
+std::array<Row<Node>, 2> side_from(const Shape& shape, int i, std::size_t element) {
+  const auto& quad = shape.quads[element];
+  std::size_t c = 0;
+  while (c < 3 && quad[c].value != i) ++c;
+  return {quad[c], quad[(c + 1) % 4]};
+}
+
+}  // namespace
+
 void measure_edges(Shape& shape) {
   std::vector<Point> control;
   for (int c = 0; c < shape.control_points(); ++c) {
@@ -147,6 +159,8 @@ void measure_edges(Shape& shape) {
     double area = 0;
     for (const Shape::GaussPoint& point : shape.gauss[element]) area += point.determinant;
     edge.stiffness = edge.length / area;
+    edge.element = static_cast<int>(element);
+    edge.ends = side_from(shape, i, element);
     shape.mean_edge_stiffness += edge.stiffness * edge.length;
     perimeter += edge.length;
   }

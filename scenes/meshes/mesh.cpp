@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/portable_math.hpp"
+#include "scenes/meshes/boundary_pairs.hpp"
 #include "scenes/meshes/contact_curve.hpp"
 #include "scenes/meshes/mass_shares.hpp"
 #include "scenes/meshes/mesh_outlines.hpp"
@@ -81,6 +82,7 @@ Shape make_shape(const ParticleSpec& particle, double phase) {
   set_gauss_points(shape);
   measure_edges(shape);
   share_mass(shape);
+  shape.pairs = boundary_pairs(shape);
   return shape;
 }
 

@@ -78,7 +78,8 @@ void Results::take_energies() {
   Energies& e = energies_;
   e.kinetic = total<KineticEnergy>(world_);
   e.elastic = total<ElasticEnergy>(world_);
-  e.plastic = world_.has<PlasticWork>() ? total<PlasticWork>(world_) : 0;
+  e.plastic =
+      (world_.has<PlasticWork>() ? total<PlasticWork>(world_) : 0) + totals.indentation_work;
   e.hourglass = world_.has<HourglassEnergy>() ? total<HourglassEnergy>(world_) : 0;
   e.contact = totals.contact_energy;
   e.friction = totals.friction_work;

@@ -77,8 +77,7 @@ std::string finer(const Scene& scene, const ContactFindings& contacts) {
 
 std::string for_elastic_response(const Scene& scene, const ContactFindings& contacts) {
   const std::string what = "the elastic response is too soft by as much: ";
-  if (scene.contact.stiffness < stiff_contacts)
-    return what + "use " + advice_of_stiff_contacts(scene);
+  if (scene.contact.stiffness < stiff_contacts) return what + "use " + advice_of_stiff_contacts();
   return what + stiffer(scene, contacts);
 }
 

@@ -44,7 +44,8 @@ class History {
       add(std::array{number_in(slot), edge, other});
       if constexpr (std::is_same_v<At, FaceContact>) add_springs(row);
       using Bonded = std::conditional_t<At::axes == 3, space::BondedPoints<At>, BondedPoints<At>>;
-      add_history<ElasticSlip<At>, SlipWeakening<At>, Bonded, BondDamage<At>>(row);
+      add_history<PointIndentation<At>, ElasticSlip<At>, SlipWeakening<At>, Bonded, BondDamage<At>>(
+          row);
     }
     return std::move(bytes_);
   }

@@ -20,10 +20,8 @@ std::optional<std::string> asks_for_elastic_response(const Scene& scene) {
   return std::nullopt;
 }
 
-std::string advice_of_stiff_contacts(const Scene& scene) {
-  return fmt::format(
-      "contact.stiffness = {:g} (1.5 times the CPU time, 2 to 3% more force in loading{})",
-      stiff_contacts, scene.in_space() ? ", up to 9% at relative densities above 0.9" : "");
+std::string advice_of_stiff_contacts() {
+  return fmt::format("contact.stiffness = {:g} (up to a quarter more CPU time)", stiff_contacts);
 }
 
 std::string soft_contact_warning(const Scene& scene, const std::string& reason) {
@@ -31,7 +29,7 @@ std::string soft_contact_warning(const Scene& scene, const std::string& reason) 
   return fmt::format(
       "{}: with contact.stiffness = {:g} contact springs give way as well as the particles, and "
       "the elastic response (springback, residual stress, moduli) is too soft: use {}",
-      reason, scene.contact.stiffness, advice_of_stiff_contacts(scene));
+      reason, scene.contact.stiffness, advice_of_stiff_contacts());
 }
 
 std::vector<std::string> soft_contact_warnings(const Scene& scene) {

@@ -1,5 +1,5 @@
 // Whether a scene asks for the elastic response of its powder, which soft contact springs falsify: they act in series with
-// the particles. The force of loading does not suffer (docs/accuracy.md).
+// the particles.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace pulvis {
 
-// -, contact.stiffness from which on springs change moduli and springback by a tenth at most.
+// -, contact.stiffness from which on springs change moduli and springback by some 5% at most.
 inline constexpr double stiff_contacts = 10;
 
 // "contact.stiffness = 10", and what it costs.
-std::string advice_of_stiff_contacts(const Scene& scene);
+std::string advice_of_stiff_contacts();
 
 // "stage 'release' unloads the powder", of the first stage that asks for it; none: the scene only loads.
 std::optional<std::string> asks_for_elastic_response(const Scene& scene);

@@ -368,9 +368,11 @@ struct BondSpec {  // for one pair of names (materials or tools)
 
 struct ContactSpec {
   double friction = 0;  // -, Coulomb coefficient of every pair that no [[friction]] names
-  // k of kappa = k K L/A (bulk modulus, boundary edge length, element area). 0.5: if softer, the penetration
-  // delays the lateral force; if stiffer, the force depends on the positions of the mesh nodes (docs/accuracy.md).
+  // -, k of kappa = k K L/A (bulk modulus, boundary edge length, element area); in three dimensions k K A/V.
   double stiffness = 0.5;
+  std::optional<double> tangential_stiffness;  // -, of the springs of friction; none: the same
+  std::optional<double> hardness;  // -, over the flow stress; none: surfaces do not indent
+  double inertance = 0;            // -, c of systems/body/inerter_kernel.hpp
   double damping = 0;  // -, fraction of the critical damping of the contact spring (T 5.1, 5.2)
   // -, fraction of the shortest edge by which surfaces may approach before the contact list is
   // rebuilt. A rebuild costs about two steps every few hundred; rows not in contact cost memory.

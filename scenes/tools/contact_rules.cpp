@@ -39,6 +39,8 @@ ContactRules contact_rules(const Scene& scene) {
   ContactRules rules;
   rules.stiffness = scene.contact.stiffness;
   rules.damping = scene.contact.damping;
+  rules.hardness = scene.contact.hardness.value_or(0);
+  rules.inertance = scene.contact.inertance;
   rules.penetration_limit = scene.limits.penetration;
   rules.unconverged_limit = scene.limits.unconverged_projections;
   rules.materials = static_cast<int>(scene.materials.size());
@@ -51,8 +53,14 @@ ContactRules contact_rules(const Scene& scene) {
     for (const MaterialSpec& m : scene.materials)
       rules.tool_pairs.push_back(is_constraint(tool) ? SurfaceLaws{}
                                                      : laws_of(scene, tool.name, m.name));
+  rules.tangential = 0;
   for (const auto* list : {&rules.pairs, &rules.tool_pairs})
-    for (const SurfaceLaws& of : *list) rules.reach = std::max(rules.reach, of.adhesion.range);
+    for (const SurfaceLaws& of : *list) {
+      rules.reach = std::max(rules.reach, of.adhesion.range);
+      if (of.friction.acts())
+        rules.tangential = scene.contact.tangential_stiffness.value_or(scene.contact.stiffness) /
+                           scene.contact.stiffness;
+    }
   return rules;
 }
 

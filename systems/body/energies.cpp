@@ -8,6 +8,7 @@
 #include "components/space/formulation.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
+#include "systems/body/boundary_pairs.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/hourglass_kernel.hpp"
 #include "systems/body/systems.hpp"
@@ -32,6 +33,11 @@ void kinetic_energy<D>::operator()(Chunk chunk) const {
       total += 0.5 * v(n, k) * (mass * v(n, k) + force * half);
     }
   }
+  if (inerters && inerters->rules->inertance > 0)
+    for (const BoundaryPairs::Pair& pair : shape.pairs.all)
+      total += kernels::inerter_energy<Lane>(
+          difference<D>(pair, inerters->position.chunk(chunk)), difference<D>(pair, v),
+          mass_per_size * reduced_size(pair, shape), inerters->rules->inertance);
   energy.chunk(chunk)(Row<Particle>()) = total;
 }
 template struct kinetic_energy<TwoD>;

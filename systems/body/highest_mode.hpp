@@ -14,9 +14,13 @@
 // dimensions: highest_mode.cpp here, and systems/space/body/element_stiffness.cpp.
 #pragma once
 
+#include <array>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "engine/entry.hpp"
+#include "systems/body/boundary_pairs.hpp"
 #include "systems/body/element_bound.hpp"
 #include "systems/body/systems.hpp"
 
@@ -25,7 +29,9 @@ namespace pulvis {
 inline constexpr int first_iterations = 300;
 inline constexpr double looks_between_iterations = 4;
 inline constexpr double mode_margin = 0.98;  // 300 iterations leave an error of half a percent
-inline constexpr double longest_gain = 1.3;  // over the element bound; undeformed discs reach 1.2
+// Over the element bound: undeformed discs reach 1.2. It counts the contact springs as if there were no inerters, which
+// make up for stiff ones.
+inline constexpr double longest_gain = 1.3, longest_with_inerters = 3;
 
 template <class D>
 using ModeView = ChunkView<HighestMode<D>, Lane*>;
@@ -37,22 +43,97 @@ struct ModeBody {
   const typename D::Shape& shape;
   ChunkView<Position<D>, const Lane*> x;
   ChunkView<DeviatoricStress<D, F::points>, const Lane*> stress;
-  const ChunkView<ContactSupport, const Lane*>* support;  // null: no contact possible
-  Lane bulk, shear, contact;                              // Pa
+  Lane bulk, shear;  // Pa
+  struct Contact {
+    ChunkView<ContactSupport, const Lane*> support;
+    std::vector<std::array<Lane, D::axes>> normal;  // [boundary nodes] of the outline or surface
+    Lane along_normal, tangential;                  // Pa
+    double inertance;                               // -
+  };
+  std::optional<Contact> contact;  // if possible
 };
+
+// Not normalised: weighted with the size of the edges or faces at the node.
+template <class Positions>
+std::vector<std::array<Lane, 2>> boundary_normals(const Shape& shape, const Positions& x) {
+  std::vector<std::array<Lane, 2>> normal(static_cast<std::size_t>(shape.boundary_nodes));
+  for (const Shape::Edge& edge : shape.edges)
+    for (const Row<Node> end : edge.ends) {
+      auto& n = entry(normal, end.value);
+      n[0] += x(edge.ends[1], 1) - x(edge.ends[0], 1);
+      n[1] += x(edge.ends[0], 0) - x(edge.ends[1], 0);
+    }
+  return normal;
+}
+template <class Positions>
+std::vector<std::array<Lane, 3>> boundary_normals(const space::Shape& shape, const Positions& x) {
+  std::vector<std::array<Lane, 3>> normal(static_cast<std::size_t>(shape.boundary_nodes));
+  for (const space::Shape::Face& face : shape.faces) {
+    const auto diagonal = [&](std::size_t from, std::size_t to, int k) -> Lane {
+      return x(Row<Node>(face.corner[to].value), k) - x(Row<Node>(face.corner[from].value), k);
+    };
+    std::array<Lane, 3> p, q;
+    for (int k = 0; k < 3; ++k) {
+      entry(p, k) = diagonal(0, 2, k);
+      entry(q, k) = diagonal(1, 3, k);
+    }
+    for (const Row<BoundaryNode> corner : face.corner)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+        entry(normal, corner.value)[k] += p[i] * q[j] - p[j] * q[i];
+      }
+  }
+  return normal;
+}
 
 // -K v, after v in the columns of the mode; in two dimensions for unit slice depth.
 template <class F>
 void elastic_forces(const ModeBody<F>& body, const ModeView<typename F::Dimension>& mode) {
   constexpr int axes = F::Dimension::axes;
-  for (int i = 0; i < static_cast<int>(body.shape.nodes.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(body.shape.nodes.size()); ++i)
+    for (int k = 0; k < axes; ++k) mode(Row<Node>(i), axes + k) = Lane{};
+  for (int i = 0; body.contact && i < body.shape.boundary_nodes; ++i) {
     const Row<Node> n(i);
-    const Lane spring = body.support && i < body.shape.boundary_nodes
-                            ? body.contact * (*body.support)(Row<BoundaryNode>(i))
-                            : Lane{};
-    for (int k = 0; k < axes; ++k) mode(n, axes + k) = -(spring * mode(n, k));
+    const auto& normal = entry(body.contact->normal, i);
+    Lane along{}, square{};
+    for (int k = 0; k < axes; ++k) {
+      along += entry(normal, k) * mode(n, k);
+      square += entry(normal, k) * entry(normal, k);
+    }
+    const Lane size = body.contact->support(Row<BoundaryNode>(i)),
+               tangential = size * body.contact->tangential,
+               more = (size * body.contact->along_normal - tangential) * along / square;
+    for (int k = 0; k < axes; ++k)
+      mode(n, axes + k) = -(tangential * mode(n, k) + more * entry(normal, k));
   }
   for (int i = 0; i < body.shape.elements(); ++i) subtract_stiffness(body, Row<Element>(i), mode);
+}
+
+// With inerters between the nodes: what they add to v M v (mass over density), and to the forces, so that these over the
+// nodal masses are the accelerations.
+template <class F>
+Lane add_inerters(const ModeBody<F>& body, const ModeView<typename F::Dimension>& mode) {
+  using D = typename F::Dimension;
+  Lane mass{};
+  if (!body.contact || body.contact->inertance == 0) return mass;
+  const double c = body.contact->inertance;
+  for (const BoundaryPairs::Pair& pair : body.shape.pairs.all) {
+    const double outer = body.shape.size_of_node(pair.outer.value),
+                 inner = body.shape.size_of_node(pair.inner.value),
+                 mu = kernels::reduced_mass(outer, inner);
+    const auto line = difference<D>(pair, body.x);
+    std::array<Lane, D::axes> acceleration;
+    for (int k = 0; k < D::axes; ++k)
+      entry(acceleration, k) =
+          (1 / outer) * mode(pair.outer, D::axes + k) - (1 / inner) * mode(pair.inner, D::axes + k);
+    mass += 2.0 * kernels::inerter_energy(line, difference<D>(pair, mode), Lane(mu), c);
+    const Lane pull = -(c * mu) * kernels::dot(line, acceleration) / kernels::dot(line, line);
+    for (int k = 0; k < D::axes; ++k) {
+      mode(pair.outer, D::axes + k) += pull * entry(line, k);
+      mode(pair.inner, D::axes + k) -= pull * entry(line, k);
+    }
+  }
+  return mass;
 }
 
 // One iteration; returns rho omega^2 of the current mode, Pa/m^2.
@@ -68,6 +149,7 @@ Lane iterate(const ModeBody<F>& body, const ModeView<typename F::Dimension>& mod
       energy -= v * mode(Row<Node>(i), axes + k);
       mass += body.shape.size_of_node(i) * (v * v);
     }
+  mass += add_inerters(body, mode);
   const Lane quotient = energy / mass;
   // Shifted by somewhat less than half of the spectrum, which extends from zero to the quotient: the
   // other modes decay twice as fast.
@@ -119,27 +201,33 @@ template <class F>
   const Lane k = material.elastic.bulk.chunk(chunk)(particle),
              rho = material.density.chunk(chunk)(particle);
   const auto& shape = bodies.shape_of(chunk);
-  const Lane contact =
-      springs ? contact_modulus(*springs->rules,
-                                springs_of(chunk, *bodies.bodies, *springs->rules, *clock), shape,
-                                k, rho, step)
-              : Lane{};
   ModeBody<F> body{shape,
                    position.chunk(chunk),
                    deviator.chunk(chunk),
-                   nullptr,
                    k,
                    material.elastic.shear.chunk(chunk)(particle),
-                   contact};
-  using Support = ChunkView<ContactSupport, const Lane*>;
-  const Support support = springs ? springs->support.chunk(chunk) : Support(nullptr);
-  if (springs) body.support = &support;
+                   std::nullopt};
+  if (springs) {
+    const ContactRules& rules = *springs->rules;
+    const double of_chunk = springs_of(chunk, *bodies.bodies, rules, *clock);
+    const Lane along = contact_modulus(rules, of_chunk, shape, k, rho, step);
+    // Bonds are equally stiff in all directions.
+    const Lane tangential = rules.initial_stiffness.empty()
+                                ? min(along, rules.tangential * rules.stiffness * k)
+                                : along;
+    body.contact = typename ModeBody<F>::Contact{springs->support.chunk(chunk),
+                                                 boundary_normals(shape, body.x), along, tangential,
+                                                 rules.inertance};
+  }
+  const bool inerters = springs && springs->rules->inertance > 0;
 
   Lane highest{};
   for (int i = 0; i < (clock->step == 0 ? first_iterations : 1); ++i)
     highest = iterate(body, estimate.mode.chunk(chunk));
   const Lane longest = mode_margin * stable_step(chunk, rho, highest, damping);
-  known(particle, 0) = max(1.0, min(longest / step, longest_gain));
+  // A quotient that is not positive says nothing.
+  const Lane gain = select(highest > 0.0, longest / step, Lane(1.0));
+  known(particle, 0) = max(1.0, min(gain, inerters ? longest_with_inerters : longest_gain));
   known(particle, 1) = 1.0;
   step *= known(particle, 0);
 }

@@ -1,11 +1,14 @@
 // integrate: leapfrog with a variable time step (T 5.4, 5.5):
 //   v_(n+1/2) = v_(n-1/2) + a_n (dt_before + dt) / 2,   x_(n+1) = x_n + v_(n+1/2) dt
-// with a = (internal + contact force) / lumped mass.
+// with a = (internal + contact force) / lumped mass, and inerters at the boundary (inerter_kernel.hpp).
 //
 // Runs     after all forces of the step
+#include <array>
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+
 #include "engine/entry.hpp"
+#include "systems/body/boundary_pairs.hpp"
 #include "systems/body/systems.hpp"
 
 namespace pulvis {
@@ -29,26 +32,52 @@ template <class D>
   const auto v = velocity.chunk(chunk);
   const auto x = position.chunk(chunk);
   const double dt = clock->dt;
-  const Lane kick =
-      0.5 * (clock->dt_before + dt) / (density.chunk(chunk)(Row<Particle>()) * bodies.depth());
+  const Lane mass_per_size = density.chunk(chunk)(Row<Particle>()) * bodies.depth();
+  const double time = 0.5 * (clock->dt_before + dt), inv_time = 1 / time;
+  const Lane kick = time / mass_per_size;
   const auto move = [&](Row<Node> n, int k, const Lane& by, const Lane& force) {
     const Lane next = product_sum<D>(force, by, v(n, k));
     v(n, k) = next;
     x(n, k) = product_sum<D>(next, dt, x(n, k));
   };
+  const auto kick_of = [&](int n) -> Lane { return kick * (1 / shape.size_of_node(n)); };
 
-  int n = 0;
-  if (forces.contact) {
-    const auto g = forces.contact->chunk(chunk);
-    for (; n < shape.boundary_nodes; ++n) {
-      const Lane by = kick * (1 / shape.size_of_node(n));
-      for (int k = 0; k < D::axes; ++k)
-        move(Row<Node>(n), k, by, f(Row<Node>(n), k) + g(Row<BoundaryNode>(n), k));
+  if (!forces.contact) {
+    for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n) {
+      const Lane by = kick_of(n);
+      for (int k = 0; k < D::axes; ++k) move(Row<Node>(n), k, by, f(Row<Node>(n), k));
+    }
+    return;
+  }
+  const NodalForceOf<D> force_on{shape, f, forces.contact->chunk(chunk)};
+  if (!inertance || (*inertance)->inertance == 0) {
+    for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n) {
+      const Lane by = kick_of(n);
+      for (int k = 0; k < D::axes; ++k) move(Row<Node>(n), k, by, force_on(Row<Node>(n), k));
+    }
+    return;
+  }
+  const double c = (*inertance)->inertance;
+  for (const BoundaryPairs::Pair& pair : shape.pairs.all) {
+    const Lane outer = kick_of(pair.outer.value), inner = kick_of(pair.inner.value);
+    const auto line = difference<D>(pair, x);
+    std::array<Lane, D::axes> on_outer, on_inner, acceleration;
+    for (int k = 0; k < D::axes; ++k) {
+      entry(on_outer, k) = force_on(pair.outer, k);
+      entry(on_inner, k) = force_on(pair.inner, k);
+      entry(acceleration, k) = inv_time * (outer * entry(on_outer, k) - inner * entry(on_inner, k));
+    }
+    const Lane pull = kernels::inerter_force(line, difference<D>(pair, v), acceleration,
+                                             Lane(mass_per_size * (c * reduced_size(pair, shape))));
+    for (int k = 0; k < D::axes; ++k) {
+      const Lane along = pull * entry(line, k);
+      move(pair.outer, k, outer, entry(on_outer, k) + along);
+      move(pair.inner, k, inner, entry(on_inner, k) - along);
     }
   }
-  for (; n < static_cast<int>(shape.nodes.size()); ++n) {
-    const Lane by = kick * (1 / shape.size_of_node(n));
-    for (int k = 0; k < D::axes; ++k) move(Row<Node>(n), k, by, f(Row<Node>(n), k));
+  for (const Row<Node> n : shape.pairs.single) {
+    const Lane by = kick_of(n.value);
+    for (int k = 0; k < D::axes; ++k) move(n, k, by, force_on(n, k));
   }
 }
 template struct integrate<TwoD>;

@@ -98,6 +98,22 @@ struct damping_force {
   void operator()(Chunk chunk) const;
 };
 
+template <class F>
+struct surface_hardness {
+  using D = typename F::Dimension;
+  ShapedBodies<D> bodies;
+  struct Settings {
+    Read<ContactRules> rules;
+    Read<Clock> clock;
+  } settings;
+  Read<Position<D>> position;
+  Read<BulkModulus> bulk;
+  Flow flow;
+  Read<PlasticStrain<F::points>> strain;
+  Write<SurfaceHardness<D>> hardness;
+  void operator()(Chunk chunk) const;
+};
+
 // ---- motion and stable time steps --------------------------------------------------------------
 template <class D>
 struct integrate {
@@ -105,6 +121,7 @@ struct integrate {
   Read<Clock> clock;
   Read<Density> density;
   NodalForces<Read, D> forces;
+  Optional<Read<ContactRules>> inertance;
   Write<Velocity<D>> velocity;
   Write<Position<D>> position;
   void operator()(Chunk chunk) const;
@@ -168,6 +185,11 @@ struct kinetic_energy {
   Read<Density> density;
   NodalForces<Read, D> forces;
   Read<Velocity<D>> velocity;
+  struct Inerters {
+    Read<ContactRules> rules;
+    Read<Position<D>> position;
+  };
+  Optional<Inerters> inerters;
   Write<KineticEnergy> energy;
   void operator()(Chunk chunk) const;
 };

@@ -35,7 +35,8 @@ struct BondLanes {
 // Running sums of a block.
 struct BondSumsOfLanes {
   using Block = BondBlock;
-  Lane energy{}, contact_energy{}, fracture{}, friction_work{}, damping_work{}, area{};
+  Lane energy{}, contact_energy{}, fracture{}, friction_work{}, damping_work{}, area{},
+      indentation_work{};
   BondBlock block;
 
   BondBlock added_up() {
@@ -51,6 +52,7 @@ struct BondSumsOfLanes {
     const auto three = sum(sums_of_halves(area, contact_energy));
     block.area = three[0];
     block.contact_energy = three[1];
+    block.indentation_work = sum(sums_of_halves(indentation_work, Lane{}))[0];
     return std::move(block);
   }
 };
@@ -120,6 +122,8 @@ class BondPass {
     Lane spent = grown * of_compression * b.weight;
     PointForces f;
     f.energy = f.friction_work = f.damping_work = f.elastic_slip = f.pressure = Lane{};
+    f.indentation_work = Lane{};
+    if (s_.rows.state.indentation) f.indentation = at_points(*s_.rows.state.indentation, two);
     if (any(lanes & (contacts > 0.0) & (m.point.gap > -range_of(s_.rows, two)))) {
       const PointForces by_contact = contact();
       const auto [push, friction] = along_axes(by_contact, m.point);
@@ -128,6 +132,8 @@ class BondPass {
       f.energy = contacts * by_contact.energy;
       f.friction_work = contacts * by_contact.friction_work;
       f.damping_work = contacts * by_contact.damping_work;
+      f.indentation = by_contact.indentation;
+      f.indentation_work = contacts * by_contact.indentation_work;
       f.elastic_slip = by_contact.elastic_slip;
       f.pressure = by_contact.pressure;
       spent -= select(b.welded, Lane{}, grown * by_contact.energy);
@@ -220,6 +226,7 @@ class BondPass {
     sums.fracture += select(lanes, spent, Lane{});
     sums.friction_work += select(lanes, f.friction_work, Lane{});
     sums.damping_work += select(lanes, f.damping_work, Lane{});
+    sums.indentation_work += select(lanes, f.indentation_work, Lane{});
     sums.area += select(lanes, b.weight, Lane{});
     for (int half = 0; half < count_of(two); ++half)
       sums.block.rows += half_of(bonded, half) == BondedPoints<At>::all ? 1 : 0;
@@ -229,11 +236,13 @@ class BondPass {
     for (int half = 0; half < count_of(two); ++half) {
       const Row<At> row = entry(two, half);
       const unsigned points = half_of(bonded, half);
-      s_.rows.touches(row) = 1;
+      s_.rows.state.touches(row) = 1;
       store_points(points, f.x, f.y, half, &s_.rows.force(row));
       if (points == BondedPoints<At>::all)
-        s_.rows.activation(row) = back_face;  // nothing left for the narrow phase
+        s_.rows.state.activation(row) = back_face;  // nothing left for the narrow phase
       store_points(points, damage, half, &s_.bonds.damage(row));
+      if (s_.rows.state.indentation)
+        store_points(points, f.indentation, half, &(*s_.rows.state.indentation)(row));
       if (s_.rows.sliding)
         store_points(points, f.elastic_slip, half, &s_.rows.sliding->elastic_slip(row));
       if (s_.rows.bonding->weld)
@@ -247,7 +256,7 @@ class BondPass {
       const unsigned points = half_of(broken, half);
       if (points == 0) continue;
       s_.bonds.points(row) = static_cast<std::uint8_t>(s_.bonds.points(row) & ~points);
-      s_.rows.activation(row) = 0;
+      s_.rows.state.activation(row) = 0;
       for (int g = 0; g < edge_points; ++g) {
         if ((points >> g & 1) == 0) continue;
         s_.bonds.damage(row, g) = 0;

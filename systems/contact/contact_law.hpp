@@ -17,6 +17,7 @@ namespace pulvis {
 struct PointLaw {
   Lane weight;      // m^2, undeformed tributary area of the point
   Lane kappa;       // Pa/m, in this pass
+  Lane tangential;  // Pa/m, kappa of the tangential spring, in this pass
   Lane damping;     // Pa s/m, in this pass
   Lane inv_length;  // 1/m, of the edge
 };
@@ -37,7 +38,7 @@ template <class Friction>
     f.elastic_slip = tangential.elastic_slip;
     f.along = tangential.traction * law.weight;
     f.friction_work = tangential.work * law.weight;
-    f.energy = fma(0.5 * law.kappa * f.elastic_slip, f.elastic_slip, f.energy);
+    f.energy = fma(0.5 * law.tangential * f.elastic_slip, f.elastic_slip, f.energy);
   }
   f.energy *= law.weight;
   const Lane push = normal.pressure * law.weight;
@@ -65,8 +66,8 @@ inline void store_points(unsigned points, const Lane& now, int half, double* fou
 // A candidate whose points are all apart: no force acts, and none can before the surfaces have moved by `activation`.
 template <class At>
 void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
-  c.touches(row) = 0;
-  c.activation(row) = activation;
+  c.state.touches(row) = 0;
+  c.state.activation(row) = activation;
   const unsigned free = free_points(c, row);
   for (int k = 0; k < 2 * edge_points; ++k) c.force(row, k) = 0;
   for (int k = 0; k < edge_points; ++k) {
@@ -154,35 +155,56 @@ void attract(const RowColumns<At>& c, const TwoCandidates<At>& two, const PointM
   f.energy += pull.energy * weight;
 }
 
+// Where surfaces indent.
+template <class At>
+kernels::Indentation<Lane> indent(const RowColumns<At>& c, const TwoCandidates<At>& two,
+                                  const PointLaw& law, double share, const PointMotion& m) {
+  return kernels::indentation(m.gap, at_points(*c.state.indentation, two), share * m.hardness,
+                              m.left, law.kappa, law.inv_length);
+}
+
 template <class At>
 [[gnu::always_inline]] inline PointForces forces_of(const RowColumns<At>& c,
                                                     const TwoCandidates<At>& two, unsigned touching,
-                                                    const PointMotion& m, double share, double dt) {
+                                                    const PointMotion& at, double share,
+                                                    double dt) {
   using Law = ContactLaw<At>;
   const std::array<double, 2> stiffness{share * c.law(two[0], Law::stiffness),
                                         share * c.law(two[1], Law::stiffness)};
-  const PointLaw law{at_points(c.law, two, Law::weight), halves(stiffness[0], stiffness[1]),
+  const double tangential = c.sliding ? c.sliding->rules->tangential : 1;
+  const Lane kappa = halves(stiffness[0], stiffness[1]);
+  const PointLaw law{at_points(c.law, two, Law::weight), kappa, tangential * kappa,
                      share * at_candidates(c.law, two, Law::damping),
                      at_candidates(c.law, two, Law::inv_size)};
+  kernels::Indentation<Lane> indented{};
+  PointMotion m = at;
+  if (c.state.indentation) {
+    indented = indent(c, two, law, share, at);
+    m.gap = at.gap - indented.depth;
+  }
   PointForces f =
       c.sliding ? forces_of(law, m, dt,
                             [&](const Lane& slip, const Lane& pressure) {
                               return friction_of(
                                   c, two, touching, share, Slip{slip, m.slip_rate, m.gap}, pressure,
-                                  {law.kappa, halves(1 / stiffness[0], 1 / stiffness[1])});
+                                  {law.tangential, halves(1 / (tangential * stiffness[0]),
+                                                          1 / (tangential * stiffness[1]))});
                             })
                 : forces_of(law, m, dt, Frictionless{});
-  if (c.surfaces && c.surfaces->rules->reach > 0) attract(c, two, m, share * law.weight, f);
+  if (c.surfaces && c.surfaces->rules->reach > 0) attract(c, two, at, share * law.weight, f);
+  f.indentation = indented.depth;
+  f.indentation_work = indented.work * law.weight;
   return f;
 }
 
 template <class At>
 [[gnu::always_inline]] inline void keep(const RowColumns<At>& c, Row<At> row, int half,
                                         const PointForces& f, double share) {
-  c.touches(row) = 1;
-  c.activation(row) = 0;
+  c.state.touches(row) = 1;
+  c.state.activation(row) = 0;
   store_pairs_of_half(f.x, f.y, half, &c.force(row));
   const unsigned free = free_points(c, row);
+  if (c.state.indentation) store_points(free, f.indentation, half, &(*c.state.indentation)(row));
   if (c.sliding) store_points(free, f.elastic_slip, half, &c.sliding->elastic_slip(row));
   if (c.bonding && c.bonding->weld)
     store_points(free, (1 / share) * f.pressure, half, &(*c.bonding->weld)(row));
@@ -195,7 +217,8 @@ template <class At>
                           const PointMotion& m, double share, double dt, LaneSums& sums) {
   const PointForces f = forces_of(c, two, touching, m, share, dt);
   sums.add(f, touching);
-  sums.add_depth(two, touching, m.gap * at_candidates(c.law, two, ContactLaw<At>::inv_size));
+  sums.add_depth(two, touching,
+                 (m.gap - f.indentation) * at_candidates(c.law, two, ContactLaw<At>::inv_size));
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0) keep(c, entry(two, half), half, f, share);
   return f.along;
@@ -206,6 +229,7 @@ template <class At>
 void fetch(const RowColumns<At>& c, Row<At> row) {
   const auto line = [row](const auto& column) { prefetch(&column(row)); };
   line(c.pair), line(c.law), line(c.force);
+  if (c.state.indentation) line(*c.state.indentation);
   if (c.sliding) line(c.sliding->elastic_slip);
 }
 

@@ -37,7 +37,7 @@ template <class At>
 // The running sums of a block: lane by lane, added up at its end.
 struct LaneSums {
   using Block = BlockSums;
-  Lane energy{}, friction_work{}, damping_work{};
+  Lane energy{}, friction_work{}, damping_work{}, indentation_work{};
   BlockSums block;  // the other sums
 
   // For those of the two candidates that touch (bit 0, bit 1).
@@ -46,6 +46,7 @@ struct LaneSums {
     energy += select(touch, f.energy, Lane{});
     friction_work += select(touch, f.friction_work, Lane{});
     damping_work += select(touch, f.damping_work, Lane{});
+    indentation_work += select(touch, f.indentation_work, Lane{});
   }
   template <class At>
   [[gnu::always_inline]] void add_depth(const TwoCandidates<At>& two, unsigned touching,
@@ -61,10 +62,11 @@ struct LaneSums {
   BlockSums added_up() const {
     BlockSums sums = block;
     const SumsOfHalves ab = sums_of_halves(energy, friction_work);
-    const SumsOfHalves c = sums_of_halves(damping_work, Lane{});
+    const SumsOfHalves c = sums_of_halves(damping_work, indentation_work);
     sums.energy = ab.a[0] + ab.a[1];
     sums.friction_work = ab.b[0] + ab.b[1];
     sums.damping_work = c.a[0] + c.a[1];
+    sums.indentation_work = c.b[0] + c.b[1];
     return sums;
   }
 };

@@ -14,7 +14,7 @@ namespace {
 
 // Over all blocks of all ranks.
 struct Sums {
-  enum Exact { energy, friction_work, damping_work, exact };
+  enum Exact { energy, friction_work, damping_work, indentation_work, exact };
   enum Count { touching, projections, unconverged, counts };
   std::array<ExactSum, exact> sum;
   std::array<std::int64_t, counts> count{};
@@ -24,6 +24,7 @@ struct Sums {
       sum[energy].add(block.energy);
       sum[friction_work].add(block.friction_work);
       sum[damping_work].add(block.damping_work);
+      sum[indentation_work].add(block.indentation_work);
       count[touching] += block.touching;
       count[projections] += block.projections;
       count[unconverged] += block.unconverged;
@@ -44,6 +45,7 @@ void contact_totals::operator()() const {
   totals->touching = of.count[Sums::touching];
   totals->contact_energy = of.sum[Sums::energy].value();
   totals->friction_work += of.sum[Sums::friction_work].value();
+  totals->indentation_work += of.sum[Sums::indentation_work].value();
   totals->projections += of.count[Sums::projections];
   totals->unconverged += of.count[Sums::unconverged];
   const double dt = clock->dt_before;

@@ -39,7 +39,7 @@ struct EdgePass {
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<Contact> row) const {
-    return s.clock->relative_motion >= s.columns.activation(row);
+    return s.clock->relative_motion >= s.columns.state.activation(row);
   }
   [[gnu::always_inline]] void fetch(Row<Contact> row) const {
     pulvis::fetch(s.columns, row);
@@ -119,6 +119,9 @@ struct EdgePass {
     }
     const unsigned touching = find_touching(two, p, motion);
     if (touching == 0) return;
+    if (s.curves.hardness)
+      set_hardness(*s.curves.hardness, p, {s.points.place(two[0], 0), s.points.place(two[1], 0)},
+                   motion);
     const Lane along = act(s.columns, two, touching, motion, share, s.clock->dt_before, sums);
     if (s.points.slope_load) set_slope_load(motion, along, touching, two, *s.points.slope_load);
   }
@@ -146,7 +149,7 @@ struct EdgePass {
   double nearest_fold(Row<Contact> row, int half, const Projection& p, PointMotion& motion) const {
     const Shape& shape = s.bodies->shape_of_slot(s.columns.pair(row, 2));
     unsigned touched = 0;
-    for (int g = 0; s.columns.touches(row) != 0 && g < edge_points; ++g)
+    for (int g = 0; s.columns.state.touches(row) != 0 && g < edge_points; ++g)
       if (s.columns.force(row, 2 * g) != 0 || s.columns.force(row, 2 * g + 1) != 0)
         touched |= 1U << g;
     return exclude_own_body(p, half, s.columns.pair(row, 1),

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "components/shape.hpp"
+#include "engine/access.hpp"
 #include "systems/contact/curve_points.hpp"
 #include "systems/contact/two_candidates.hpp"
 
@@ -17,10 +19,9 @@ namespace pulvis {
 struct OtherCurves {
   std::array<int, 2> slot;
   std::array<std::int32_t, 2> first;  // first control point of the outline
-  std::array<bool, 2>
-      round_corners;       // search past corners: not where an outline folds onto itself
-  const double* position;  // of all control points
-  const double* velocity;  // null if the scene needs none
+  std::array<bool, 2> round_corners;  // search past corners: not where an outline folds onto itself
+  const double* position;             // of all control points
+  const double* velocity;             // null if the scene needs none
 };
 
 struct CurveLanes {
@@ -189,6 +190,28 @@ template <class... Projections>
   }
   m.gap = select(LaneMask::of(p.beyond & ~p.inside), -1.0, m.gap);
   return m;
+}
+
+// The hardness of the sampled edges, given by their first control points, and of those that their points are closest to.
+[[gnu::always_inline]] inline void set_hardness(const Read<SurfaceHardness<TwoD>>& of,
+                                                const Projection& p,
+                                                const std::array<std::int32_t, 2>& sampled,
+                                                PointMotion& m) {
+  const auto softer = [&](int number) {
+    const Lane other = Lane::from([&](int l) {
+      const std::int32_t first = entry(p.other.first, l / edge_points);
+      return of(Row<ControlPoint>(first + static_cast<std::int32_t>(entry(p.at.edge, l))), number);
+    });
+    return min(halves(of(Row<ControlPoint>(sampled[0]), number),
+                      of(Row<ControlPoint>(sampled[1]), number)),
+               other);
+  };
+  // Folds do not indent, since nothing else keeps an outline from passing through itself; nor do bonded points.
+  const LaneMask own = LaneMask::of((p.other.round_corners[0] ? 0x00U : 0x0fU) |
+                                    (p.other.round_corners[1] ? 0x00U : 0xf0U));
+  m.hardness = select(own, Lane(std::numeric_limits<double>::infinity()),
+                      softer(SurfaceHardness<TwoD>::pressure));
+  m.left = softer(SurfaceHardness<TwoD>::left);
 }
 
 // Past a corner the corner itself attracts: the distance to an outline is continuous there, so no energy is lost when

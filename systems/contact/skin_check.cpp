@@ -198,7 +198,7 @@ template <class D>
 double remaining_skin(const skin_check<D>& s) {
   const Bodies& bodies = *s.bodies.bodies;
   std::vector<OutlineMotion<D>> motion(bodies.slots.size());
-  tell_border(s.border, bodies);
+  tell_border(s.border);
   tbb::parallel_for(std::size_t{0}, bodies.present_slots.size(), [&](std::size_t i) {
     const int slot = bodies.present_slots[i];
     const std::ptrdiff_t first = s.bodies.outline_begin(slot);

@@ -86,12 +86,16 @@ struct bin_tool_edges {
 template <class At>
 struct RowColumns {
   Read<ContactPair<At>> pair;
-  Write<ContactTouches<At>> touches;
-  Write<ReactivationDistance<At>> activation;
+  struct State {
+    Write<ContactTouches<At>> touches;
+    Write<ReactivationDistance<At>> activation;
+    Optional<Write<PointIndentation<At>>> indentation;  // where surfaces indent only
+  } state;
   Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
   struct Sliding {  // scenes with friction only
     Write<ElasticSlip<At>> elastic_slip;
+    Read<ContactRules> rules;
     Optional<Write<SlipWeakening<At>>> lost;  // of friction that is not just Coulomb's
   };
   Optional<Sliding> sliding;

@@ -26,6 +26,12 @@ inline double stiffening(double depth) {
   return 1 + 3 * x * x;
 }
 
+// J/m^2 stored at a penetration of `touching` m >= 0, or `depth` stiffening depths.
+template <class T>
+T spring_energy(T touching, T depth, T kappa) {
+  return 0.5 * kappa * touching * touching * (1.0 + 0.5 * depth * depth);
+}
+
 // g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `inv_edge` 1/m, inverse length of
 // the edge.
 template <class T>
@@ -37,6 +43,58 @@ Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T inv_edge) {
   const T spring = kappa * touching * (1.0 + more);
   const T total = select(g > 0.0, max(spring + c * g_rate, zero), zero);
   return {total, 0.5 * kappa * touching * touching * (1.0 + 0.5 * more), (total - spring) * g_rate};
+}
+
+// ---- indentation -----------------------------------------------------------------------------------------
+// A contact that is narrower than an edge cannot indent the element behind it: pressure would rise without bound. Where it
+// exceeds the hardness H of the surface, a point indents by d, so that kappa (g - d) (1 + ((g - d)/g_s)^2) = H, which takes
+// the plastic work H dd. H = 1.25 p + C sigma_f, with p and the flow stress sigma_f of the element behind the edge. C = 2.97 for
+// a rigid flat punch in plane strain (Prandtl: (2 + pi)/sqrt 3), about 3 for a ball (Tabor 1951).
+//
+// As the element behind flows, surfaces come to fit each other: d falls by 1/e over some plastic strain of the element, and
+// the work comes back.
+//
+// A spring that reaches H only where it is several times as stiff as at first is no longer a penalty: no limit then.
+inline constexpr double hardest = 0.5;              // H / (kappa g_s)
+inline constexpr double deepest_indentation = 0.1;  // of the edge: more than that is the mesh's
+inline constexpr double fitting_strain = 0.05;      // -
+
+template <class T>
+struct Indentation {
+  T depth;  // m
+  T work;   // J/m^2, spent in this step
+};
+
+// Where the spring exceeds H: `fitted` m, the indentation so far; x + x^3 of the spring is to be H/(kappa g_s).
+template <class T>
+[[gnu::noinline]] Indentation<T> grown_indentation(T g, T before, T fitted, T H, T kappa,
+                                                   T inv_edge) {
+  const T per_depth = (1 / stiffening_depth) * inv_edge;
+  const T x = max(g - fitted, T{}) * per_depth;
+  const T y = H * per_depth / kappa;
+  // Newton's method from below.
+  T limit = y / fma(y, y, T{} + 1.0);
+  for (int k = 0; k < 2; ++k)
+    limit = limit - (limit * fma(limit, limit, T{} + 1.0) - y) / fma(3.0 * limit, limit, T{} + 1.0);
+  const T most = max(fitted, deepest_indentation / inv_edge);
+  const T grown = min(fitted + (x - limit) / per_depth, most);
+  const auto grows = (y < hardest) & (x > limit);
+  const T after = select(grows, grown, fitted);
+  const T pressure = select(grows, H, kappa * x / per_depth * fma(x, x, T{} + 1.0));
+  return {after, pressure * (after - before)};
+}
+
+// The indentation at a gap g, `before` a step. `hardness` Pa, of the pass; `left` -, share of an indentation after the step.
+template <class T>
+[[gnu::always_inline]] inline Indentation<T> indentation(T g, T before, T hardness, T left, T kappa,
+                                                         T inv_edge) {
+  const T fitted = before * left;
+  const T spring = max(g - fitted, T{});
+  const T depth = spring * ((1 / stiffening_depth) * inv_edge);
+  const T pressure = kappa * spring * fma(depth, depth, T{} + 1.0);
+  if (any(pressure > hardness))
+    return grown_indentation(g, before, fitted, hardness, kappa, inv_edge);
+  return {fitted, pressure * (fitted - before)};
 }
 
 }  // namespace pulvis::kernels

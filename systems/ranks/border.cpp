@@ -4,22 +4,21 @@
 
 namespace pulvis {
 
-Ranks::Bytes packed(const Bodies& bodies, std::span<const int> slots,
-                    std::span<const Outlines> columns) {
+Ranks::Bytes packed(std::span<const int> slots, std::span<const Outlines> columns) {
   Ranks::Bytes bytes;
   for (const Outlines& column : columns)
     for (const int slot : slots) {
-      const std::span<const std::byte> of = std::as_bytes(column.of(bodies, slot));
+      const std::span<const std::byte> of = std::as_bytes(column.of(slot));
       bytes.insert(bytes.end(), of.begin(), of.end());
     }
   return bytes;
 }
 
-void unpack(std::span<const std::byte> bytes, const Bodies& bodies, std::span<const int> slots,
+void unpack(std::span<const std::byte> bytes, std::span<const int> slots,
             std::span<const Outlines> columns) {
   for (const Outlines& column : columns)
     for (const int slot : slots) {
-      const std::span<std::byte> of = std::as_writable_bytes(column.of(bodies, slot));
+      const std::span<std::byte> of = std::as_writable_bytes(column.of(slot));
       std::memcpy(of.data(), bytes.data(), of.size());
       bytes = bytes.subspan(of.size());
     }
@@ -35,13 +34,13 @@ std::vector<int> slots_in(const Ranks::Bytes& bytes) {
   return slots;
 }
 
-void tell_border(RankLink& own, const Bodies& bodies, std::span<const Outlines> columns) {
+void tell_border(RankLink& own, std::span<const Outlines> columns) {
   std::vector<Ranks::Bytes> to(static_cast<std::size_t>(own.ranks->count()));
   for (const RankLink::Neighbour& near : own.border)
-    to[static_cast<std::size_t>(near.rank)] = packed(bodies, near.send, columns);
+    to[static_cast<std::size_t>(near.rank)] = packed(near.send, columns);
   const std::vector<Ranks::Bytes> from = own.ranks->all_to_all(std::move(to));
   for (const RankLink::Neighbour& near : own.border)
-    unpack(from[static_cast<std::size_t>(near.rank)], bodies, near.receive, columns);
+    unpack(from[static_cast<std::size_t>(near.rank)], near.receive, columns);
 }
 
 }  // namespace pulvis

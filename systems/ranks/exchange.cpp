@@ -14,11 +14,11 @@
 namespace pulvis {
 namespace {
 
-template <class D>
-std::vector<Outlines> columns_of(const Write<typename D::OutlinePosition>& position,
-                                 const Optional<Write<typename D::OutlineVelocity>>& velocity) {
-  std::vector<Outlines> columns{position};
-  if (velocity) columns.emplace_back(*velocity);
+template <class System>
+std::vector<Outlines> columns_of(const System& s) {
+  std::vector<Outlines> columns{s.position};
+  if (s.velocity) columns.emplace_back(*s.velocity);
+  if (s.hardness) columns.emplace_back(*s.hardness);
   return columns;
 }
 
@@ -62,10 +62,10 @@ class Reader {
 // ---- outlines ---------------------------------------------------------------------------------------
 template <class D>
 void send_outlines<D>::operator()() const {
-  const std::vector<Outlines> columns = columns_of<D>(position, velocity);
+  const std::vector<Outlines> columns = columns_of(*this);
   std::vector<Ranks::Message> messages;
   for (const RankLink::Neighbour& near : link->outlines)
-    if (!near.send.empty()) messages.push_back({near.rank, packed(*bodies, near.send, columns)});
+    if (!near.send.empty()) messages.push_back({near.rank, packed(near.send, columns)});
   link->ranks->send(Ranks::Kind::outlines, std::move(messages));
   link->outlines_sent = true;
 }
@@ -74,12 +74,12 @@ template <class D>
 void receive_outlines<D>::operator()(SmallTasks) const {
   if (!link->outlines_sent) return;
   link->outlines_sent = false;
-  const std::vector<Outlines> columns = columns_of<D>(position, velocity);
+  const std::vector<Outlines> columns = columns_of(*this);
   const std::vector<int> from = ranks_that_send(link->outlines);
   const std::vector<Ranks::Message> messages = link->ranks->receive(Ranks::Kind::outlines, from);
   auto message = messages.begin();
   for (const RankLink::Neighbour& near : link->outlines)
-    if (!near.receive.empty()) unpack((message++)->bytes, *bodies, near.receive, columns);
+    if (!near.receive.empty()) unpack((message++)->bytes, near.receive, columns);
 }
 
 template struct send_outlines<TwoD>;

@@ -106,7 +106,7 @@ void find_border<D>::operator()() const {
   std::vector<Extent> extent;
   Extent own;
   for (const int slot : bodies->own_slots) {
-    extent.push_back(extent_of(D{}, outlines.of(*bodies, slot)));
+    extent.push_back(extent_of(D{}, outlines.of(slot)));
     own.take(extent.back());
   }
   const std::vector<Extent> of_rank = extents_of_ranks(*link, own);
@@ -132,10 +132,10 @@ void find_border<D>::operator()() const {
   bodies->set_border(border);
   std::vector<Outlines> columns{outlines};
   if (velocity) columns.emplace_back(*velocity);
-  tell_border(*link, *bodies, columns);
+  if (hardness) columns.emplace_back(*hardness);
+  tell_border(*link, columns);
   const Outlines old(before);
-  for (const int slot : border)
-    std::ranges::copy(outlines.of(*bodies, slot), old.of(*bodies, slot).begin());
+  for (const int slot : border) std::ranges::copy(outlines.of(slot), old.of(slot).begin());
 }
 
 template struct find_border<TwoD>;

@@ -38,12 +38,12 @@ std::map<int, std::vector<int>> needed_of(const World& share) {
 
 template <class D>
 void tell_all(World& share) {
-  const Bodies& bodies = share.resource<Bodies>();
   std::vector<Outlines> columns{Write<typename D::OutlinePosition>(share),
                                 Write<typename D::OutlineBefore>(share)};
   if (share.has<typename D::OutlineVelocity>())
     columns.emplace_back(Write<typename D::OutlineVelocity>(share));
-  tell_border(share.resource<RankLink>(), bodies, columns);
+  if (share.has<SurfaceHardness<D>>()) columns.emplace_back(Write<SurfaceHardness<D>>(share));
+  tell_border(share.resource<RankLink>(), columns);
 }
 
 template <class System>

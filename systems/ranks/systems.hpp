@@ -18,6 +18,7 @@ struct find_border {
   Write<Bodies> bodies;
   Write<typename D::OutlinePosition> position;
   Optional<Write<typename D::OutlineVelocity>> velocity;
+  Optional<Write<SurfaceHardness<D>>> hardness;
   Write<typename D::OutlineBefore> before;
   Write<RankLink> link;
   void operator()() const;
@@ -60,6 +61,7 @@ struct send_outlines {
   Read<Bodies> bodies;
   Write<typename D::OutlinePosition> position;
   Optional<Write<typename D::OutlineVelocity>> velocity;
+  Optional<Write<SurfaceHardness<D>>> hardness;
   Write<RankLink> link;
   void operator()() const;
 };
@@ -69,6 +71,7 @@ struct receive_outlines {
   Read<Bodies> bodies;
   Write<typename D::OutlinePosition> position;
   Optional<Write<typename D::OutlineVelocity>> velocity;
+  Optional<Write<SurfaceHardness<D>>> hardness;
   Write<RankLink> link;
   void operator()(SmallTasks) const;
 };

@@ -27,7 +27,6 @@ namespace pulvis {
 namespace {
 
 // Geometry changes little in a step; where it does, on impact, the stable step is evaluated more often.
-constexpr std::int64_t max_steps_between_looks = 8;
 constexpr double max_strain_between_looks = 0.01;
 // Share of the thinnest part that surfaces may move against each other in a step: what they enter is seen
 // while its near side is by far the nearer one, also where speeds grow within the step.

@@ -61,6 +61,7 @@ struct ToolBonds {
     const BondMotion m = motion(two, at);
     const auto contact = [&] {
       PointMotion moving = m.point;
+      if (s.at.curves.hardness) edges.set_hardness(*s.at.curves.hardness, moving);
       if (rates != nullptr)
         set_rates(edges.points(rates), of_tools(s.at.velocity, two, 0),
                   of_tools(s.at.velocity, two, 1), moving);

@@ -25,7 +25,7 @@ struct ToolPass {
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<ToolContact> row) const {
-    return s.clock->relative_motion >= s.columns.activation(row);
+    return s.clock->relative_motion >= s.columns.state.activation(row);
   }
   [[gnu::always_inline]] void fetch(Row<ToolContact> row) const { pulvis::fetch(s.columns, row); }
   void fetch_other(Row<ToolContact>) const {}
@@ -37,6 +37,7 @@ struct ToolPass {
     pass_over_bonded(s.columns, two, motion);
     const unsigned touching = find_touching(two, motion);
     if (touching == 0) return;
+    if (s.curves.hardness) edges.set_hardness(*s.curves.hardness, motion);
     motion.gap_rate = motion.slip_rate = Lane{};
     if (rates != nullptr) {
       const Row<Tool> a(s.columns.pair(two[0], 2)), b(s.columns.pair(two[1], 2));

@@ -41,9 +41,11 @@ Bits bits_of(const World& world) {
 
 constexpr int steps = 500;
 
-Bits state_after(int threads, const std::string& formulation = "one-point") {
+Bits state_after(int threads, const std::string& formulation = "one-point",
+                 const std::vector<std::string>& more = {}) {
   std::vector<std::string> changes = fast_punch;
   changes.push_back("element.formulation=" + formulation);
+  changes.insert(changes.end(), more.begin(), more.end());
   Experiment e("compaction/regular-25.toml", changes, threads);
   e.simulation.run_steps(steps);
   e.simulation.observe();
@@ -82,6 +84,16 @@ TEST(Determinism, ThreadsDoNotChangeABit) {
   expect_same(one, state_after(3));
 }
 
+// Surfaces that indent, inerters and the estimate of the highest mode.
+TEST(Determinism, ThreadsDoNotChangeABitOfStiffContacts) {
+  const std::vector<std::string> stiff{"contact.stiffness=12", "contact.hardness=2.2"};
+  const Bits one = state_after(1, "one-point", stiff);
+  ASSERT_TRUE(one.contains("contact/indentation"));
+  ASSERT_TRUE(one.contains("node/highest_mode"));
+  expect_same(one, state_after(2, "one-point", stiff));
+  expect_same(one, state_after(3, "one-point", stiff));
+}
+
 TEST(Determinism, ThreadsDoNotChangeABitOfFourPointElements) {
   const Bits one = state_after(1, "four-point");
   ASSERT_FALSE(one.contains("element/plastic_hourglass"));
@@ -114,8 +126,7 @@ TEST(Determinism, AFailedStepIsCompletedOnAnyNumberOfThreads) {
   std::string first_failure, first_hash;
   for (const int threads : {1, 2, 3}) {
     Experiment failed("compaction/regular-25.toml", fast, threads);
-    const std::string failure =
-        message_of<RunFailure>([&] { failed.simulation.run_steps(10000); });
+    const std::string failure = message_of<RunFailure>([&] { failed.simulation.run_steps(10000); });
     ASSERT_NE(failure, "");
     const std::string hash = failed.simulation.state_hash();
     if (threads == 1) {

@@ -166,7 +166,7 @@ TEST_F(ProbeCommand, TellsOfSoftContactsBeforeItRuns) {
   EXPECT_EQ(outcome.code, 0);
   EXPECT_THAT(outcome.err, HasSubstr("warning: path 'isotropic' is probed for moduli: with "
                                      "contact.stiffness = 0.5"));
-  EXPECT_THAT(outcome.err, HasSubstr("use contact.stiffness = 10 (1.5 times the CPU time"));
+  EXPECT_THAT(outcome.err, HasSubstr("use contact.stiffness = 10 (up to a quarter more CPU time"));
 }
 
 }  // namespace

@@ -64,6 +64,12 @@ TEST_P(ObliqueImpact, KeepsMomentumAndEnergy) {
   expect_momentum_and_energy_kept({std::string("contact.friction=") + GetParam()}, 5e-13);
 }
 
+// Stiff springs, and the inerters that go with them.
+TEST_P(ObliqueImpact, WithStiffSpringsKeepsThemToo) {
+  expect_momentum_and_energy_kept(
+      {std::string("contact.friction=") + GetParam(), "contact.stiffness=12"}, 5e-13);
+}
+
 TEST_P(ObliqueImpact, OfDiscsOfOneAndFourElementsKeepsThemToo) {
   for (const char* edges : {"4", "8"})
     for (const char* formulation : {"one-point", "four-point"})

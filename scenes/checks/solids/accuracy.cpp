@@ -43,34 +43,7 @@ bool fill_counts(Value& element, const Counts& counts) {
   return true;
 }
 
-constexpr double stiffness_of_elastic_contacts = 10;
-constexpr document::Origin of_no_file{{1, 1}, -1};
-
-// By its yield stress, or by a hardening table that starts with it.
-bool yields(const Table& material) {
-  return document::find(material, "yield_stress") != nullptr ||
-         document::find(material, "hardening") != nullptr;
-}
-
-bool any_material_yields(const Table& root) {
-  const Entry* materials = document::find(root, "material");
-  if (materials == nullptr || !document::is_array_of_tables(materials->value)) return false;
-  return std::ranges::any_of(materials->value.get<document::Array>(), [](const Value& element) {
-    const Table* material = element.as<Table>();
-    return material != nullptr && yields(*material);
-  });
-}
-
 }  // namespace
-
-void fill_contact_stiffness(Table& root) {
-  if (any_material_yields(root)) return;
-  if (document::find(root, "contact") == nullptr)
-    root.push_back({"contact", of_no_file, Value{Table{}, of_no_file}});
-  Table* contact = document::find(root, "contact")->value.as<Table>();
-  if (contact == nullptr || document::find(*contact, "stiffness") != nullptr) return;
-  contact->push_back({"stiffness", of_no_file, Value{stiffness_of_elastic_contacts, of_no_file}});
-}
 
 void fill_meshes(Table& root, Problems& problems) {
   Entry* particles = document::find(root, "particle");

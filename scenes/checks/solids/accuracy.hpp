@@ -1,4 +1,4 @@
-// Defaults that depend on the scene: the meshes that `accuracy` stands for, and the contact stiffness. Their accuracy:
+// Defaults that depend on the scene: the meshes that `accuracy` stands for. Their accuracy:
 // docs/accuracy.md.
 #pragma once
 
@@ -8,8 +8,5 @@ namespace pulvis::space {
 
 // Writes the element counts of meshes that do not give them.
 void fill_meshes(document::Table& root, Problems& problems);
-
-// Ten if no material yields: surfaces that stay elastic bear pressures at which softer springs underestimate the force.
-void fill_contact_stiffness(document::Table& root);
 
 }  // namespace pulvis::space

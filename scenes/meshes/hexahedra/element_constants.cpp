@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "scenes/meshes/boundary_pairs.hpp"
+
 namespace pulvis::space {
 namespace {
 
@@ -239,6 +241,7 @@ void complete_elements(Shape& shape) {
     element.contact_frequency += corner * face.stiffness * face.stiffness;
     element.contact_drag += corner * face.stiffness;
   }
+  shape.pairs = boundary_pairs(shape);
 }
 
 }  // namespace pulvis::space

@@ -234,6 +234,7 @@ class PointBonds {
     f.energy = share * f.energy;
     f.friction_work = share * f.friction_work;
     f.damping_work = share * f.damping_work;
+    f.indentation_work = share * f.indentation_work;
   }
   void keep(const Holding& h, unsigned lanes, const Lane& damage) const {
     for (unsigned left = lanes; left != 0; left &= left - 1) {

@@ -41,20 +41,24 @@ struct PointMotion {
   VectorLanes slip{};  // m/s, in the tangent plane
   VectorLanes spin{};  // rad/s, of the other surface
   Lane overlap{};      // m, <= 0: of surfaces bonded at the start; contact counts from it
+  Lane indentation{};  // m, >= 0: of surfaces that indent; what presses counts from it
 
   Lane depth() const { return gap + overlap; }
+  Lane pressing() const { return depth() - indentation; }
 };
 struct PointLaw {
   Lane kappa, friction, damping, inv_size;  // of the pass
   Lane weight;                              // m^2, undeformed area of a point
+  Lane tangential;                          // Pa/m, kappa of the tangential springs
 };
 struct PointForces {
   VectorLanes force;     // N, on the sampled face
   VectorLanes friction;  // N, friction part of it
   VectorLanes elastic_slip;
-  Lane energy;         // J
-  Lane friction_work;  // J, in this step
-  Lane damping_work;   // J, in this step
+  Lane energy;              // J
+  Lane friction_work;       // J, in this step
+  Lane damping_work;        // J, in this step
+  Lane indentation_work{};  // J, in this step
 };
 
 // A spring rotated with the other surface over a step; its length is unchanged.
@@ -65,10 +69,27 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
   return select(now > 0.0, sqrt(before / now), Lane{}) * flat;
 }
 
+// Of the softer of two surfaces, or eight points.
+template <class T>
+struct Hardness {
+  T pressure;  // Pa; infinite if the surface cannot indent
+  T left;      // -, share of an indentation after the step
+};
+
+// Where surfaces indent: `m` gets the indentation of its points; returns J/m^2, spent in this step. `before` m; `share` of
+// the pressure that the pass bears.
+inline Lane indent(const PointLaw& law, const Lane& before, const Hardness<Lane>& hardness,
+                   double share, PointMotion& m) {
+  const auto indented = pulvis::kernels::indentation(m.depth(), before, share * hardness.pressure,
+                                                     hardness.left, law.kappa, law.inv_size);
+  m.indentation = indented.depth;
+  return indented.work;
+}
+
 [[gnu::always_inline]] inline PointForces normal_forces(const PointLaw& law, const PointMotion& m,
                                                         double dt, Lane& pressure) {
-  const auto normal =
-      pulvis::kernels::normal_traction(m.depth(), m.gap_rate, law.kappa, law.damping, law.inv_size);
+  const auto normal = pulvis::kernels::normal_traction(m.pressing(), m.gap_rate, law.kappa,
+                                                       law.damping, law.inv_size);
   pressure = normal.pressure;
   const VectorLanes none{Lane{}, Lane{}, Lane{}};
   return {
@@ -89,14 +110,15 @@ inline void attract(const PointLaw& law, const PointMotion& m, const AdhesionPar
 template <class Sliding>
 void add_friction(const PointLaw& law, const PointMotion& m, double dt, const Lane& pressure,
                   const VectorLanes& before, Sliding& sliding, PointForces& f) {
-  const auto friction = pulvis::kernels::friction_return_in_plane(
-      turned(before, m, dt), Lane(dt) * m.slip, pressure, sliding, law.kappa, 1.0 / law.kappa);
+  const auto friction =
+      pulvis::kernels::friction_return_in_plane(turned(before, m, dt), Lane(dt) * m.slip, pressure,
+                                                sliding, law.tangential, 1.0 / law.tangential);
   f.elastic_slip = friction.elastic_slip;
   f.friction = law.weight * friction.traction;
   f.force = f.force + f.friction;
   f.friction_work = friction.work * law.weight;
-  f.energy = fma(0.5 * law.kappa * law.weight, dot(friction.elastic_slip, friction.elastic_slip),
-                 f.energy);
+  f.energy = fma(0.5 * law.tangential * law.weight,
+                 dot(friction.elastic_slip, friction.elastic_slip), f.energy);
 }
 
 // For pairs whose friction is more than a Coulomb coefficient.
@@ -115,13 +137,13 @@ struct WeakeningPass {
       [&](const auto& number) { return Lane(number(pass.of_pair)); }, pass.share, pass.lost,
       sqrt(dot(m.slip, m.slip)));
   add_friction(law, m, dt, pressure, before, sliding, f);
-  return select(m.depth() > 0.0, sliding.lost, Lane{});
+  return select(m.pressing() > 0.0, sliding.lost, Lane{});
 }
 
 // ---- sums -----------------------------------------------------------------------------------------------
 // The sums of a block while it is processed.
 struct FaceSums {
-  Lane energy{}, friction_work{}, damping_work{};
+  Lane energy{}, friction_work{}, damping_work{}, indentation_work{};
   BlockSums block;
 
   static double sum(const Lane& a) {
@@ -141,6 +163,7 @@ struct FaceSums {
     energy += f.energy;
     friction_work += f.friction_work;
     damping_work += f.damping_work;
+    indentation_work += f.indentation_work;
   }
   // Keeps the first depth that is NaN, or else the deepest.
   void record_depth(std::int32_t row, double depth) {
@@ -153,6 +176,7 @@ struct FaceSums {
     sums.energy = sum(energy);
     sums.friction_work = sum(friction_work);
     sums.damping_work = sum(damping_work);
+    sums.indentation_work = sum(indentation_work);
     return sums;
   }
 };

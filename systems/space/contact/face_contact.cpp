@@ -47,6 +47,9 @@ class PairPass {
     its_ = &s_.bodies.shape_of(other);
     own_surface_ = s_.bodies.outline_begin(slot);
     its_surface_ = s_.bodies.outline_begin(other);
+    if (!s_.faces.hardness) return;
+    own_faces_ = first_row(s_.faces.hardness->table(), slot);
+    its_faces_ = first_row(s_.faces.hardness->table(), other);
   }
 
   void run() {
@@ -84,7 +87,7 @@ class PairPass {
     const int a = entry(slots, slot).material, b = entry(slots, other).material;
     const SurfaceLaws& laws = s_.rules->between(a, b);
     adhesion_ = laws.adhesion;
-    if (!s_.columns.lost) return;
+    if (!s_.columns.points.lost) return;
     const FrictionParameters& friction = laws.friction;
     rubs_ = friction.acts();
     if (rubs_ && !friction.only_coulomb()) weakening_ = &friction;
@@ -111,7 +114,7 @@ class PairPass {
   // The touching points are scattered among many: their cache lines are prefetched.
   void fetch(Row<FaceContact> row, unsigned active) const {
     for (unsigned left = active; left != 0; left &= left - 1)
-      prefetch(&s_.columns.point(row, ContactPoint::numbers * std::countr_zero(left)));
+      prefetch(&s_.columns.points.numbers(row, ContactPoint::numbers * std::countr_zero(left)));
   }
 
   static int next_active(const std::array<unsigned, rows_at_once>& active, int from, int rows) {
@@ -152,6 +155,7 @@ class PairPass {
       sample(rates_, face, active, velocity.data());
     else
       velocity.fill(0);
+    const Hardness<double> own_hardness = hardness_of(own_faces_, number);
     const double kappa = share * s_.columns.law(row, Law::stiffness),
                  damping = share * s_.columns.law(row, Law::damping),
                  inv_size = s_.columns.law(row, Law::inv_size);
@@ -159,7 +163,7 @@ class PairPass {
     for (unsigned left = active; left != 0; left &= left - 1) {
       const auto g = static_cast<std::size_t>(std::countr_zero(left));
       const int place = static_cast<int>(g);
-      double* kept = &s_.columns.point(row, ContactPoint::numbers * place);
+      double* kept = &s_.columns.points.numbers(row, ContactPoint::numbers * place);
       const int its = static_cast<int>(kept[ContactPoint::face_u]);
       if (its != fetched_) fetch_face(*its_, its_surface_, its);
       fetched_ = its;
@@ -174,14 +178,32 @@ class PairPass {
                   inv_size};
       p.kappa = kappa;
       p.damping = damping;
+      p.hardness = softer(own_hardness, hardness_of(its_faces_, its));
+      p.indentation =
+          s_.columns.points.indentation ? &(*s_.columns.points.indentation)(row, place) : nullptr;
       p.kept = kept;
       p.activation = &s_.columns.activation(row, place);
-      p.lost = weakening_ != nullptr ? &(*s_.columns.lost)(row, place) : nullptr;
-      p.force = s_.columns.force ? &(*s_.columns.force)(row, 3 * place) : nullptr;
+      p.lost = weakening_ != nullptr ? &(*s_.columns.points.lost)(row, place) : nullptr;
+      p.force = s_.columns.points.force ? &(*s_.columns.points.force)(row, 3 * place) : nullptr;
       p.row = static_cast<std::int32_t>(row.value);
       p.place = static_cast<std::int16_t>(place);
     }
     s_.columns.touches(row) = 0;
+  }
+
+  // Of a face; `faces`: the particle's first row.
+  Hardness<double> hardness_of(std::ptrdiff_t faces, int face) const {
+    if (hardness_ == nullptr) return {std::numeric_limits<double>::infinity(), 1};
+    using Number = SurfaceHardness<ThreeD>;
+    const double* number = hardness_ + Number::count * (faces + face);
+    return {number[Number::pressure], number[Number::left]};
+  }
+  static Hardness<double> softer(const Hardness<double>& a, const Hardness<double>& b) {
+    return {std::min(a.pressure, b.pressure), std::min(a.left, b.left)};
+  }
+  Hardness<Lane> hardness_of(const PointLanes& eight) const {
+    return {Lane::from([&](int l) { return entry(eight.point, l)->hardness.pressure; }),
+            Lane::from([&](int l) { return entry(eight.point, l)->hardness.left; })};
   }
 
   void work() {
@@ -201,6 +223,7 @@ class PairPass {
     Projection p(*its_, positions_ + its_surface_, points, start);
     const SurfaceGap nearest = eight.bonded ? p.stay() : closest(eight, start, motion[7], p);
     const Lane overlap = bonds_ ? overlap_of(eight, nearest.gap) : Lane{};
+    const Lane indentation = indentation_of(eight);
     const Lane within = nearest.gap + overlap + adhesion_.range;
     // A NaN gap counts as touching, and so does what is bonded.
     const LaneMask real = LaneMask::of(eight.real);
@@ -216,11 +239,11 @@ class PairPass {
       along = fma(m.gap, m.normal, p.offset);
       m = held_motion(m, along);
     }
-    const PointLaw law{Lane::from([&](int l) { return entry(eight.point, l)->kappa; }), friction_,
-                       Lane::from([&](int l) { return entry(eight.point, l)->damping; }), motion[7],
-                       motion[6]};
-    Lane pressure;
+    const PointLaw law = law_of(eight, motion[7], motion[6]);
+    Lane pressure, indenting{};
+    if (hardness_ != nullptr) indenting = indent(law, indentation, hardness_of(eight), share, m);
     PointForces f = normal_forces(law, m, s_.clock->dt_before, pressure);
+    f.indentation_work = select(real, indenting * law.weight, Lane{});
     if (rubs_) {
       const Lane spring_z = Lane::from([&](int l) { return entry(eight.point, l)->kept[4]; });
       const VectorLanes spring = select(real, {kept[2], kept[3], spring_z}, no_vector);
@@ -236,14 +259,21 @@ class PairPass {
     if (bonds_)
       touching = touching | LaneMask::of(bond(eight, {p, points, along}, law, m, pressure, f));
     keep(eight, p, within, touching.bits(), f);
+    if (hardness_ != nullptr) keep_indentation(eight, m.indentation);
     sums_.add(f);  // of released springs, too
     if (!any(touching)) return;
-    record_depth(eight, m.depth() * law.inv_size);
+    record_depth(eight, m.pressing() * law.inv_size);
     if (eight.bonded)
       faces_.subtract(p.face, touching.bits(), {p.u, p.v, f.force, m.normal, Lane{}, Lane{}},
                       slope_loads(m, along, f.force, to));
     else
       act_back(p, m, f, to, touching.bits());
+  }
+
+  PointLaw law_of(const PointLanes& eight, const Lane& inv_size, const Lane& weight) const {
+    const Lane kappa = Lane::from([&](int l) { return entry(eight.point, l)->kappa; });
+    return {kappa,    friction_, Lane::from([&](int l) { return entry(eight.point, l)->damping; }),
+            inv_size, weight,    s_.rules->tangential * kappa};
   }
 
   // At the closest points; points that did not converge carry no force.
@@ -338,6 +368,15 @@ class PairPass {
     sums_.block.touching += touches == 0 ? 1 : 0;
     touches = 1;
   }
+  // m, before the step.
+  Lane indentation_of(const PointLanes& eight) const {
+    if (hardness_ == nullptr) return {};
+    return Lane::from([&](int l) { return *entry(eight.point, l)->indentation; });
+  }
+  static void keep_indentation(const PointLanes& eight, const Lane& indentation) {
+    for (int l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l)
+      *entry(eight.point, l)->indentation = indentation[l];
+  }
   static Lane lost_of(const PointLanes& eight) {
     return Lane::from([&](int l) { return *entry(eight.point, l)->lost; });
   }
@@ -364,6 +403,8 @@ class PairPass {
   const int pair_;
   const double* positions_ = s_.faces.position.values().data();
   const double* rates_ = s_.faces.velocity ? s_.faces.velocity->values().data() : nullptr;
+  // Of all particles, or null: surfaces do not indent.
+  const double* hardness_ = s_.faces.hardness ? s_.faces.hardness->values().data() : nullptr;
   FaceSums& sums_;
   Lane friction_;
   bool rubs_;
@@ -378,6 +419,7 @@ class PairPass {
   std::int32_t first_, end_;
   const Shape *own_, *its_;
   std::ptrdiff_t own_surface_, its_surface_;
+  std::ptrdiff_t own_faces_ = 0, its_faces_ = 0;
   int fetched_ = -1;  // face of the other particle
 };
 

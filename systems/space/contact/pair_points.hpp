@@ -9,6 +9,7 @@
 
 #include "components/space/contact.hpp"
 #include "engine/lane.hpp"
+#include "systems/space/contact/contact_law.hpp"
 
 namespace pulvis::space {
 
@@ -16,6 +17,8 @@ namespace pulvis::space {
 struct alignas(64) PairPoint {
   std::array<double, 8> motion;  // position, velocity, weight, 1/size of the face
   double kappa, damping;         // as in contact_law.hpp
+  Hardness<double> hardness;     // only where surfaces indent
+  double* indentation;           // in the column: PointIndentation, or null
   double* kept;                  // ContactPoint numbers in the columns
   float* activation;             // in the column: when it becomes active again
   double* lost;                  // in the column: SlipWeakening, or null

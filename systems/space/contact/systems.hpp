@@ -138,7 +138,8 @@ struct initial_bonds {
 // ---- contact forces -------------------------------------------------------------------------------
 struct ContactFaces {
   Read<SurfacePosition> position;
-  Optional<Read<SurfaceVelocity>> velocity;  // only with friction or damping
+  Optional<Read<SurfaceVelocity>> velocity;          // only with friction or damping
+  Optional<Read<SurfaceHardness<ThreeD>>> hardness;  // only where surfaces indent
 };
 
 struct face_contact {
@@ -150,9 +151,12 @@ struct face_contact {
     Write<ContactTouches<FaceContact>> touches;
     Write<ReactivationDistance<FaceContact>> activation;
     Read<ContactLaw<FaceContact>> law;
-    Write<ContactPoint> point;
-    Optional<Write<ContactPointForce>> force;
-    Optional<Write<SlipWeakening<FaceContact>>> lost;  // of friction that is not just Coulomb's
+    struct Points {
+      Write<ContactPoint> numbers;
+      Optional<Write<PointIndentation<FaceContact>>> indentation;  // only where surfaces indent
+      Optional<Write<ContactPointForce>> force;
+      Optional<Write<SlipWeakening<FaceContact>>> lost;  // of friction that is not just Coulomb's
+    } points;
     struct Bonds {
       BondColumns<FaceContact> columns;
       Write<BondSums<Contact>> sums;

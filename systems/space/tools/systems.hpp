@@ -24,8 +24,12 @@ struct tool_contact {
     Write<ReactivationDistance<FaceToolContact>> activation;
     Read<ContactLaw<FaceToolContact>> law;
     Write<PointForce<FaceToolContact>> force;
-    Optional<Write<ElasticSlip<FaceToolContact>>> slip;    // only with friction
-    Optional<Write<SlipWeakening<FaceToolContact>>> lost;  // of friction that is not just Coulomb's
+    Optional<Write<PointIndentation<FaceToolContact>>> indentation;  // only where surfaces indent
+    struct Sliding {
+      Optional<Write<ElasticSlip<FaceToolContact>>> slip;  // only with friction
+      Optional<Write<SlipWeakening<FaceToolContact>>>
+          lost;  // of friction that is not just Coulomb's
+    } sliding;
   };
   Columns columns;
   Read<ContactRules> rules;

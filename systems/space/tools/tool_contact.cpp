@@ -20,8 +20,8 @@ namespace {
 void clear_half(const tool_contact::Columns& c, Row<FaceToolContact> row, int half) {
   const VectorLanes none{Lane{}, Lane{}, Lane{}};
   store_half(none, &c.force(row), half);
-  if (c.slip) store_half(none, &(*c.slip)(row), half);
-  if (c.lost) Lane{}.store(&(*c.lost)(row) + lane_count * half);
+  if (c.sliding.slip) store_half(none, &(*c.sliding.slip)(row), half);
+  if (c.sliding.lost) Lane{}.store(&(*c.sliding.lost)(row) + lane_count * half);
 }
 
 // Motion of the touching halves of a candidate (bit 0, bit 1); the others are separated.
@@ -46,7 +46,7 @@ RowRules rules_of(const tool_contact& s, Row<FaceToolContact> row) {
   const int material = entry(s.bodies.bodies->slots, s.columns.pair(row, 0)).material;
   const SurfaceLaws& laws = s.rules->with_tool(tool, material);
   RowRules rules{nullptr, laws.adhesion};
-  if (!s.columns.lost) return rules;
+  if (!s.columns.sliding.lost) return rules;
   const FrictionParameters& friction = laws.friction;
   if (!friction.only_coulomb()) rules.weakening = &friction;
   return rules;
@@ -116,9 +116,19 @@ void bond(const tool_contact& s, const ToolRow& of, int half, const RowMotion& m
     bonds.hold({places, bonded, face, at, entry(motion.along, half)}, law, m, f);
 }
 
+// Of the sampled face.
+Hardness<Lane> hardness_of(const tool_contact& s, Row<FaceToolContact> row) {
+  using Number = SurfaceHardness<ThreeD>;
+  const auto& hardness = *s.faces.hardness;
+  const std::ptrdiff_t face =
+      first_row(hardness.table(), s.columns.pair(row, 0)) + s.columns.pair(row, 1);
+  const double* number = hardness.values().data() + Number::count * face;
+  return {Lane(number[Number::pressure]), Lane(number[Number::left])};
+}
+
 // ---- a row -----------------------------------------------------------------------------------------
 // Forces on the touching halves of a candidate: law, columns, sums.
-void act(const tool_contact& s, const ToolRow& of, const RowMotion& motion, ToolSums& sums) {
+void act(const tool_contact& s, const ToolRow& of, RowMotion& motion, ToolSums& sums) {
   using Law = ContactLaw<FaceToolContact>;
   const tool_contact::Columns& c = s.columns;
   const Row<FaceToolContact> row = of.row;
@@ -132,20 +142,29 @@ void act(const tool_contact& s, const ToolRow& of, const RowMotion& motion, Tool
       clear_half(c, row, half);
       continue;
     }
-    const PointMotion& m = entry(motion.half, half);
-    const PointLaw law{Lane(c.law(row, Law::stiffness)), Lane(c.law(row, Law::friction)),
-                       Lane(c.law(row, Law::damping)), Lane(c.law(row, Law::inv_size)),
-                       Lane::load(of.face.weight.data() + lane_count * half)};
-    Lane pressure;
+    PointMotion& m = entry(motion.half, half);
+    const PointLaw law{Lane(c.law(row, Law::stiffness)),
+                       Lane(c.law(row, Law::friction)),
+                       Lane(c.law(row, Law::damping)),
+                       Lane(c.law(row, Law::inv_size)),
+                       Lane::load(of.face.weight.data() + lane_count * half),
+                       Lane(s.rules->tangential * c.law(row, Law::stiffness))};
+    Lane pressure, indenting{};
+    if (c.indentation) {
+      double* indentation = &(*c.indentation)(row) + lane_count * half;
+      indenting = indent(law, Lane::load(indentation), hardness_of(s, row), 1, m);
+      m.indentation.store(indentation);
+    }
     PointForces f = normal_forces(law, m, dt, pressure);
-    if (c.slip) {
-      double* spring = &(*c.slip)(row);
+    f.indentation_work = indenting * law.weight;
+    if (c.sliding.slip) {
+      double* spring = &(*c.sliding.slip)(row);
       const VectorLanes before = new_touch ? VectorLanes{} : load_half(spring, half);
       if (of.rules.weakening == nullptr) {
         pulvis::kernels::Coulomb<Lane> coulomb{law.friction};
         add_friction(law, m, dt, pressure, before, coulomb, f);
       } else {
-        double* lost = &(*c.lost)(row) + lane_count * half;
+        double* lost = &(*c.sliding.lost)(row) + lane_count * half;
         add_weakening_friction({*of.rules.weakening, 1, new_touch ? Lane{} : Lane::load(lost)}, law,
                                m, dt, pressure, before, f)
             .store(lost);
@@ -156,7 +175,7 @@ void act(const tool_contact& s, const ToolRow& of, const RowMotion& motion, Tool
     if (s.bonds) bond(s, of, half, motion, law, pressure, f, sums.bonds);
     store_half(f.force, &c.force(row), half);
     sums.contact.add(f);
-    deepest = max(m.depth(), deepest);
+    deepest = max(m.pressing(), deepest);
   }
   sums.contact.record_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
 }

@@ -102,7 +102,8 @@ position = ["0 um", "0 um", "1000 um"]
 velocity = ["0 m/s", "0.1 m/s", "{1} m/s"]
 )",
                                            -0.5 * share * escape, 0.5 * share * escape) +
-                                   attraction("steel") + settle("100 us"),
+                                   attraction("steel") + settle("100 us") +
+                                   "[time]\nestimate = \"element\"\n",
                                5)));
   Flight flight;
   e.run(1000, [&] {

@@ -43,7 +43,7 @@ name = "rest"
 kind = "settle"
 duration = "2 us"
 )",
-                   {std::string("time.safety=") + safety});
+                   {std::string("time.safety=") + safety, "time.estimate=element"});
 }
 
 // -, of the energy of the overlap: at most, and at the end.

@@ -196,7 +196,7 @@ TEST(RunQuality, TellsWhatSpringsReleaseOnUnloading) {
     const QualityFigure soft = figure(judged(scene, changes), release_figure);
     EXPECT_EQ(soft.limit, most_in_springs);
     EXPECT_TRUE(soft.beyond()) << scene << " " << soft.value;
-    EXPECT_THAT(soft.line(), HasSubstr("use contact.stiffness = 10 (1.5 times the CPU time"));
+    EXPECT_THAT(soft.line(), HasSubstr("use contact.stiffness = 10 (up to a quarter more CPU time"));
     auto stiffer = changes;
     stiffer.push_back(std::string("contact.stiffness=") + stiffness);
     const QualityFigure stiff = figure(judged(scene, stiffer), release_figure);

@@ -26,7 +26,8 @@ struct ClosedCurve {
       shape.edges.push_back({.first_control = e,
                              .previous = (e + n - 1) % n,
                              .next = (e + 1) % n,
-                             .length = std::hypot(b[0] - a[0], b[1] - a[1])});
+                             .length = std::hypot(b[0] - a[0], b[1] - a[1]),
+                             .ends = {}});
     }
     bodies.shapes = {shape};
     bodies.slots.resize(lane_count);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kappa = 3e15, weight = 2e-6, length = 1e-4, damping = 1e8, dt = 1e-8, mu = 0.3;
 
-PointLaw law(double c = 0) { return {weight, kappa, c, 1 / length}; }
+PointLaw law(double c = 0) { return {weight, kappa, kappa, c, 1 / length}; }
 
 // Eight points, some apart, on normals all around.
 PointMotion motion_at(double slip) {

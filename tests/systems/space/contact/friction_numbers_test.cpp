@@ -16,7 +16,8 @@ std::pair<double, double> slid(const FrictionParameters& friction) {
                      .friction = Lane(friction.coefficient),
                      .damping = Lane{},
                      .inv_size = Lane{},
-                     .weight = Lane(1.0)};
+                     .weight = Lane(1.0),
+                     .tangential = Lane(3e15)};
   const PointMotion motion{.gap = Lane(1e-6),
                            .normal = {Lane{}, Lane{}, Lane(1.0)},
                            .slip = {Lane(1.0), Lane{}, Lane{}}};
