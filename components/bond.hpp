@@ -130,20 +130,18 @@ struct Crack {
 
 // Sums over a block of rows, as in the narrow phase.
 struct alignas(64) BondBlock {
-  double energy = 0;            // J, stored in bonds
-  double contact_energy = 0;    // J, stored in contact springs of bonded points
-  double fracture = 0;          // J, dissipated by damage in the last step
-  double friction_work = 0;     // J, in the last step, at partly damaged or welded points
-  double damping_work = 0;      // J
-  double indentation_work = 0;  // J
-  double area = 0;              // m^2, bonded, on the sampled side
-  std::int32_t rows = 0;        // with bonded points only
+  double energy = 0;          // J, stored in bonds
+  double contact_energy = 0;  // J, stored in contact springs of bonded points
+  double fracture = 0;        // J, dissipated by damage in the last step
+  double friction_work = 0;   // J, in the last step, at partly damaged or welded points
+  double damping_work = 0;    // J
+  double area = 0;            // m^2, bonded, on the sampled side
+  std::int32_t rows = 0;      // with bonded points only
   std::vector<Crack> cracks;
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(energy, contact_energy, fracture, friction_work, damping_work, indentation_work, area,
-          rows, cracks);
+    bytes(energy, contact_energy, fracture, friction_work, damping_work, area, rows, cracks);
   }
 };
 template <class At>

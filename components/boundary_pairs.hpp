@@ -11,8 +11,7 @@ namespace pulvis {
 struct BoundaryPairs {
   struct Pair {
     Row<Node> outer;  // on the boundary
-    Row<Node>
-        inner;  // the next one inwards; on the boundary too where the body is one element thick
+    Row<Node> inner;  // next inwards; on the boundary too where the body is one element thick
   };
   std::vector<Pair> all;
   std::vector<Row<Node>> single;

@@ -69,7 +69,8 @@ struct Shape {
   std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;
   std::vector<Edge> edges;
-  std::vector<std::int32_t> edge_from;      // [control points]: the edge that starts with it
+  std::vector<std::int32_t>
+      edge_from;  // [control points]: the edge that starts with it
   std::vector<CornerMoment> corner_moment;  // [elements]
   std::vector<double>
       contact_frequency;           // 1/m^2, [elements]: rho omega^2 / (k K) of its edge springs

@@ -69,9 +69,12 @@ def stiffnesses(values=(0.35, 1, 2, 4, 10)):
     return [Setting(f"{v:g}", {"contact.stiffness": v}) for v in values]
 
 
-def stiff(settings, stiffness=12):
-    """The same with stiff contacts, and what is on by default with them."""
-    return [together(s, Setting(f"k {stiffness:g}", {"contact.stiffness": stiffness, "contact.hardness": 2.2})) for s in settings]
+STIFF = Setting("k 12, C 2.2", {"contact.stiffness": 12, "contact.hardness": 2.2})
+
+
+def stiff(settings):
+    """The same with stiff contacts and surfaces that indent."""
+    return [together(s, STIFF) for s in settings]
 
 
 def skins(values=(0.1, 0.25, 1, 2)):

@@ -93,7 +93,8 @@ struct Shape {
     int element = 0;       // the element behind it
     double size = 0;       // m: square root of its undeformed area
     double stiffness = 0;  // 1/m: undeformed area over the volume of the element behind it
-    std::array<double, gauss_points> weight{};  // m^2: undeformed area of each Gauss point
+    std::array<double, gauss_points>
+        weight{};  // m^2: undeformed area of each Gauss point
   };
 
   // A surface node and the point of the smooth surface that belongs to it (systems/space/contact/node_springs.hpp).

@@ -56,13 +56,13 @@ struct TipSpec {
   double radius = 0;      // m, sphere
   double neck_radius = 0, neck_height = 0;  // m, glue between the lever and the sphere's top
   std::optional<int> glue;                  // material of the neck; absent: that of the tip
-  std::string file;  // mesh: a Gmsh file; empty: the tip is in the lever's file
-  double unit = 1;   // m, unit of length of the file
-  std::shared_ptr<const TipSolid> solid;  // its contents
-  double set_back = 0;                    // m, of its axis from the lever's end
-  double offset = 0;                      // m, of its axis from the lever's axis, along y
-  int elements = 4;                       // across it
-  std::optional<double> contact_edge;     // m, of a sphere's elements at the contact
+  std::string file;                         // mesh: a Gmsh file; empty: the tip is in the lever's file
+  double unit = 1;                          // m, unit of length of the file
+  std::shared_ptr<const TipSolid> solid;    // its contents
+  double set_back = 0;                      // m, of its axis from the lever's end
+  double offset = 0;                        // m, of its axis from the lever's axis, along y
+  int elements = 4;                         // across it
+  std::optional<double> contact_edge;       // m, of a sphere's elements at the contact
   std::optional<double>
       contact_reach;  // m, radius around its pole; absent: eight edges, at most half the radius
   SourceMark mark;

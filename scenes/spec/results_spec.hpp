@@ -39,7 +39,8 @@ struct ExpectSpec {
   std::string series;  // empty: the expectation concerns the outcome
   std::optional<When> when;
   std::optional<Bound> above, below, equals;
-  std::optional<double> within;  // -, of |equals| or of the other series; absolute if equals is 0
+  std::optional<double>
+      within;  // -, of |equals| or of the other series; absolute if equals is 0
   std::optional<double> from, until;  // -, fraction of the run
   std::string like;                   // another scene, relative to this one's folder
   double scale = 1;                   // -, factor on the other series

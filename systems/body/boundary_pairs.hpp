@@ -4,7 +4,6 @@
 #include <array>
 
 #include "components/boundary_pairs.hpp"
-#include "components/bundles.hpp"
 #include "engine/entry.hpp"
 #include "systems/body/inerter_kernel.hpp"
 
@@ -24,18 +23,5 @@ double reduced_size(const BoundaryPairs::Pair& pair, const AnyShape& shape) {
   return kernels::reduced_mass(shape.size_of_node(pair.outer.value),
                                shape.size_of_node(pair.inner.value));
 }
-
-// Internal and contact forces on the nodes of a chunk.
-template <class D>
-struct NodalForceOf {
-  const typename D::Shape& shape;
-  ChunkView<InternalForce<D>, const Lane*> internal;
-  ChunkView<ContactForce<D>, const Lane*> contact;
-
-  Lane operator()(Row<Node> n, int k) const {
-    if (n.value >= shape.boundary_nodes) return internal(n, k);
-    return internal(n, k) + contact(Row<BoundaryNode>(n.value), k);
-  }
-};
 
 }  // namespace pulvis

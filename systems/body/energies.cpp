@@ -11,6 +11,7 @@
 #include "systems/body/boundary_pairs.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/hourglass_kernel.hpp"
+#include "systems/body/nodal_force.hpp"
 #include "systems/body/systems.hpp"
 
 namespace pulvis {
@@ -18,7 +19,7 @@ namespace pulvis {
 template <class D>
 void kinetic_energy<D>::operator()(Chunk chunk) const {
   const auto& shape = bodies.shape_of(chunk);
-  const auto f = forces.internal.chunk(chunk);
+  const NodalForce<D> force(forces, shape, chunk);
   const auto v = velocity.chunk(chunk);
   const Lane mass_per_size = density.chunk(chunk)(Row<Particle>()) * bodies.depth();
   const double half = 0.5 * (clock->dt_before + clock->dt);
@@ -26,12 +27,8 @@ void kinetic_energy<D>::operator()(Chunk chunk) const {
   for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
     const Row<Node> n(i);
     const Lane mass = mass_per_size * shape.size_of_node(i);
-    for (int k = 0; k < D::axes; ++k) {
-      Lane force = f(n, k);
-      if (forces.contact && i < shape.boundary_nodes)
-        force += forces.contact->chunk(chunk)(Row<BoundaryNode>(i), k);
-      total += 0.5 * v(n, k) * (mass * v(n, k) + force * half);
-    }
+    for (int k = 0; k < D::axes; ++k)
+      total += 0.5 * v(n, k) * (mass * v(n, k) + force(n, k) * half);
   }
   if (inerters && inerters->rules->inertance > 0)
     for (const BoundaryPairs::Pair& pair : shape.pairs.all)

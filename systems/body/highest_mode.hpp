@@ -120,7 +120,7 @@ Lane add_inerters(const ModeBody<F>& body, const ModeView<typename F::Dimension>
   for (const BoundaryPairs::Pair& pair : body.shape.pairs.all) {
     const double outer = body.shape.size_of_node(pair.outer.value),
                  inner = body.shape.size_of_node(pair.inner.value),
-                 mu = kernels::reduced_mass(outer, inner);
+                 mu = reduced_size(pair, body.shape);
     const auto line = difference<D>(pair, body.x);
     std::array<Lane, D::axes> acceleration;
     for (int k = 0; k < D::axes; ++k)

@@ -4,11 +4,12 @@
 //
 // Runs     after all forces of the step
 #include <array>
+
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
-
 #include "engine/entry.hpp"
 #include "systems/body/boundary_pairs.hpp"
+#include "systems/body/nodal_force.hpp"
 #include "systems/body/systems.hpp"
 
 namespace pulvis {
@@ -28,33 +29,26 @@ Lane product_sum(const Lane& a, const Factor& b, const Lane& c) {
 template <class D>
 [[gnu::flatten]] void integrate<D>::operator()(Chunk chunk) const {
   const auto& shape = bodies.shape_of(chunk);
-  const auto f = forces.internal.chunk(chunk);
   const auto v = velocity.chunk(chunk);
   const auto x = position.chunk(chunk);
   const double dt = clock->dt;
   const Lane mass_per_size = density.chunk(chunk)(Row<Particle>()) * bodies.depth();
   const double time = 0.5 * (clock->dt_before + dt), inv_time = 1 / time;
   const Lane kick = time / mass_per_size;
-  const auto move = [&](Row<Node> n, int k, const Lane& by, const Lane& force) {
-    const Lane next = product_sum<D>(force, by, v(n, k));
+  const auto move = [&](Row<Node> n, int k, const Lane& by, const Lane& f) {
+    const Lane next = product_sum<D>(f, by, v(n, k));
     v(n, k) = next;
     x(n, k) = product_sum<D>(next, dt, x(n, k));
   };
   const auto kick_of = [&](int n) -> Lane { return kick * (1 / shape.size_of_node(n)); };
 
-  if (!forces.contact) {
-    for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n) {
-      const Lane by = kick_of(n);
-      for (int k = 0; k < D::axes; ++k) move(Row<Node>(n), k, by, f(Row<Node>(n), k));
-    }
-    return;
-  }
-  const NodalForceOf<D> force_on{shape, f, forces.contact->chunk(chunk)};
+  const NodalForce<D> force(forces, shape, chunk);
+  const auto move_freely = [&](Row<Node> n) {
+    const Lane by = kick_of(n.value);
+    for (int k = 0; k < D::axes; ++k) move(n, k, by, force(n, k));
+  };
   if (!inertance || (*inertance)->inertance == 0) {
-    for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n) {
-      const Lane by = kick_of(n);
-      for (int k = 0; k < D::axes; ++k) move(Row<Node>(n), k, by, force_on(Row<Node>(n), k));
-    }
+    for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n) move_freely(Row<Node>(n));
     return;
   }
   const double c = (*inertance)->inertance;
@@ -63,8 +57,8 @@ template <class D>
     const auto line = difference<D>(pair, x);
     std::array<Lane, D::axes> on_outer, on_inner, acceleration;
     for (int k = 0; k < D::axes; ++k) {
-      entry(on_outer, k) = force_on(pair.outer, k);
-      entry(on_inner, k) = force_on(pair.inner, k);
+      entry(on_outer, k) = force(pair.outer, k);
+      entry(on_inner, k) = force(pair.inner, k);
       entry(acceleration, k) = inv_time * (outer * entry(on_outer, k) - inner * entry(on_inner, k));
     }
     const Lane pull = kernels::inerter_force(line, difference<D>(pair, v), acceleration,
@@ -75,10 +69,7 @@ template <class D>
       move(pair.inner, k, inner, entry(on_inner, k) - along);
     }
   }
-  for (const Row<Node> n : shape.pairs.single) {
-    const Lane by = kick_of(n.value);
-    for (int k = 0; k < D::axes; ++k) move(n, k, by, force_on(n, k));
-  }
+  for (const Row<Node> n : shape.pairs.single) move_freely(n);
 }
 template struct integrate<TwoD>;
 template struct integrate<ThreeD>;

@@ -46,10 +46,8 @@ struct PairBonds {
     const unsigned bonded = bonds.bonded(two);
     const auto contact = [&] {
       p.other.velocity = rates;
-      PointMotion moving = rates == nullptr ? m.point : motion_of(p, sampled_rates(two));
-      if (s.curves.hardness)
-        set_hardness(*s.curves.hardness, p, {s.at.place(two[0], 0), s.at.place(two[1], 0)}, moving);
-      return forces_of(s.columns, two, 0, moving, share, s.clock->dt_before);
+      const PointMotion moving = rates == nullptr ? m.point : motion_of(p, sampled_rates(two));
+      return forces_of_bonded(s.columns, two, moving, share, s.clock->dt_before);
     };
     const PointForces f = bonds.act(two, bonded, m, p.points, contact, sums);
     set_slope_load(two, bonded, f, m);

@@ -35,8 +35,7 @@ struct BondLanes {
 // Running sums of a block.
 struct BondSumsOfLanes {
   using Block = BondBlock;
-  Lane energy{}, contact_energy{}, fracture{}, friction_work{}, damping_work{}, area{},
-      indentation_work{};
+  Lane energy{}, contact_energy{}, fracture{}, friction_work{}, damping_work{}, area{};
   BondBlock block;
 
   BondBlock added_up() {
@@ -52,7 +51,6 @@ struct BondSumsOfLanes {
     const auto three = sum(sums_of_halves(area, contact_energy));
     block.area = three[0];
     block.contact_energy = three[1];
-    block.indentation_work = sum(sums_of_halves(indentation_work, Lane{}))[0];
     return std::move(block);
   }
 };
@@ -122,8 +120,6 @@ class BondPass {
     Lane spent = grown * of_compression * b.weight;
     PointForces f;
     f.energy = f.friction_work = f.damping_work = f.elastic_slip = f.pressure = Lane{};
-    f.indentation_work = Lane{};
-    if (s_.rows.state.indentation) f.indentation = at_points(*s_.rows.state.indentation, two);
     if (any(lanes & (contacts > 0.0) & (m.point.gap > -range_of(s_.rows, two)))) {
       const PointForces by_contact = contact();
       const auto [push, friction] = along_axes(by_contact, m.point);
@@ -132,8 +128,6 @@ class BondPass {
       f.energy = contacts * by_contact.energy;
       f.friction_work = contacts * by_contact.friction_work;
       f.damping_work = contacts * by_contact.damping_work;
-      f.indentation = by_contact.indentation;
-      f.indentation_work = contacts * by_contact.indentation_work;
       f.elastic_slip = by_contact.elastic_slip;
       f.pressure = by_contact.pressure;
       spent -= select(b.welded, Lane{}, grown * by_contact.energy);
@@ -226,7 +220,6 @@ class BondPass {
     sums.fracture += select(lanes, spent, Lane{});
     sums.friction_work += select(lanes, f.friction_work, Lane{});
     sums.damping_work += select(lanes, f.damping_work, Lane{});
-    sums.indentation_work += select(lanes, f.indentation_work, Lane{});
     sums.area += select(lanes, b.weight, Lane{});
     for (int half = 0; half < count_of(two); ++half)
       sums.block.rows += half_of(bonded, half) == BondedPoints<At>::all ? 1 : 0;
@@ -241,8 +234,6 @@ class BondPass {
       if (points == BondedPoints<At>::all)
         s_.rows.state.activation(row) = back_face;  // nothing left for the narrow phase
       store_points(points, damage, half, &s_.bonds.damage(row));
-      if (s_.rows.state.indentation)
-        store_points(points, f.indentation, half, &(*s_.rows.state.indentation)(row));
       if (s_.rows.sliding)
         store_points(points, f.elastic_slip, half, &s_.rows.sliding->elastic_slip(row));
       if (s_.rows.bonding->weld)

@@ -14,16 +14,7 @@ namespace {
 
 // Over all blocks of this rank.
 struct Sums {
-  enum Exact {
-    energy,
-    contact_energy,
-    fracture,
-    area,
-    friction_work,
-    damping_work,
-    indentation_work,
-    exact
-  };
+  enum Exact { energy, contact_energy, fracture, area, friction_work, damping_work, exact };
   enum Count { rows, cracks, counts };
   std::array<ExactSum, exact> sum;
   std::array<std::int64_t, counts> count{};
@@ -36,7 +27,6 @@ struct Sums {
       sum[fracture].add(block.fracture);
       sum[area].add(block.area);
       sum[friction_work].add(block.friction_work);
-      sum[indentation_work].add(block.indentation_work);
       sum[damping_work].add(block.damping_work);
       count[rows] += block.rows;
       count[cracks] += std::ssize(block.cracks);
@@ -82,7 +72,6 @@ void bond_totals::operator()() const {
   bonds->area = of.sum[Sums::area].value();
   totals->contact_energy += of.sum[Sums::contact_energy].value();
   totals->friction_work += of.sum[Sums::friction_work].value();
-  totals->indentation_work += of.sum[Sums::indentation_work].value();
   totals->damping_work += of.sum[Sums::damping_work].value();
 }
 

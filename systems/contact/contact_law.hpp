@@ -155,45 +155,32 @@ void attract(const RowColumns<At>& c, const TwoCandidates<At>& two, const PointM
   f.energy += pull.energy * weight;
 }
 
-// Where surfaces indent.
-template <class At>
-kernels::Indentation<Lane> indent(const RowColumns<At>& c, const TwoCandidates<At>& two,
-                                  const PointLaw& law, double share, const PointMotion& m) {
-  return kernels::indentation(m.gap, at_points(*c.state.indentation, two), share * m.hardness,
-                              m.left, law.kappa, law.inv_length);
-}
-
+// `pressing`: the motion, with the gap from an indentation on where surfaces indent.
 template <class At>
 [[gnu::always_inline]] inline PointForces forces_of(const RowColumns<At>& c,
                                                     const TwoCandidates<At>& two, unsigned touching,
-                                                    const PointMotion& at, double share,
+                                                    const PointMotion& m,
+                                                    const PointMotion& pressing, double share,
                                                     double dt) {
   using Law = ContactLaw<At>;
+  const double tangential = c.sliding ? c.sliding->rules->tangential : 1;
   const std::array<double, 2> stiffness{share * c.law(two[0], Law::stiffness),
                                         share * c.law(two[1], Law::stiffness)};
-  const double tangential = c.sliding ? c.sliding->rules->tangential : 1;
-  const Lane kappa = halves(stiffness[0], stiffness[1]);
-  const PointLaw law{at_points(c.law, two, Law::weight), kappa, tangential * kappa,
+  const std::array<double, 2> sliding{tangential * stiffness[0], tangential * stiffness[1]};
+  const PointLaw law{at_points(c.law, two, Law::weight), halves(stiffness[0], stiffness[1]),
+                     halves(sliding[0], sliding[1]),
                      share * at_candidates(c.law, two, Law::damping),
                      at_candidates(c.law, two, Law::inv_size)};
-  kernels::Indentation<Lane> indented{};
-  PointMotion m = at;
-  if (c.state.indentation) {
-    indented = indent(c, two, law, share, at);
-    m.gap = at.gap - indented.depth;
-  }
   PointForces f =
-      c.sliding ? forces_of(law, m, dt,
-                            [&](const Lane& slip, const Lane& pressure) {
-                              return friction_of(
-                                  c, two, touching, share, Slip{slip, m.slip_rate, m.gap}, pressure,
-                                  {law.tangential, halves(1 / (tangential * stiffness[0]),
-                                                          1 / (tangential * stiffness[1]))});
-                            })
-                : forces_of(law, m, dt, Frictionless{});
-  if (c.surfaces && c.surfaces->rules->reach > 0) attract(c, two, at, share * law.weight, f);
-  f.indentation = indented.depth;
-  f.indentation_work = indented.work * law.weight;
+      c.sliding
+          ? forces_of(law, pressing, dt,
+                      [&](const Lane& slip, const Lane& pressure) {
+                        return friction_of(
+                            c, two, touching, share, Slip{slip, pressing.slip_rate, pressing.gap},
+                            pressure, {law.tangential, halves(1 / sliding[0], 1 / sliding[1])});
+                      })
+          : forces_of(law, pressing, dt, Frictionless{});
+  if (c.surfaces && c.surfaces->rules->reach > 0) attract(c, two, m, share * law.weight, f);
   return f;
 }
 
@@ -204,7 +191,6 @@ template <class At>
   c.state.activation(row) = 0;
   store_pairs_of_half(f.x, f.y, half, &c.force(row));
   const unsigned free = free_points(c, row);
-  if (c.state.indentation) store_points(free, f.indentation, half, &(*c.state.indentation)(row));
   if (c.sliding) store_points(free, f.elastic_slip, half, &c.sliding->elastic_slip(row));
   if (c.bonding && c.bonding->weld)
     store_points(free, (1 / share) * f.pressure, half, &(*c.bonding->weld)(row));
@@ -213,15 +199,66 @@ template <class At>
 // Law, columns and sums for those of two candidates that touch (bit 0, bit 1). Returns their friction traction times
 // weight [N] (needed for the slope load on the other body).
 template <class At>
-[[gnu::flatten]] Lane act(const RowColumns<At>& c, const TwoCandidates<At>& two, unsigned touching,
-                          const PointMotion& m, double share, double dt, LaneSums& sums) {
-  const PointForces f = forces_of(c, two, touching, m, share, dt);
+[[gnu::always_inline]] inline Lane act_by(const RowColumns<At>& c, const TwoCandidates<At>& two,
+                                          unsigned touching, const PointMotion& m,
+                                          const PointMotion& pressing, double share, double dt,
+                                          LaneSums& sums) {
+  const PointForces f = forces_of(c, two, touching, m, pressing, share, dt);
   sums.add(f, touching);
-  sums.add_depth(two, touching,
-                 (m.gap - f.indentation) * at_candidates(c.law, two, ContactLaw<At>::inv_size));
+  sums.add_depth(two, touching, pressing.gap * at_candidates(c.law, two, ContactLaw<At>::inv_size));
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0) keep(c, entry(two, half), half, f, share);
   return f.along;
+}
+
+// Indents the free points of those that touch; bonded points keep their indentation.
+template <class At>
+PointMotion indented(const RowColumns<At>& c, const TwoCandidates<At>& two, unsigned touching,
+                     PointMotion m, const kernels::Hardness<Lane>& hardness, double share,
+                     LaneSums& sums) {
+  using Law = ContactLaw<At>;
+  const auto now = kernels::indentation(m.gap, at_points(*c.state.indentation, two), hardness,
+                                        share, share * at_candidates(c.law, two, Law::stiffness),
+                                        at_candidates(c.law, two, Law::inv_size));
+  LaneMask acting = LaneMask::of(entry(lanes_of_halves, touching));
+  if (c.bonding) acting = acting & ~bonded_lanes(c, two);
+  sums.indentation_work += select(acting, now.work * at_points(c.law, two, Law::weight), Lane{});
+  for (int half = 0; half < 2; ++half)
+    if ((touching >> half & 1) != 0)
+      store_points(free_points(c, entry(two, half)), now.depth, half,
+                   &(*c.state.indentation)(entry(two, half)));
+  m.gap -= now.depth;
+  return m;
+}
+
+// Kept apart: most scenes have no such surfaces.
+template <class At, class FindHardness>
+[[gnu::noinline, gnu::flatten]] Lane act_indenting(const RowColumns<At>& c,
+                                                   const TwoCandidates<At>& two, unsigned touching,
+                                                   const PointMotion& m, double share, double dt,
+                                                   LaneSums& sums,
+                                                   const FindHardness& find_hardness) {
+  const PointMotion pressing = indented(c, two, touching, m, find_hardness(), share, sums);
+  return act_by(c, two, touching, m, pressing, share, dt, sums);
+}
+
+// `find_hardness()`: of the surfaces at the points; asked only where surfaces indent.
+template <class At, class FindHardness>
+[[gnu::flatten]] Lane act(const RowColumns<At>& c, const TwoCandidates<At>& two, unsigned touching,
+                          const PointMotion& m, double share, double dt, LaneSums& sums,
+                          const FindHardness& find_hardness) {
+  if (c.state.indentation)
+    return act_indenting(c, two, touching, m, share, dt, sums, find_hardness);
+  return act_by(c, two, touching, m, m, share, dt, sums);
+}
+
+// The forces of contact on bonded points, whose indentation stays as it is.
+template <class At>
+PointForces forces_of_bonded(const RowColumns<At>& c, const TwoCandidates<At>& two,
+                             const PointMotion& m, double share, double dt) {
+  PointMotion pressing = m;
+  if (c.state.indentation) pressing.gap -= at_points(*c.state.indentation, two);
+  return forces_of(c, two, 0, m, pressing, share, dt);
 }
 
 // Prefetches a candidate's data: in a large powder they come from main memory, one line per column.

@@ -46,7 +46,6 @@ struct LaneSums {
     energy += select(touch, f.energy, Lane{});
     friction_work += select(touch, f.friction_work, Lane{});
     damping_work += select(touch, f.damping_work, Lane{});
-    indentation_work += select(touch, f.indentation_work, Lane{});
   }
   template <class At>
   [[gnu::always_inline]] void add_depth(const TwoCandidates<At>& two, unsigned touching,

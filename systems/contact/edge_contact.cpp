@@ -119,11 +119,18 @@ struct EdgePass {
     }
     const unsigned touching = find_touching(two, p, motion);
     if (touching == 0) return;
-    if (s.curves.hardness)
-      set_hardness(*s.curves.hardness, p, {s.points.place(two[0], 0), s.points.place(two[1], 0)},
-                   motion);
-    const Lane along = act(s.columns, two, touching, motion, share, s.clock->dt_before, sums);
+    const Lane along = act(s.columns, two, touching, motion, share, s.clock->dt_before, sums,
+                           [&] { return hardness_of(two, p); });
     if (s.points.slope_load) set_slope_load(motion, along, touching, two, *s.points.slope_load);
+  }
+  // Folds do not indent: nothing else keeps an outline from passing through itself.
+  kernels::Hardness<Lane> hardness_of(const Two& two, const Projection& p) const {
+    auto hardness =
+        hardness_at(*s.curves.hardness, p, {s.points.place(two[0], 0), s.points.place(two[1], 0)});
+    const unsigned folds = (itself(two[0]) ? 1U : 0U) | (itself(two[1]) ? 2U : 0U);
+    hardness.pressure = select(LaneMask::of(entry(lanes_of_halves, folds)),
+                               Lane(kernels::no_hardness), hardness.pressure);
+    return hardness;
   }
   // Those of the two candidates that touch (bit 0, bit 1); the others are set to apart.
   [[gnu::always_inline]] unsigned find_touching(const Two& two, const Projection& p,

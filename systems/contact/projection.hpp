@@ -6,12 +6,12 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 
 #include "components/shape.hpp"
 #include "engine/access.hpp"
 #include "systems/contact/curve_points.hpp"
 #include "systems/contact/two_candidates.hpp"
+#include "systems/laws/normal_contact.hpp"
 
 namespace pulvis {
 
@@ -193,10 +193,9 @@ template <class... Projections>
 }
 
 // The hardness of the sampled edges, given by their first control points, and of those that their points are closest to.
-[[gnu::always_inline]] inline void set_hardness(const Read<SurfaceHardness<TwoD>>& of,
-                                                const Projection& p,
-                                                const std::array<std::int32_t, 2>& sampled,
-                                                PointMotion& m) {
+inline kernels::Hardness<Lane> hardness_at(const Read<SurfaceHardness<TwoD>>& of,
+                                           const Projection& p,
+                                           const std::array<std::int32_t, 2>& sampled) {
   const auto softer = [&](int number) {
     const Lane other = Lane::from([&](int l) {
       const std::int32_t first = entry(p.other.first, l / edge_points);
@@ -206,12 +205,7 @@ template <class... Projections>
                       of(Row<ControlPoint>(sampled[1]), number)),
                other);
   };
-  // Folds do not indent, since nothing else keeps an outline from passing through itself; nor do bonded points.
-  const LaneMask own = LaneMask::of((p.other.round_corners[0] ? 0x00U : 0x0fU) |
-                                    (p.other.round_corners[1] ? 0x00U : 0xf0U));
-  m.hardness = select(own, Lane(std::numeric_limits<double>::infinity()),
-                      softer(SurfaceHardness<TwoD>::pressure));
-  m.left = softer(SurfaceHardness<TwoD>::left);
+  return {softer(SurfaceHardness<TwoD>::pressure), softer(SurfaceHardness<TwoD>::left)};
 }
 
 // Past a corner the corner itself attracts: the distance to an outline is continuous there, so no energy is lost when

@@ -84,21 +84,17 @@ struct PointMotion {
   Lane gap_rate;   // m/s
   Lane slip_rate;  // m/s, along t = (-ny, nx)
   Lane inv_slope;  // 1/m, 1/|x'| of the other curve, if it has one
-  // Only where surfaces indent, of the softer one:
-  Lane hardness;  // Pa
-  Lane left;      // -, share of an indentation after the step
 };
 
 // Response of the contact law.
 struct PointForces {
-  Lane x, y;                           // N, on the sampled edge
-  Lane along;                          // N, its friction part, along t
-  Lane elastic_slip;                   // m, new value
-  Lane pressure;                       // Pa, in this pass
-  Lane energy;                         // J, stored
-  Lane friction_work;                  // J, dissipated in this step
-  Lane damping_work;                   // J, dissipated in this step
-  Lane indentation, indentation_work;  // m, new value; J, dissipated in this step
+  Lane x, y;           // N, on the sampled edge
+  Lane along;          // N, its friction part, along t
+  Lane elastic_slip;   // m, new value
+  Lane pressure;       // Pa, in this pass
+  Lane energy;         // J, stored
+  Lane friction_work;  // J, dissipated in this step
+  Lane damping_work;   // J, dissipated in this step
 };
 
 }  // namespace pulvis

@@ -6,6 +6,8 @@
 // Damping  c [Pa s/m] on the rate of the gap (T 5.1); never pulls.
 #pragma once
 
+#include <limits>
+
 #include "engine/lane.hpp"
 
 namespace pulvis::kernels {
@@ -24,12 +26,6 @@ inline constexpr double stiffening_depth = 0.05;
 inline double stiffening(double depth) {
   const double x = depth / stiffening_depth;
   return 1 + 3 * x * x;
-}
-
-// J/m^2 stored at a penetration of `touching` m >= 0, or `depth` stiffening depths.
-template <class T>
-T spring_energy(T touching, T depth, T kappa) {
-  return 0.5 * kappa * touching * touching * (1.0 + 0.5 * depth * depth);
 }
 
 // g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `inv_edge` 1/m, inverse length of
@@ -58,11 +54,19 @@ Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T inv_edge) {
 inline constexpr double hardest = 0.5;              // H / (kappa g_s)
 inline constexpr double deepest_indentation = 0.1;  // of the edge: more than that is the mesh's
 inline constexpr double fitting_strain = 0.05;      // -
+inline constexpr double no_hardness = std::numeric_limits<double>::infinity();  // never indents
 
 template <class T>
 struct Indentation {
   T depth;  // m
   T work;   // J/m^2, spent in this step
+};
+
+// Of the softer of two surfaces.
+template <class T>
+struct Hardness {
+  T pressure;  // Pa, H
+  T left;      // -, share of an indentation after the step
 };
 
 // Where the spring exceeds H: `fitted` m, the indentation so far; x + x^3 of the spring is to be H/(kappa g_s).
@@ -84,16 +88,15 @@ template <class T>
   return {after, pressure * (after - before)};
 }
 
-// The indentation at a gap g, `before` a step. `hardness` Pa, of the pass; `left` -, share of an indentation after the step.
+// The indentation at a gap g, `before` a step. `share` of the pressure that the pass bears.
 template <class T>
-[[gnu::always_inline]] inline Indentation<T> indentation(T g, T before, T hardness, T left, T kappa,
-                                                         T inv_edge) {
-  const T fitted = before * left;
+[[gnu::always_inline]] inline Indentation<T> indentation(T g, T before, const Hardness<T>& hardness,
+                                                         double share, T kappa, T inv_edge) {
+  const T H = share * hardness.pressure, fitted = before * hardness.left;
   const T spring = max(g - fitted, T{});
   const T depth = spring * ((1 / stiffening_depth) * inv_edge);
   const T pressure = kappa * spring * fma(depth, depth, T{} + 1.0);
-  if (any(pressure > hardness))
-    return grown_indentation(g, before, fitted, hardness, kappa, inv_edge);
+  if (any(pressure > H)) return grown_indentation(g, before, fitted, H, kappa, inv_edge);
   return {fitted, pressure * (fitted - before)};
 }
 

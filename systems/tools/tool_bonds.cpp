@@ -61,11 +61,10 @@ struct ToolBonds {
     const BondMotion m = motion(two, at);
     const auto contact = [&] {
       PointMotion moving = m.point;
-      if (s.at.curves.hardness) edges.set_hardness(*s.at.curves.hardness, moving);
       if (rates != nullptr)
         set_rates(edges.points(rates), of_tools(s.at.velocity, two, 0),
                   of_tools(s.at.velocity, two, 1), moving);
-      return forces_of(s.columns, two, 0, moving, share, s.clock->dt_before);
+      return forces_of_bonded(s.columns, two, moving, share, s.clock->dt_before);
     };
     bonds.act(two, bonds.bonded(two), m, at, contact, sums);
   }

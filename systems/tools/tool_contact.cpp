@@ -37,14 +37,14 @@ struct ToolPass {
     pass_over_bonded(s.columns, two, motion);
     const unsigned touching = find_touching(two, motion);
     if (touching == 0) return;
-    if (s.curves.hardness) edges.set_hardness(*s.curves.hardness, motion);
     motion.gap_rate = motion.slip_rate = Lane{};
     if (rates != nullptr) {
       const Row<Tool> a(s.columns.pair(two[0], 2)), b(s.columns.pair(two[1], 2));
       set_rates(edges.points(rates), halves(s.tool_velocity(a, 0), s.tool_velocity(b, 0)),
                 halves(s.tool_velocity(a, 1), s.tool_velocity(b, 1)), motion);
     }
-    act(s.columns, two, touching, motion, share, s.clock->dt_before, sums);
+    act(s.columns, two, touching, motion, share, s.clock->dt_before, sums,
+        [&] { return edges.hardness(*s.curves.hardness); });
   }
 
   // ---- projection

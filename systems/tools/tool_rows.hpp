@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/entry.hpp"
+#include "systems/laws/normal_contact.hpp"
 #include "systems/tools/systems.hpp"
 #include "systems/tools/tool_projection.hpp"
 
@@ -23,11 +24,11 @@ struct SampledEdges {
     }
     return edges;
   }
-  void set_hardness(const Read<SurfaceHardness<TwoD>>& of, PointMotion& m) const {
+  kernels::Hardness<Lane> hardness(const Read<SurfaceHardness<TwoD>>& of) const {
     const Row<ControlPoint> a(first_control[0]), b(first_control[1]);
     using Number = SurfaceHardness<TwoD>;
-    m.hardness = halves(of(a, Number::pressure), of(b, Number::pressure));
-    m.left = halves(of(a, Number::left), of(b, Number::left));
+    return {halves(of(a, Number::pressure), of(b, Number::pressure)),
+            halves(of(a, Number::left), of(b, Number::left))};
   }
   PointLanes points(const double* list) const {
     return edge_points_at(list + 2 * first_control[0], list + 2 * first_control[1]);

@@ -55,9 +55,8 @@ TEST(Health, ElementTurnedInsideOutIsNamed) {
        "limits.penetration=1e6"},
       2);
   const std::string failure = failure_of(e.simulation, 10000);
-  EXPECT_THAT(
-      failure,
-      ContainsRegex("^element_health: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
+  EXPECT_THAT(failure,
+              ContainsRegex("^element_health: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
   EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
 }
 

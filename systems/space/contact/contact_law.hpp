@@ -69,19 +69,12 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
   return select(now > 0.0, sqrt(before / now), Lane{}) * flat;
 }
 
-// Of the softer of two surfaces, or eight points.
-template <class T>
-struct Hardness {
-  T pressure;  // Pa; infinite if the surface cannot indent
-  T left;      // -, share of an indentation after the step
-};
-
 // Where surfaces indent: `m` gets the indentation of its points; returns J/m^2, spent in this step. `before` m; `share` of
 // the pressure that the pass bears.
-inline Lane indent(const PointLaw& law, const Lane& before, const Hardness<Lane>& hardness,
-                   double share, PointMotion& m) {
-  const auto indented = pulvis::kernels::indentation(m.depth(), before, share * hardness.pressure,
-                                                     hardness.left, law.kappa, law.inv_size);
+inline Lane indent(const PointLaw& law, const Lane& before,
+                   const pulvis::kernels::Hardness<Lane>& hardness, double share, PointMotion& m) {
+  const auto indented =
+      pulvis::kernels::indentation(m.depth(), before, hardness, share, law.kappa, law.inv_size);
   m.indentation = indented.depth;
   return indented.work;
 }

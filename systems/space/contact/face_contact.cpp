@@ -155,7 +155,7 @@ class PairPass {
       sample(rates_, face, active, velocity.data());
     else
       velocity.fill(0);
-    const Hardness<double> own_hardness = hardness_of(own_faces_, number);
+    const pulvis::kernels::Hardness<double> own_hardness = hardness_of(own_faces_, number);
     const double kappa = share * s_.columns.law(row, Law::stiffness),
                  damping = share * s_.columns.law(row, Law::damping),
                  inv_size = s_.columns.law(row, Law::inv_size);
@@ -179,6 +179,7 @@ class PairPass {
       p.kappa = kappa;
       p.damping = damping;
       p.hardness = softer(own_hardness, hardness_of(its_faces_, its));
+      if ((bonded >> g & 1) != 0) p.hardness = {pulvis::kernels::no_hardness, 1};
       p.indentation =
           s_.columns.points.indentation ? &(*s_.columns.points.indentation)(row, place) : nullptr;
       p.kept = kept;
@@ -192,16 +193,17 @@ class PairPass {
   }
 
   // Of a face; `faces`: the particle's first row.
-  Hardness<double> hardness_of(std::ptrdiff_t faces, int face) const {
-    if (hardness_ == nullptr) return {std::numeric_limits<double>::infinity(), 1};
+  pulvis::kernels::Hardness<double> hardness_of(std::ptrdiff_t faces, int face) const {
+    if (hardness_ == nullptr) return {pulvis::kernels::no_hardness, 1};
     using Number = SurfaceHardness<ThreeD>;
     const double* number = hardness_ + Number::count * (faces + face);
     return {number[Number::pressure], number[Number::left]};
   }
-  static Hardness<double> softer(const Hardness<double>& a, const Hardness<double>& b) {
+  static pulvis::kernels::Hardness<double> softer(const pulvis::kernels::Hardness<double>& a,
+                                                  const pulvis::kernels::Hardness<double>& b) {
     return {std::min(a.pressure, b.pressure), std::min(a.left, b.left)};
   }
-  Hardness<Lane> hardness_of(const PointLanes& eight) const {
+  pulvis::kernels::Hardness<Lane> hardness_of(const PointLanes& eight) const {
     return {Lane::from([&](int l) { return entry(eight.point, l)->hardness.pressure; }),
             Lane::from([&](int l) { return entry(eight.point, l)->hardness.left; })};
   }

@@ -116,14 +116,17 @@ void bond(const tool_contact& s, const ToolRow& of, int half, const RowMotion& m
     bonds.hold({places, bonded, face, at, entry(motion.along, half)}, law, m, f);
 }
 
-// Of the sampled face.
-Hardness<Lane> hardness_of(const tool_contact& s, Row<FaceToolContact> row) {
+// Of the sampled face; what is bonded does not indent.
+pulvis::kernels::Hardness<Lane> hardness_of(const tool_contact& s, Row<FaceToolContact> row,
+                                            unsigned bonded) {
   using Number = SurfaceHardness<ThreeD>;
   const auto& hardness = *s.faces.hardness;
   const std::ptrdiff_t face =
       first_row(hardness.table(), s.columns.pair(row, 0)) + s.columns.pair(row, 1);
   const double* number = hardness.values().data() + Number::count * face;
-  return {Lane(number[Number::pressure]), Lane(number[Number::left])};
+  const LaneMask held = LaneMask::of(bonded);
+  return {select(held, Lane(pulvis::kernels::no_hardness), Lane(number[Number::pressure])),
+          select(held, Lane(1.0), Lane(number[Number::left]))};
 }
 
 // ---- a row -----------------------------------------------------------------------------------------
@@ -152,7 +155,8 @@ void act(const tool_contact& s, const ToolRow& of, RowMotion& motion, ToolSums& 
     Lane pressure, indenting{};
     if (c.indentation) {
       double* indentation = &(*c.indentation)(row) + lane_count * half;
-      indenting = indent(law, Lane::load(indentation), hardness_of(s, row), 1, m);
+      indenting =
+          indent(law, Lane::load(indentation), hardness_of(s, row, motion.bonded_in(half)), 1, m);
       m.indentation.store(indentation);
     }
     PointForces f = normal_forces(law, m, dt, pressure);

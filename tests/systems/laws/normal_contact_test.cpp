@@ -19,8 +19,8 @@ struct Step {
   double depth, work;  // m, J/m^2
 };
 Step indent(double gap, double before, double limit = hardness, double left = 1) {
-  const auto of = indentation<Lane>(Lane(gap), Lane(before), Lane(limit), Lane(left), Lane(kappa),
-                                    Lane(1 / edge));
+  const auto of = indentation<Lane>(Lane(gap), Lane(before), {Lane(limit), Lane(left)}, 1,
+                                    Lane(kappa), Lane(1 / edge));
   return {of.depth[0], of.work[0]};
 }
 
