@@ -44,17 +44,20 @@ def dense(bench):
     count, start, at = 27, 0.5, (0.7, 0.8, 0.85, 0.88, 0.9, 0.92, 0.93, 0.94)
     side = (count * math.pi / 6 * 1e-6 / start) ** (1 / 3)
     print("law dense: 27 spheres of 316L in a box that closes on all sides, friction 0.1: axial stress over sigma_y at relative densities")
-    print(f"{'mesh':>5} {'elements':>8} {'stiffness':>9} {'steps':>6}  " + "  ".join(f"{d:6}" for d in at) + "   told to be lost")
-    for divisions, rings, stiffness in ((4, 4, 0.5), (4, 4, 2), (4, 4, 10), (7, 1, 0.5), (7, 1, 2), (7, 1, 10), (8, 2, 0.5),
-                                        (8, 2, 10), (12, 2, 10)):
-        name = f"dense-{divisions}-{rings}-{stiffness}"
+    print(f"{'mesh':>5} {'elements':>8} {'stiffness':>9} {'':>7} {'steps':>6}  " + "  ".join(f"{d:6}" for d in at) + "   told to be lost")
+    neither = "hardness = 1000\ninertance = 0\n"
+    for divisions, rings, stiffness, more in [
+            (d, r, k, neither) for d, r, k in ((4, 4, 0.5), (4, 4, 2), (4, 4, 10), (7, 1, 0.5), (7, 1, 2), (7, 1, 10), (8, 2, 0.5),
+                                               (8, 2, 10), (12, 2, 10))] + [
+            (d, r, 10, "") for d, r in ((4, 4), (7, 1), (8, 2), (12, 2))]:
+        name = f"dense-{divisions}-{rings}-{stiffness}" + ("" if more else "-indenting")
         text = packed(bench, name, count, ball(0.01, divisions, rings, 'phase = "random"\n'), side, start)
         text = text.replace("[[stage.move]]", "[stage.until]\nrelative_density = 0.945\n[[stage.move]]", 1)
-        text += f"stiffness = {stiffness}\n[output]\nframes = 1\nsamples = 400\n[limits]\nenergy_balance = 0.05\n"
+        text += f"stiffness = {stiffness}\n{more}[output]\nframes = 1\nsamples = 400\n[limits]\nenergy_balance = 0.05\n"
         h = bench.run(name, text)
         summary = json.loads((bench.folder / name / "summary.json").read_text(encoding="utf-8"))
         density, stress = h["relative_density"], h["stress_ratio/axial"]
-        print(f"{f'{divisions},{rings}':>5} {summary['elements']:8d} {stiffness:9g} {summary['steps']:6d}  " +
+        print(f"{f'{divisions},{rings}':>5} {summary['elements']:8d} {stiffness:9g} {'' if more else 'indents':>7} {summary['steps']:6d}  " +
               "  ".join(f"{np.mean(stress[np.abs(density - d) < 0.005]):6.3f}" for d in at) +
               f"   {-summary['contact_quality']['force_error']:.1%}", flush=True)
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "components/body.hpp"
-#include "components/boundary_pairs.hpp"
+#include "components/inerter_chains.hpp"
 #include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
 
@@ -65,7 +65,7 @@ struct Shape {
   std::vector<Hourglass> hourglass;  // [elements]
   std::vector<double> nodal_area;    // m^2: a quarter of every adjacent element
   int boundary_nodes = 0;
-  BoundaryPairs pairs;
+  InerterChains chains;
   std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;
   std::vector<Edge> edges;

@@ -144,10 +144,11 @@ Bytes bytes_in_space(const Scene& scene, const Needs& needs) {
   bytes.node = node_bytes<ThreeD>(needs) + bytes_if<HighestMode<ThreeD>>(mode);
   bytes.element = space::with_hexahedra(needs.formulation,
                                         [&]<class F>(F) { return hexahedron_bytes<F>(needs); });
-  bytes.boundary_node = bytes_of<ContactForce<ThreeD>>() + bytes_if<ContactSupport>(mode);
-  bytes.control_point = bytes_of<space::SurfacePosition, space::SurfaceBefore>() +
-                        bytes_if<space::SurfaceVelocity>(needs.friction || needs.damping) +
+  // Of as many faces as nodes, but for two.
+  bytes.boundary_node = bytes_of<ContactForce<ThreeD>>() + bytes_if<ContactSupport>(mode) +
                         bytes_if<SurfaceHardness<ThreeD>>(needs.indentation);
+  bytes.control_point = bytes_of<space::SurfacePosition, space::SurfaceBefore>() +
+                        bytes_if<space::SurfaceVelocity>(needs.friction || needs.damping);
   bytes.side = rows_of_a_face * static_cast<double>(face_row_bytes(scene, needs));
   bytes.frame_node = copies * 6 * sizeof(double);
   bytes.frame_element = copies * 9 * sizeof(double);

@@ -69,7 +69,7 @@ def stiffnesses(values=(0.35, 1, 2, 4, 10)):
     return [Setting(f"{v:g}", {"contact.stiffness": v}) for v in values]
 
 
-STIFF = Setting("k 12, C 2.2", {"contact.stiffness": 12, "contact.hardness": 2.2})
+STIFF = Setting("k 12, C 3", {"contact.stiffness": 12, "contact.hardness": 3})
 
 
 def stiff(settings):

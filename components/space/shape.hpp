@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "components/boundary_pairs.hpp"
+#include "components/inerter_chains.hpp"
 #include "components/entities.hpp"
 #include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
@@ -108,7 +108,7 @@ struct Shape {
   std::string name;
   std::vector<Point> nodes;  // m; surface nodes first
   int boundary_nodes = 0;    // on the surface
-  BoundaryPairs pairs;
+  InerterChains chains;
   std::vector<std::array<Row<Node>, 8>> hexahedra;
   std::vector<Element> element;                  // [elements]
   std::vector<std::array<GaussPoint, 8>> gauss;  // [elements]

@@ -5,8 +5,8 @@
 
 namespace pulvis {
 
-// Contact springs follow their stiffness: how stiff those of friction are, inerters, and the
-// estimate of the time step that these need.
+// The stiffness of the springs and what follows from it: that of friction and bonds, whether surfaces indent, inerters, and
+// the estimate of the time step that these need.
 void fill_contact(document::Table& root, int dimension);
 
 }  // namespace pulvis

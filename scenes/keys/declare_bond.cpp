@@ -58,10 +58,11 @@ std::vector<Key<BondSpec>> bond_law_keys() {
           {{.name = "stiffness",
             .kind = Kind::number,
             .range = within(1, 1000),
-            .fallback = value_of(20.0),
             .only_for = of_bonds,
             .doc = "Stiffness of the intact bond divided by that of the contact spring. Stiffer "
-                   "bonds deform less but need smaller time steps."},
+                   "bonds deform less but need smaller time steps.",
+            .fallback_doc = "20",
+            .in_3d = {.fallback_doc = "1 with the default `contact.stiffness`, otherwise 20"}},
            to(&BondSpec::stiffness)}};
 }
 

@@ -172,28 +172,28 @@ const TableDeclaration<ContactSpec>& contact() {
          .fallback = value_of(0.0),
          .doc = "Coulomb friction coefficient of all pairs not listed in a `[[friction]]`."},
         to(&ContactSpec::friction)},
+       // Below 0.3, the punch force of the unit cell is more than 2% too low.
        {{.name = "stiffness",
          .kind = Kind::number,
          .range = within(0.35, 100),
-         .fallback = value_of(0.5),
          .doc = "Stiffness of the contact springs, as a multiple of bulk modulus times edge length "
                 "divided by the area of the element behind the edge. Soft springs give way as "
-                "well as the particles do: elastic contacts, relative densities above 0.97 and "
-                "the elastic response of metals (springback, residual stress, moduli) need 12. "
-                "The run reports the resulting errors.",
+                "well as the particles do, so that elastic contacts, springback, residual stress "
+                "and moduli are too soft: these need 12. The run reports the resulting errors.",
+         .fallback_doc = "0.5",
          .in_3d = {.doc = "Stiffness of the contact springs, as a multiple of bulk modulus times "
                           "face area divided by the volume of the element behind the face. Soft "
-                          "springs give way as well as the particles do: the elastic response "
-                          "of metals (springback, residual stress, moduli) needs 10, which is "
-                          "the default if no material yields. The run reports the resulting "
-                          "errors."}},
+                          "springs give way as well as the particles do, so that elastic "
+                          "contacts, springback, residual stress and moduli are too soft. The "
+                          "run reports the resulting errors.",
+                   .fallback_doc = "10"}},
         to(&ContactSpec::stiffness)},
        {{.name = "tangential_stiffness",
          .kind = Kind::number,
          .range = within(0.1, 100),
          .doc = "Stiffness of the tangential springs of friction, measured like `stiffness`. "
-                "More than half of it costs time steps.",
-         .fallback_doc = "`stiffness` up to 2, above half of it, but at least 2"},
+                "More than 0.4 of `stiffness` costs time steps.",
+         .fallback_doc = "`stiffness` up to 2, above 0.4 of it, but at least 2"},
         to(&ContactSpec::tangential_stiffness)},
        {{.name = "hardness",
          .kind = Kind::number,
@@ -202,18 +202,20 @@ const TableDeclaration<ContactSpec>& contact() {
              "Indentation hardness of the surfaces over their flow stress (constraint factor). "
              "A contact narrower than an element cannot indent it; where the contact pressure "
              "exceeds the mean pressure of the element behind plus this multiple of its flow "
-             "stress, the surface indents permanently instead. With `stiffness` above 5; 2.2, in "
-             "three dimensions 2.7, suits powders up to a relative density of 0.95.",
-         .fallback_doc = "none: surfaces do not indent"},
+             "stress, the surface indents permanently instead. 1000: surfaces do not indent. Only "
+             "for materials that yield, without a rate law, and a `stiffness` of 5 or more.",
+         .fallback_doc = "3 for a `stiffness` of 5 or more"},
         to(&ContactSpec::hardness)},
        {{.name = "inertance",
          .kind = Kind::number,
          .range = within(0, 0.95),
          .doc =
-             "Inerters between the boundary nodes and those behind them, so that stiff contact "
+             "Inerters between the boundary nodes and two layers behind them, so that stiff "
+             "contact "
              "springs do not shorten the time step: share of the reduced mass of two nodes. They "
              "add no mass to the motion of a particle as a whole, and do not act at rest.",
-         .fallback_doc = "0.9 if `stiffness` is above 2, otherwise 0"},
+         .fallback_doc =
+             "0.9 if `stiffness` is above 2, otherwise 0; 0 for a single body without tools"},
         to(&ContactSpec::inertance)},
        {{.name = "damping",
          .kind = Kind::number,

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/portable_math.hpp"
-#include "scenes/meshes/boundary_pairs.hpp"
+#include "scenes/meshes/inerter_chains.hpp"
 #include "scenes/meshes/contact_curve.hpp"
 #include "scenes/meshes/mass_shares.hpp"
 #include "scenes/meshes/mesh_outlines.hpp"
@@ -82,7 +82,7 @@ Shape make_shape(const ParticleSpec& particle, double phase) {
   set_gauss_points(shape);
   measure_edges(shape);
   share_mass(shape);
-  shape.pairs = boundary_pairs(shape);
+  shape.chains = inerter_chains(shape);
   return shape;
 }
 

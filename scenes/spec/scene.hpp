@@ -368,8 +368,8 @@ struct BondSpec {  // for one pair of names (materials or tools)
 
 struct ContactSpec {
   double friction = 0;  // -, Coulomb coefficient of every pair that no [[friction]] names
-  // -, k of kappa = k K L/A (bulk modulus, boundary edge length, element area); in three dimensions k K A/V. 0.5: softer
-  // springs delay the lateral force, with stiffer ones it depends on the nodes, unless surfaces indent (docs/accuracy.md).
+  // -, k of kappa = k K L/A (bulk modulus, boundary edge length, element area); in three dimensions k K A/V. What a scene
+  // does not give, scenes/checks/contact_defaults.cpp does.
   double stiffness = 0.5;
   std::optional<double> tangential_stiffness;  // -, of the springs of friction; none: the same
   std::optional<double> hardness;  // -, over the flow stress; none: surfaces do not indent

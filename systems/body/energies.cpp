@@ -8,7 +8,7 @@
 #include "components/space/formulation.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
-#include "systems/body/boundary_pairs.hpp"
+#include "systems/body/inerter_chains.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/hourglass_kernel.hpp"
 #include "systems/body/nodal_force.hpp"
@@ -31,10 +31,8 @@ void kinetic_energy<D>::operator()(Chunk chunk) const {
       total += 0.5 * v(n, k) * (mass * v(n, k) + force(n, k) * half);
   }
   if (inerters && inerters->rules->inertance > 0)
-    for (const BoundaryPairs::Pair& pair : shape.pairs.all)
-      total += kernels::inerter_energy<Lane>(
-          difference<D>(pair, inerters->position.chunk(chunk)), difference<D>(pair, v),
-          mass_per_size * reduced_size(pair, shape), inerters->rules->inertance);
+    total += energy_of_inerters<D>(shape, inerters->rules->inertance, mass_per_size,
+                                   inerters->position.chunk(chunk), v);
   energy.chunk(chunk)(Row<Particle>()) = total;
 }
 template struct kinetic_energy<TwoD>;

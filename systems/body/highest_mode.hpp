@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "engine/entry.hpp"
-#include "systems/body/boundary_pairs.hpp"
 #include "systems/body/element_bound.hpp"
+#include "systems/body/inerter_chains.hpp"
 #include "systems/body/systems.hpp"
 
 namespace pulvis {
@@ -117,22 +117,21 @@ Lane add_inerters(const ModeBody<F>& body, const ModeView<typename F::Dimension>
   Lane mass{};
   if (!body.contact || body.contact->inertance == 0) return mass;
   const double c = body.contact->inertance;
-  for (const BoundaryPairs::Pair& pair : body.shape.pairs.all) {
-    const double outer = body.shape.size_of_node(pair.outer.value),
-                 inner = body.shape.size_of_node(pair.inner.value),
-                 mu = reduced_size(pair, body.shape);
-    const auto line = difference<D>(pair, body.x);
-    std::array<Lane, D::axes> acceleration;
-    for (int k = 0; k < D::axes; ++k)
-      entry(acceleration, k) =
-          (1 / outer) * mode(pair.outer, D::axes + k) - (1 / inner) * mode(pair.inner, D::axes + k);
-    mass += 2.0 * kernels::inerter_energy(line, difference<D>(pair, mode), Lane(mu), c);
-    const Lane pull = -(c * mu) * kernels::dot(line, acceleration) / kernels::dot(line, line);
-    for (int k = 0; k < D::axes; ++k) {
-      mode(pair.outer, D::axes + k) += pull * entry(line, k);
-      mode(pair.inner, D::axes + k) -= pull * entry(line, k);
-    }
+  const auto none = [](int, int) { return Lane{}; };  // turning is of second order
+  for (const InerterChain& chain : body.shape.chains.all) {
+    const auto acceleration = [&](int i, int k) -> Lane {
+      const Row<Node> n = entry(chain.nodes, i);
+      return (1 / body.shape.size_of_node(n.value)) * mode(n, D::axes + k);
+    };
+    with_links(chain, [&](auto links) {
+      const auto pull = forces_of_inerters<D, links>(chain, c, Lane(1.0), Lane(1.0),
+                                                     of_chain(chain, body.x), none, acceleration);
+      for (int i = 0; i <= links; ++i)
+        for (int k = 0; k < D::axes; ++k)
+          mode(entry(chain.nodes, i), D::axes + k) += entry(entry(pull, i), k);
+    });
   }
+  mass += 2.0 * energy_of_inerters<D>(body.shape, c, Lane(1.0), body.x, mode);
   return mass;
 }
 

@@ -4,10 +4,11 @@
 //          Smith (2002). It conserves momentum and angular momentum, adds no mass to rigid motion and has no static
 //          effect: it adds inertia to the stretching of the outermost elements alone, which is what a contact spring makes
 //          oscillate fastest. Kinetic energy b/2 (dL/dt)^2
-// Symbols  mu = m1 m2 / (m1 + m2), c = (b/mu) / (1 + b/mu) < 1; with w the relative velocity normal to the line and F the
-//          forces on the nodes, d2L/dt2 = (a1 - a2) . d + |w|^2/L gives the force on node 1, along the unit vector d from
-//          node 2 to 1,
-//            f = -c mu [(F1/m1 - F2/m2) . d + |w|^2/L]
+// Symbols  nodes 1, 2, 3 from the boundary inwards, inerters between 1 and 2, 2 and 3; of each mu = m1 m2 / (m1 + m2) and
+//          c = (b/mu) / (1 + b/mu) < 1. With F the forces on the nodes, w the relative velocity normal to the line and d
+//          the unit vector towards the outer node, without inerters d2L/dt2 were r = (F1/m1 - F2/m2) . d + |w|^2/L. The
+//          forces f on the outer nodes along d follow from
+//            f1/(c mu1) - s f2 = -r1,   f2/(c mu2) - s f1 = -r2,   s = d1 . d2 / m2
 #pragma once
 
 #include <array>
@@ -24,14 +25,39 @@ T dot(const std::array<T, Axes>& a, const std::array<T, Axes>& b) {
   return sum;
 }
 
-// N per m of distance: times x it is the force on node 1, its opposite that on node 2. x [m], v [m/s], a [m/s^2]: of
-// node 1 relative to node 2, a without the inerter. `c_mu` kg.
+template <class T>
+struct Inerter {
+  T length2;  // m^2: L^2
+  T c_mu;     // kg
+  T bare;     // m^2/s^2: L r + (dL/dt)^2
+  T along;    // m^2/s: L dL/dt
+};
+
+// x [m], v [m/s], a [m/s^2]: of the outer node relative to the inner one, a without inerters. `c_mu` kg.
 template <class T, std::size_t Axes>
-T inerter_force(const std::array<T, Axes>& x, const std::array<T, Axes>& v,
-                const std::array<T, Axes>& a, const T& c_mu) {
-  const T over = 1.0 / dot(x, x), along = dot(x, v);
-  const T turning = dot(v, v) - along * along * over;
-  return -(c_mu * over) * (dot(x, a) + turning);
+Inerter<T> inerter(const std::array<T, Axes>& x, const std::array<T, Axes>& v,
+                   const std::array<T, Axes>& a, const T& c_mu) {
+  return {dot(x, x), c_mu, dot(x, a) + dot(v, v), dot(x, v)};
+}
+
+// f/L, N/m: times x it is the force on the outer node of an inerter, its opposite that on the inner one.
+template <class T>
+T inerter_force(const Inerter<T>& of) {
+  const T over = 1.0 / of.length2;
+  return -(of.c_mu * over) * (of.bare - of.along * of.along * over);
+}
+// Of two that share a node; `coupling` m^2/kg: x1 . x2 / m2. One division for all.
+template <class T>
+std::array<T, 2> inerter_forces(const Inerter<T>& first, const Inerter<T>& second,
+                                const T& coupling) {
+  const T both = first.length2 * second.length2, back = coupling * first.c_mu,
+          forth = coupling * second.c_mu, rest = both - back * forth, over = 1.0 / (both * rest);
+  const T scale = over * both, over_first = over * rest * second.length2,
+          over_second = over * rest * first.length2;
+  const T one = first.bare - first.along * first.along * over_first,
+          two = second.bare - second.along * second.along * over_second;
+  return {-(first.c_mu * scale) * (second.length2 * one + forth * two),
+          -(second.c_mu * scale) * (first.length2 * two + back * one)};
 }
 
 // J; `mu` kg.
@@ -41,8 +67,5 @@ T inerter_energy(const std::array<T, Axes>& x, const std::array<T, Axes>& v, con
   const T along = dot(x, v);
   return (0.5 * c / (1 - c)) * mu * along * along / dot(x, x);
 }
-
-// m1 m2 / (m1 + m2)
-inline double reduced_mass(double m1, double m2) { return m1 * m2 / (m1 + m2); }
 
 }  // namespace pulvis::kernels

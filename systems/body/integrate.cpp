@@ -8,7 +8,7 @@
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
-#include "systems/body/boundary_pairs.hpp"
+#include "systems/body/inerter_chains.hpp"
 #include "systems/body/nodal_force.hpp"
 #include "systems/body/systems.hpp"
 
@@ -52,24 +52,29 @@ template <class D>
     return;
   }
   const double c = (*inertance)->inertance;
-  for (const BoundaryPairs::Pair& pair : shape.pairs.all) {
-    const Lane outer = kick_of(pair.outer.value), inner = kick_of(pair.inner.value);
-    const auto line = difference<D>(pair, x);
-    std::array<Lane, D::axes> on_outer, on_inner, acceleration;
-    for (int k = 0; k < D::axes; ++k) {
-      entry(on_outer, k) = force(pair.outer, k);
-      entry(on_inner, k) = force(pair.inner, k);
-      entry(acceleration, k) = inv_time * (outer * entry(on_outer, k) - inner * entry(on_inner, k));
+  const Lane size_per_mass = 1 / mass_per_size;
+  const auto move_chain = [&]<int links>(const InerterChain& chain,
+                                         std::integral_constant<int, links>) {
+    std::array<Lane, links + 1> by;
+    OfNodes<D, links + 1> f;
+    for (int i = 0; i <= links; ++i) {
+      entry(by, i) = kick_of(entry(chain.nodes, i).value);
+      for (int k = 0; k < D::axes; ++k) entry(entry(f, i), k) = force(entry(chain.nodes, i), k);
     }
-    const Lane pull = kernels::inerter_force(line, difference<D>(pair, v), acceleration,
-                                             Lane(mass_per_size * (c * reduced_size(pair, shape))));
-    for (int k = 0; k < D::axes; ++k) {
-      const Lane along = pull * entry(line, k);
-      move(pair.outer, k, outer, entry(on_outer, k) + along);
-      move(pair.inner, k, inner, entry(on_inner, k) - along);
-    }
-  }
-  for (const Row<Node> n : shape.pairs.single) move_freely(n);
+    const auto acceleration = [&](int i, int k) -> Lane {
+      return inv_time * entry(by, i) * entry(entry(f, i), k);
+    };
+    const auto pull =
+        forces_of_inerters<D, links>(chain, c, mass_per_size, size_per_mass, of_chain(chain, x),
+                                     of_chain(chain, v), acceleration);
+    for (int i = 0; i <= links; ++i)
+      for (int k = 0; k < D::axes; ++k)
+        move(entry(chain.nodes, i), k, entry(by, i),
+             entry(entry(f, i), k) + entry(entry(pull, i), k));
+  };
+  for (const InerterChain& chain : shape.chains.all)
+    with_links(chain, [&](auto links) { move_chain(chain, links); });
+  for (const Row<Node> n : shape.chains.single) move_freely(n);
 }
 template struct integrate<TwoD>;
 template struct integrate<ThreeD>;

@@ -1,11 +1,13 @@
 // surface_hardness: the pressure at which each edge of an outline, or face of a surface, indents
 // (systems/laws/normal_contact.hpp).
 //
-// Law      H = 1.25 p + C sigma_f of the element behind, p its mean pressure (none if it is under tension), times the stretch
-//          of the edge, or face: pressures are per undeformed area. The quarter allows for what p differs by between
-//          neighbouring elements, which in powder without pores is more than any flow stress. Indentations fade as the element flows, in
-//          the steps to the next evaluation by as much as since the last one
-// Runs     every few steps like stable_time_step, with the smooth outlines after integrate; the contacts of the next step use its values
+// Law      H = p + C sigma_f + p^2/(10 sigma_f) of the element behind, p its mean pressure (none if it is under tension),
+//          times the stretch of the edge, or face: pressures are per undeformed area. The last term is small in powder with
+//          pores. Without pores contacts are as wide as edges, and p is many times sigma_f and differs by more than that
+//          between neighbouring elements: nothing indents. Indentations fade as the element flows, in the steps to the
+//          next evaluation by as much as since the last one
+// Runs     every few steps like stable_time_step, with the smooth outlines after integrate; the contacts of the next step
+//          use its values
 // Active   when the scene has contact.hardness
 //
 // What differs between the dimensions, `dilatation_of(shape, element, positions)`, is beside the instances:
@@ -13,7 +15,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
@@ -22,7 +23,7 @@
 
 namespace pulvis {
 
-inline constexpr double pressure_factor = 1.25;
+inline constexpr double closed_pores = 0.1;  // -, of the term in p^2
 
 inline const auto& parts_of_boundary(const Shape& shape) { return shape.edges; }
 inline const auto& parts_of_boundary(const space::Shape& shape) { return shape.faces; }
@@ -63,7 +64,7 @@ template <class F>
   const Lane k = bulk.chunk(chunk)(particle);
   // The flow stress of rate-dependent materials depends on more than what is known here: they do not indent.
   const double factor = flow.laws && (*flow.laws)->of_chunk(*bodies.bodies, chunk).rate.index() != 0
-                            ? std::numeric_limits<double>::infinity()
+                            ? kernels::no_hardness
                             : settings.rules->hardness;
   double* first = &hardness.chunk(chunk)(Row<typename F::Dimension::OutlinePart>(0));
   using Number = SurfaceHardness<typename F::Dimension>;
@@ -73,11 +74,13 @@ template <class F>
     for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
       const auto& part = entry(parts, i);
       const Lane theta = dilatation_of(shape, part.element, x);
-      const Lane pressure = pressure_factor * max(0.5 * k * (1.0 / theta - theta), 0.0);
+      const Lane pressure = max(0.5 * k * (1.0 / theta - theta), 0.0);
       Lane mean{};
       for (int g = 0; g < F::points; ++g) mean += eps(Row<Element>(part.element), g);
       mean *= 1.0 / F::points;
-      const Lane value = stretch_of(part, x) * (pressure + factor * law.flow_stress(mean));
+      const Lane flow_stress = law.flow_stress(mean);
+      const Lane value = stretch_of(part, x) * (pressure + factor * flow_stress +
+                                                closed_pores * pressure * pressure / flow_stress);
       for (int l = 0; l < lane_count; ++l) {
         double* number = first + l * apart + Number::count * place_of(part, i);
         number[Number::pressure] = value[l];

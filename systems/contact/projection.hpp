@@ -196,14 +196,14 @@ template <class... Projections>
 inline kernels::Hardness<Lane> hardness_at(const Read<SurfaceHardness<TwoD>>& of,
                                            const Projection& p,
                                            const std::array<std::int32_t, 2>& sampled) {
+  std::array<std::int32_t, lane_count> other;
+  for (int l = 0; l < lane_count; ++l)
+    entry(other, l) = entry(p.other.first, l / edge_points) +
+                      static_cast<std::int32_t>(entry(p.at.edge, l));
   const auto softer = [&](int number) {
-    const Lane other = Lane::from([&](int l) {
-      const std::int32_t first = entry(p.other.first, l / edge_points);
-      return of(Row<ControlPoint>(first + static_cast<std::int32_t>(entry(p.at.edge, l))), number);
-    });
     return min(halves(of(Row<ControlPoint>(sampled[0]), number),
                       of(Row<ControlPoint>(sampled[1]), number)),
-               other);
+               Lane::from([&](int l) { return of(Row<ControlPoint>(entry(other, l)), number); }));
   };
   return {softer(SurfaceHardness<TwoD>::pressure), softer(SurfaceHardness<TwoD>::left)};
 }

@@ -42,17 +42,21 @@ Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T inv_edge) {
 }
 
 // ---- indentation -----------------------------------------------------------------------------------------
-// A contact that is narrower than an edge cannot indent the element behind it: pressure would rise without bound. Where it
-// exceeds the hardness H of the surface, a point indents by d, so that kappa (g - d) (1 + ((g - d)/g_s)^2) = H, which takes
-// the plastic work H dd. H = 1.25 p + C sigma_f, with p and the flow stress sigma_f of the element behind the edge. C = 2.97 for
-// a rigid flat punch in plane strain (Prandtl: (2 + pi)/sqrt 3), about 3 for a ball (Tabor 1951).
+// A contact that is narrower than an edge cannot indent the element behind it: pressure would rise without bound. A point
+// therefore indents by d > 0, so that
+//   kappa (g - d) <= H d/(d + d_0),
+// which takes the plastic work p dd. H is the hardness of the surface, some three times the flow stress for a punch in plane
+// strain ((2 + pi)/sqrt 3, Prandtl) and for a ball (Tabor 1951). Half of it is reached at d_0: contact spreads over what a
+// point stands for little by little.
 //
 // As the element behind flows, surfaces come to fit each other: d falls by 1/e over some plastic strain of the element, and
 // the work comes back.
 //
 // A spring that reaches H only where it is several times as stiff as at first is no longer a penalty: no limit then.
-inline constexpr double hardest = 0.5;              // H / (kappa g_s)
-inline constexpr double deepest_indentation = 0.1;  // of the edge: more than that is the mesh's
+inline constexpr double hardest = 0.5;  // H / (kappa g_s)
+inline constexpr double half_indentation =
+    0.0025;  // d_0, of the edge, for each surface that indents
+inline constexpr double deepest_indentation = 0.1;  // the same: more than that is the mesh's
 inline constexpr double fitting_strain = 0.05;      // -
 inline constexpr double no_hardness = std::numeric_limits<double>::infinity();  // never indents
 
@@ -69,35 +73,38 @@ struct Hardness {
   T left;      // -, share of an indentation after the step
 };
 
-// Where the spring exceeds H: `fitted` m, the indentation so far; x + x^3 of the spring is to be H/(kappa g_s).
+// The indentation at a gap g > 0 where the limit is exceeded; `fitted` m, that so far. `edge` m, once for each surface.
 template <class T>
-[[gnu::noinline]] Indentation<T> grown_indentation(T g, T before, T fitted, T H, T kappa,
-                                                   T inv_edge) {
-  const T per_depth = (1 / stiffening_depth) * inv_edge;
-  const T x = max(g - fitted, T{}) * per_depth;
-  const T y = H * per_depth / kappa;
-  // Newton's method from below.
-  T limit = y / fma(y, y, T{} + 1.0);
-  for (int k = 0; k < 2; ++k)
-    limit = limit - (limit * fma(limit, limit, T{} + 1.0) - y) / fma(3.0 * limit, limit, T{} + 1.0);
-  const T most = max(fitted, deepest_indentation / inv_edge);
-  const T grown = min(fitted + (x - limit) / per_depth, most);
-  const auto grows = (y < hardest) & (x > limit);
-  const T after = select(grows, grown, fitted);
-  const T pressure = select(grows, H, kappa * x / per_depth * fma(x, x, T{} + 1.0));
-  return {after, pressure * (after - before)};
+T grown_indentation(T g, T fitted, T H, T kappa, T edge) {
+  const T rigid = H / kappa;
+  // kappa e = H d/(d + d_0) with e = g - d.
+  const T half = 0.5 * (g + half_indentation * edge + rigid);
+  const T e = half - sqrt(max(half * half - g * rigid, T{}));
+  const T grown = min(g - e, max(fitted, deepest_indentation * edge));
+  const auto limited = (g > 0.0) & (rigid < (hardest * stiffening_depth) * edge);
+  return select(limited, max(grown, fitted), fitted);
 }
 
-// The indentation at a gap g, `before` a step. `share` of the pressure that the pass bears.
+// The indentation at a gap g, `before` a step. `share` of the pressure that the pass bears: one half if both surfaces indent, so
+// that a particle answers to its mirror image as to a rigid plane.
 template <class T>
 [[gnu::always_inline]] inline Indentation<T> indentation(T g, T before, const Hardness<T>& hardness,
                                                          double share, T kappa, T inv_edge) {
   const T H = share * hardness.pressure, fitted = before * hardness.left;
-  const T spring = max(g - fitted, T{});
-  const T depth = spring * ((1 / stiffening_depth) * inv_edge);
-  const T pressure = kappa * spring * fma(depth, depth, T{} + 1.0);
-  if (any(pressure > H)) return grown_indentation(g, before, fitted, H, kappa, inv_edge);
-  return {fitted, pressure * (fitted - before)};
+  const T linear = kappa * max(g - fitted, T{}), part = fitted * (share * inv_edge);
+  T after = fitted;
+  if (any(linear * (part + half_indentation) > H * part))
+    after = grown_indentation(g, fitted, H, kappa, T(1.0 / (share * inv_edge)));
+  const T spring = max(g - after, T{}), depth = spring * ((1 / stiffening_depth) * inv_edge);
+  const T stiffer = fma(depth, depth, T{} + 1.0), pressure = kappa * spring * stiffer;
+  T work = pressure * (after - before);
+  // What grows does so along the limit: by the mean of the pressures before and after.
+  if (any(after > before)) {
+    const T at_first = before * (share * inv_edge);
+    const T limit = min(H, 1e300) * at_first / (at_first + half_indentation);
+    work -= 0.5 * (pressure - min(pressure, stiffer * limit)) * max(after - before, T{});
+  }
+  return {after, work};
 }
 
 }  // namespace pulvis::kernels

@@ -32,7 +32,7 @@ constexpr double max_strain_between_looks = 0.01;
 // while its near side is by far the nearer one, also where speeds grow within the step.
 constexpr double max_share_of_thickness = 0.25;
 constexpr double overlap_at_start =
-    1e-3;                                 // of the size of a face; less is round-off of the packing
+    1e-5;                                 // of the size of a face; less is round-off
 constexpr double share_at_overlap = 0.2;  // of the stable step, for the first step
 
 double length_of(const Point3& v) { return portable::hypot(portable::hypot(v[0], v[1]), v[2]); }

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                {{400, 2}}},
         Course{"StiffContacts",
                "compaction/regular-25.toml",
-               with(fast_punch, {"contact.stiffness=12", "contact.hardness=2.2"}),
+               with(fast_punch, {"contact.stiffness=12", "contact.hardness=3"}),
                0,
                {{1, 1}, {333, 2}, {601, 1}}},
         Course{"BulkDamping",

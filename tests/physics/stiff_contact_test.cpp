@@ -28,7 +28,7 @@ Release released(const std::vector<std::string>& overrides) {
 }
 
 // Converged: 41.7 to 42.5 GPa (120 and 160 edges, contact.stiffness 40 and 100, with and without hardness); 42 +- 1 by finite
-// elements that are not Pulvis's. Springs of the default stiffness are 35% too soft.
+// elements that are not Pulvis's. Soft springs are 35% too soft.
 TEST(StiffContact, UnloadsAsTheParticlesDo) {
   constexpr double converged = 41.8e9;
   const Release stiff = released({});
@@ -59,7 +59,7 @@ TEST(StiffContact, InertersChangeTheStepsAndNotTheForce) {
 
 // Work is spent by indenting, and is part of the plastic work: the balance is as without.
 TEST(StiffContact, IndentingIsPaidFor) {
-  Experiment e("benchmark/crushed-disc.toml", {"contact.stiffness=12", "contact.hardness=2.2"});
+  Experiment e("benchmark/crushed-disc.toml", {"contact.stiffness=12"});
   e.run(20);
   const double spent = e.simulation.world().resource<Totals>().indentation_work;
   EXPECT_GT(spent, 1e-4 * e.results.energies().plastic);
@@ -77,7 +77,7 @@ TEST(StiffContact, SoftContactsHaveNoInerters) {
     return std::array{w.has<PointIndentation<Contact>>(), w.has<SurfaceHardness<TwoD>>(),
                       w.has<HighestMode<TwoD>>()};
   };
-  EXPECT_EQ(has({"contact.stiffness=0.5"}), (std::array{true, true, false}));
+  EXPECT_EQ(has({"contact.stiffness=0.5"}), (std::array{false, false, false}));
   EXPECT_EQ(has({}), (std::array{true, true, true}));
   EXPECT_EQ(has({"contact.inertance=0"}), (std::array{true, true, false}));
 }

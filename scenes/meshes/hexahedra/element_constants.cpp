@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "scenes/meshes/boundary_pairs.hpp"
+#include "scenes/meshes/inerter_chains.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -241,7 +241,7 @@ void complete_elements(Shape& shape) {
     element.contact_frequency += corner * face.stiffness * face.stiffness;
     element.contact_drag += corner * face.stiffness;
   }
-  shape.pairs = boundary_pairs(shape);
+  shape.chains = inerter_chains(shape);
 }
 
 }  // namespace pulvis::space

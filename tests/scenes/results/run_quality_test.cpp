@@ -105,7 +105,7 @@ TEST(RunQuality, AsksForSmallerFacesWhereContactsInSpaceAreNarrow) {
 
 // Of a powder in three dimensions stiffness alone is no help: coarse faces bear too much.
 TEST(RunQuality, AsksForSmallerFacesWithStifferContactsOfAPowder) {
-  const auto figures = judged("extreme/space-box-rd-97.toml", {});
+  const auto figures = judged("extreme/space-box-rd-97.toml", {"contact.stiffness=0.5"});
   EXPECT_THAT(figure(figures, "Force lost to penetration").advice,
               StartsWith("use contact.stiffness = 10, with smaller faces "));
 }
@@ -159,7 +159,7 @@ TEST(RunQuality, JudgesKineticEnergyUnderLoad) {
       if (load > 0.1 * largest && internal > 0.01 * most_internal)
         under_load = std::max(under_load, ratio);
     EXPECT_NEAR(e.results.kinetic_ratio() / under_load, 1, 1e-6) << scene;
-    EXPECT_LT(e.results.kinetic_ratio(), at_first_touch) << scene;
+    EXPECT_LE(e.results.kinetic_ratio(), at_first_touch) << scene;
     EXPECT_GT(e.results.kinetic_ratio(), 0) << scene;
   }
 }
@@ -192,11 +192,14 @@ TEST(RunQuality, TellsWhatSpringsReleaseOnUnloading) {
   using Changes = std::vector<std::string>;
   for (const auto& [scene, changes, stiffness] :
        {std::tuple("extreme/springback-plastic.toml", Changes{}, "100"),
-        {"compaction-3d/one-sphere.toml", {"accuracy=draft"}, "100"}}) {
-    const QualityFigure soft = figure(judged(scene, changes), release_figure);
+        {"compaction-3d/one-sphere.toml", {"accuracy=draft"}, "10"}}) {
+    auto softer = changes;
+    softer.emplace_back("contact.stiffness=0.5");
+    const QualityFigure soft = figure(judged(scene, softer), release_figure);
     EXPECT_EQ(soft.limit, most_in_springs);
     EXPECT_TRUE(soft.beyond()) << scene << " " << soft.value;
-    EXPECT_THAT(soft.line(), HasSubstr("use contact.stiffness = 10 (up to a quarter more CPU time"));
+    EXPECT_THAT(soft.line(),
+                HasSubstr("use contact.stiffness = 10 (up to a quarter more CPU time"));
     auto stiffer = changes;
     stiffer.push_back(std::string("contact.stiffness=") + stiffness);
     const QualityFigure stiff = figure(judged(scene, stiffer), release_figure);

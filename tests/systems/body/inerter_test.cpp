@@ -18,25 +18,27 @@ TEST(Inerter, DoesNotActOnRigidMotion) {
     return V{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   };
   const V v = cross(omega, x), a = cross(omega, v);
-  EXPECT_NEAR(inerter_force(x, v, a, 1.0), 0, 1e-14);
+  const auto turning = inerter(x, v, a, 1.0);
+  EXPECT_NEAR(inerter_force(turning), 0, 1e-14);
   EXPECT_NEAR(inerter_energy(x, v, 1.0, 0.9), 0, 1e-15);
-  EXPECT_LT(inerter_force(x, v, V{0, 0, 0}, 1.0), -1);  // free nodes would fly apart
+  EXPECT_LT(inerter_force(inerter(x, v, V{0, 0, 0}, 1.0)), -1);  // free nodes would fly apart
+  for (const double f : inerter_forces(turning, turning, 0.3)) EXPECT_NEAR(f, 0, 1e-13);
 }
 
 // Two masses on a spring of stiffness k: omega^2 = k (1 - c) / mu. By leapfrog; the energy of masses, spring and inerter
 // stays what it is.
 TEST(Inerter, SlowsDownStretching) {
   constexpr double m1 = 2, m2 = 3, k = 5, rest = 1, c = 0.9;
-  const double mu = reduced_mass(m1, m2), omega = std::sqrt(k * (1 - c) / mu), dt = 1e-3 / omega;
+  const double mu = m1 * m2 / (m1 + m2), omega = std::sqrt(k * (1 - c) / mu), dt = 1e-3 / omega;
   double x1 = rest + 1e-3, x2 = 0, v1 = 0, v2 = 0;
   const auto force = [&] { return -k * (x1 - x2 - rest); };
   const double energy = 0.5 * k * 1e-6;
   double crossed = 0;
   for (int i = 1; crossed == 0; ++i) {
     const double f = force();
-    const double pull =
-        inerter_force(V{x1 - x2, 0, 0}, V{v1 - v2, 0, 0}, V{f / m1 + f / m2, 0, 0}, c * mu) *
-        (x1 - x2);
+    const double pull = inerter_force(inerter(V{x1 - x2, 0, 0}, V{v1 - v2, 0, 0},
+                                              V{f / m1 + f / m2, 0, 0}, c * mu)) *
+                        (x1 - x2);
     v1 += (f + pull) / m1 * dt;
     v2 -= (f + pull) / m2 * dt;
     x1 += v1 * dt;
@@ -48,6 +50,48 @@ TEST(Inerter, SlowsDownStretching) {
   }
   EXPECT_NEAR(crossed * omega, std::numbers::pi / 2, 3e-3);
   EXPECT_NEAR(m1 * v1 + m2 * v2, 0, 1e-15);
+}
+
+// Three masses in a bent chain: the forces are those for which each equals -b d2L/dt2, with the accelerations that all of them
+// cause; they add up to nothing, and have no moment.
+TEST(Inerter, SharesANodeWithAnother) {
+  constexpr std::array<double, 3> m{2, 3, 5};
+  const std::array<V, 3> x{{{0.1, 1.1, 0}, {0, 0, 0.2}, {-0.3, -1.2, 0.1}}},
+      v{{{0.5, -1, 2}, {0, 1, -1}, {0.3, 0.2, 0.4}}}, f{{{1, 2, 3}, {-2, 0, 1}, {0, 5, -1}}};
+  constexpr double c = 0.9;
+  const auto apart = [](const std::array<V, 3>& of, std::size_t link) {
+    V d;
+    for (std::size_t k = 0; k < 3; ++k) d[k] = of[link][k] - of[link + 1][k];
+    return d;
+  };
+  const auto accelerations = [&](const std::array<V, 3>& forces) {
+    std::array<V, 3> a;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) a[i][k] = forces[i][k] / m[i];
+    return a;
+  };
+  const auto reduced = [&](std::size_t link) {
+    return m[link] * m[link + 1] / (m[link] + m[link + 1]);
+  };
+  const auto of = [&](const std::array<V, 3>& a, std::size_t link) {
+    return inerter(apart(x, link), apart(v, link), apart(a, link), c * reduced(link));
+  };
+  const auto bare = accelerations(f);
+  const auto pull = inerter_forces(of(bare, 0), of(bare, 1), dot(apart(x, 0), apart(x, 1)) / m[1]);
+  std::array<V, 3> with = f;
+  for (std::size_t link = 0; link < 2; ++link)
+    for (std::size_t k = 0; k < 3; ++k) {
+      with[link][k] += pull[link] * apart(x, link)[k];
+      with[link + 1][k] -= pull[link] * apart(x, link)[k];
+    }
+  const auto a = accelerations(with);
+  for (std::size_t link = 0; link < 2; ++link) {
+    const V d = apart(x, link), w = apart(v, link);
+    const double L = std::sqrt(dot(d, d)), rate = dot(d, w) / L,
+                 second = (dot(d, apart(a, link)) + dot(w, w) - rate * rate) / L;
+    const double b = reduced(link) * c / (1 - c);
+    EXPECT_NEAR(pull[link] * L, -b * second, 1e-12) << link;
+  }
 }
 
 }  // namespace

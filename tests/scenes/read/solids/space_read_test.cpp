@@ -46,23 +46,29 @@ TEST(SpaceScene, TurnsBodiesAboutTheirAxis) {
   EXPECT_NEAR((about_x * Vec3::UnitY()).z(), 0.5, 1e-15);
 }
 
-TEST(SpaceScene, ContactsAreStiffWhereNoMaterialYields) {
+TEST(SpaceScene, ContactsIndentWhereAMaterialYields) {
   std::string elastic = elastic_ball("divisions = 4", "damping = 0.3", "1 mm");
   const auto stiffness = [&](const std::vector<std::string>& overrides) {
     const LoadedScene given = load_scene_text(elastic, "elastic.toml", overrides);
     EXPECT_EQ(load_scene_text(given.text, "elastic.toml").text, given.text);
     return given.scene.contact.stiffness;
   };
+  const auto hardness = [&](const std::vector<std::string>& overrides) {
+    return load_scene_text(elastic, "elastic.toml", overrides).scene.contact.hardness;
+  };
   EXPECT_EQ(stiffness({}), 10);
   EXPECT_EQ(stiffness({"contact.friction=0.2"}), 10);
   EXPECT_EQ(stiffness({"contact.stiffness=2"}), 2);
-  EXPECT_EQ(stiffness({"material.steel.yield_stress=300 MPa"}), 0.5);
+  EXPECT_EQ(hardness({}), std::nullopt);
+  EXPECT_EQ(hardness({"material.steel.yield_stress=300 MPa"}), 3);
+  EXPECT_EQ(hardness({"material.steel.yield_stress=300 MPa", "contact.stiffness=2"}), std::nullopt);
+  EXPECT_EQ(hardness({"material.steel.yield_stress=300 MPa", "contact.hardness=4"}), 4);
   const std::string table = paths::source_dir() + "/scenes/basic/flow-laws.csv";
   EXPECT_EQ(load_scene_text(
                 elastic, "elastic.toml",
                 {"material.steel.hardening.law=table", "material.steel.hardening.file=" + table})
-                .scene.contact.stiffness,
-            0.5);
+                .scene.contact.hardness,
+            3);
   elastic = "family = \"compaction\"\ndimension = 3\ncontact = 3\n";
   EXPECT_ANY_THROW(stiffness({}));
 }

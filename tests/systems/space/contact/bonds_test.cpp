@@ -63,7 +63,7 @@ TEST(SpaceBonds, CarryNothingWhereTheyWereMade) {
   GluedBalls w(unbreakable);
   EXPECT_GT(w.bonds().made[0], 50);
   EXPECT_GT(w.bonds().area, 1e-6);
-  EXPECT_LT(w.bonds().energy, 1e-15);
+  EXPECT_LT(w.bonds().energy, 1e-14);
 }
 
 TEST(SpaceBonds, ForceIsMinusTheGradientOfTheEnergy) {
