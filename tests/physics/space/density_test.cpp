@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <numeric>
 
@@ -88,8 +89,9 @@ TEST(DensityInSpace, OfABodyCentredCellIsAlikeInAllOctants) {
 // With planes drawn back, so that no particle reaches into one.
 TEST(DensityInSpace, HoldsTheVolumeOfTheDeformedElementsWhateverTheGrid) {
   for (const char* cells : {"[1, 1, 1]", "[3, 4, 5]", "[17, 16, 15]"}) {
-    Scene scene = scene_with_cells("unit-cell-bcc.toml", cells,
-                                   {"let.move=0.6 mm", "stage.press.duration=0.04 ms"});
+    Scene scene = scene_with_cells(
+        "unit-cell-bcc.toml", cells,
+        {"let.move=0.6 mm", "stage.press.duration=0.04 ms", "contact.stiffness=0.5"});
     Experiment e(std::move(scene));
     e.run(1);
     World& world = e.simulation.world();
@@ -179,7 +181,8 @@ TEST(DensityInSpace, HasTheSameBitsForAnyNumberOfThreadsAndLeavesTheRunAlone) {
     return e;
   };
   const auto one = state("[4, 5, 6]", 1), two = state("[4, 5, 6]", 2), without = state("", 1);
-  EXPECT_EQ(one->row, two->row);
+  ASSERT_EQ(one->row.size(), two->row.size());  // some of their numbers are not a number
+  EXPECT_EQ(std::memcmp(one->row.data(), two->row.data(), sizeof(double) * one->row.size()), 0);
   EXPECT_EQ(one->field("local_density"), two->field("local_density"));
   EXPECT_EQ(state_hash(one->simulation.world()), state_hash(without->simulation.world()));
 }

@@ -94,8 +94,9 @@ damping = 0.5
 )";
 
 Scene tablet_in_a_die(double friction) {
+  // Stiff springs would let the tablet ring in the die.
   return own_scene(set_up + plates("16.4 mm") + stages,
-                   {"contact.friction=" + std::to_string(friction)});
+                   {"contact.friction=" + std::to_string(friction), "contact.stiffness=0.5"});
 }
 
 using Places = std::vector<Vec3>;  // of the nodes

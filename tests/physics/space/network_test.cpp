@@ -2,6 +2,7 @@
 // neighbours that geometry gives them.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <numbers>
 
 #include "components/body.hpp"
@@ -139,7 +140,8 @@ TEST(NetworkInSpace, HasTheSameBitsForAnyNumberOfThreadsAndLeavesTheRunAlone) {
     return e;
   };
   const auto one = state("true", 1), two = state("true", 2), without = state("false", 1);
-  EXPECT_EQ(one->row, two->row);
+  ASSERT_EQ(one->row.size(), two->row.size());  // some of their numbers are not a number
+  EXPECT_EQ(std::memcmp(one->row.data(), two->row.data(), sizeof(double) * one->row.size()), 0);
   EXPECT_EQ(one->results.frame(), two->results.frame());
   EXPECT_EQ(state_hash(one->simulation.world()), state_hash(without->simulation.world()));
 }
