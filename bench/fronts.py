@@ -34,7 +34,7 @@ import fronts_report
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RECORDED = ROOT / "bench/results/fronts"
 PROBLEM_FILES = ("unit_cell", "crushed_disc", "taylor_bar", "hertz", "matrix", "limit_load",
-                 "shear_contact", "bar_wave", "thick_cylinder", "unloading")
+                 "shear_contact", "bar_wave", "thick_cylinder", "unloading", "spheres")
 COLUMNS = ("family", "setting", "overrides", "cpu_s", "wall_s", "steps", "elements", "dt_s",
            "energy_balance", "errors", "note", "observed", "key")
 REPEAT_BELOW = 0.5  # s of CPU time: shorter runs are repeated, the minimum time counts

@@ -145,8 +145,8 @@ template <class D>
 struct SurfaceHardness : Component<typename D::OutlinePart, double, 3> {
   static constexpr ComponentInfo info{"hardness", "SI",
                                       "pressure per undeformed area at which it indents, share of "
-                                      "an indentation that is left after the "
-                                      "step, plastic strain of the element behind"};
+                                      "an indentation left after the step, plastic strain of the "
+                                      "element behind"};
   enum Number {
     pressure,  // Pa
     left,      // -
@@ -199,7 +199,7 @@ struct alignas(64) BlockSums {
   double energy = 0;                    // J, stored in the contact springs
   double friction_work = 0;             // J, dissipated by sliding in the last step
   double damping_work = 0;              // J, dissipated by contact damping in the last step
-  double indentation_work = 0;          // J, dissipated by indenting surfaces in the last step
+  double indentation_work = 0;          // J, spent by indenting surfaces in the last step
   double depth = 0;                     // -, largest penetration over edge length; NaN if any is
   std::int32_t deepest = -1;            // its row; -1 if nothing touches
   std::int32_t touching = 0;            // rows with a touching point

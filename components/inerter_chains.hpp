@@ -1,4 +1,4 @@
-// The nodes of a shape as systems/body/inerter_kernel.hpp couples them: each boundary node with one or two behind it.
+// The nodes of a shape as systems/body/inerter_kernel.hpp couples them: each boundary node with those behind it.
 #pragma once
 
 #include <array>
@@ -8,16 +8,20 @@
 
 namespace pulvis {
 
+// Nodes of a chain of so many inerters: two or three from the boundary inwards, or the four of an element at a corner, as a
+// closed ring.
+constexpr int links_of_ring = 4;
+constexpr int nodes_of_chain(int links) { return links == links_of_ring ? links : links + 1; }
+// The second node of an inerter; the first has its number.
+constexpr int next_in_chain(int link, int links) { return (link + 1) % nodes_of_chain(links); }
+
 // No node is in two chains. `single`: the nodes in none of them, in ascending order.
 struct InerterChains {
   struct Chain {
-    // From the boundary inwards; the second is on the boundary too where the body is one element thick.
-    std::array<Row<Node>, 3> nodes;
-    int links =
-        1;  // inerters, between nodes that follow each other: with one, the third node is none
-    std::array<double, 2> reduced =
-        {};                 // [links] reduced mass of the two nodes over density times depth
-    double inv_shared = 0;  // 1 / size of the second node
+    std::array<Row<Node>, 4> nodes;
+    int links = 1;                        // inerters: the i-th is between node i and the next one
+    std::array<double, 4> reduced = {};   // [links] reduced mass of both over density times depth
+    std::array<double, 4> inv_size = {};  // [nodes] 1 / size
   };
   std::vector<Chain> all;
   std::vector<Row<Node>> single;

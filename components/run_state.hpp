@@ -185,7 +185,7 @@ struct Totals {
   double largest_work = 0;       // J, of the tools in one step, absolute value
   double friction_work = 0;      // J, dissipated
   double damping_work = 0;       // J, dissipated by contact damping
-  double indentation_work = 0;   // J, dissipated by indenting surfaces
+  double indentation_work = 0;   // J, spent by indenting surfaces
   double damping_power = 0;      // W, of this step
   double contact_energy = 0;     // J, stored in contact springs
   double penetration = 0;        // -, penetration / edge length, maximum in this step

@@ -1,8 +1,10 @@
 #include "scenes/body_columns.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "components/body.hpp"
+#include "components/inertance.hpp"
 #include "components/run_state.hpp"
 #include "components/space/formulation.hpp"
 #include "engine/chunk_lane.hpp"
@@ -150,6 +152,12 @@ void fill_bodies(World& world, const space::Layout& layout) {
       }
     }
   });
+}
+
+void add_inerters(World& world, const ContactRules& rules) {
+  world.add<Inertance>();
+  auto& inertance = world.column<Inertance>();
+  std::fill_n(inertance.values(), inertance.bytes() / sizeof(double), rules.inertance);
 }
 
 void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/run_state.hpp"
 #include "components/shape.hpp"
 #include "components/space/shape.hpp"
 #include "engine/world.hpp"
@@ -23,6 +24,9 @@ void fill_bodies(World& world, const Layout& layout);
 void fill_bodies(World& world, const space::Layout& layout);
 
 void fill_materials(World& world, const Scene& scene, const Bodies& bodies);
+
+// At every node.
+void add_inerters(World& world, const ContactRules& rules);
 
 // For materials without a flow law: linear hardening, whose constants are in columns.
 void add_flow_laws(World& world, const Scene& scene, const Needs& needs);

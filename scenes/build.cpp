@@ -199,6 +199,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
     if (scene.cell) add_drives<TwoD>(*world, scene, particles);
     world->emplace<ContactQuality>();
     ContactRules& rules = world->emplace<ContactRules>(contact_rules(scene));
+    if (needs.inerters) add_inerters(*world, rules);
     find_thinnest(scene, layout.bodies, rules);
     rules.servos = world->has<ServoVelocity>();
     ContactIndex& index = world->emplace<ContactIndex>();

@@ -9,6 +9,7 @@
 #include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/highest_mode.hpp"
+#include "components/inertance.hpp"
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/formulation.hpp"
@@ -89,7 +90,8 @@ Bytes bytes_in_plane(const Scene& scene, const Needs& needs) {
   constexpr std::uint64_t copies = 3;
   const bool mode = scene.time.estimate == TimeSpec::Estimate::highest_mode;
   Bytes bytes;
-  bytes.node = node_bytes<TwoD>(needs) + bytes_if<HighestMode<TwoD>>(mode);
+  bytes.node = node_bytes<TwoD>(needs) + bytes_if<HighestMode<TwoD>>(mode) +
+               bytes_if<Inertance>(needs.inerters);
   bytes.element =
       with_formulation(needs.formulation, [&]<class F>(F) { return quad_bytes<F>(needs); });
   bytes.boundary_node = bytes_of<ContactForce<TwoD>>() + bytes_if<ContactSupport>(mode);
@@ -141,7 +143,8 @@ Bytes bytes_in_space(const Scene& scene, const Needs& needs) {
   constexpr std::uint64_t copies = 2;
   Bytes bytes;
   const bool mode = scene.time.estimate == TimeSpec::Estimate::highest_mode;
-  bytes.node = node_bytes<ThreeD>(needs) + bytes_if<HighestMode<ThreeD>>(mode);
+  bytes.node = node_bytes<ThreeD>(needs) + bytes_if<HighestMode<ThreeD>>(mode) +
+               bytes_if<Inertance>(needs.inerters);
   bytes.element = space::with_hexahedra(needs.formulation,
                                         [&]<class F>(F) { return hexahedron_bytes<F>(needs); });
   // Of as many faces as nodes, but for two.

@@ -59,6 +59,7 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
     needs.tool_initial_bonds = needs.tools && BondRules::any(bonds.tool_initial);
   }
   needs.indentation = needs.contact() && needs.plastic && scene.contact.hardness;
+  needs.inerters = needs.contact() && scene.contact.inertance > 0;
   needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;
   needs.bulk_damping = std::ranges::any_of(scene.materials, &MaterialSpec::damped);

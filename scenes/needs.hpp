@@ -16,6 +16,7 @@ struct Needs {
   bool friction = false;       // a coefficient above zero can take effect
   bool weakening = false;      // and a law beyond Coulomb's
   bool indentation = false;    // surfaces indent
+  bool inerters = false;       // at the boundaries
   bool cell = false;           // periodic
   bool initial_bonds = false;  // between particles
   bool tool_initial_bonds = false;

@@ -10,6 +10,7 @@
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
+#include "scenes/body_columns.hpp"
 #include "scenes/contact_search.hpp"
 #include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/bond_rules.hpp"
@@ -183,6 +184,7 @@ void add_contact(World& world, const Scene& scene, const Needs& needs) {
   if (!needs.contact()) return;
   find_smallest(world.resource<Shapes>(), rules);
   add_surfaces(world, needs);
+  if (needs.inerters) add_inerters(world, rules);
   if (needs.pairs) add_pairs(world, needs);
   if (needs.tools) add_tool_contact(world, scene, needs);
   ContactIndex& index = world.emplace<ContactIndex>();

@@ -2,7 +2,7 @@
 import numpy as np
 
 from .problem import (coarse_cores, Problem, densities, durations, formulations, interpolated, meshes, own_series,
-                      relative_rms, safeties, skins, stiff, stiffnesses)
+                      relative_rms, safeties, skins, soft, stiffnesses)
 
 COMPRESSION = np.linspace(0.01, 0.10, 61)
 DIAMETER = 10e-3  # m, as in the scene
@@ -24,7 +24,7 @@ def problems(quick):
     finest = meshes("disc", ((12, 1), (16, 1), (20, 1)) if quick else ((40, 1), (80, 2), (160, 4)))
     families = {"mesh": meshes("disc", sizes)}
     if not quick:
-        families |= {"coarse core": coarse_cores("disc"), "coarse core, stiff": stiff(coarse_cores("disc")),
+        families |= {"coarse core": coarse_cores("disc"), "coarse core, soft": soft(coarse_cores("disc")),
                      "safety": safeties(), "duration": durations("press", 0.6),
                      "density": densities("316L", 7990), "stiffness": stiffnesses(),
                      "skin": skins(), "formulation": formulations()}

@@ -2,7 +2,7 @@
 import numpy as np
 
 from .problem import (Problem, Reference, coarse_cores, densities, durations, formulations, interpolated, meshes,
-                      safeties, skins, stiffnesses, together)
+                      safeties, skins, soft, stiffnesses, together)
 
 COMPRESSION = np.linspace(0.001, 0.10, 100)
 MATERIALS = {"": ("316L", 7990), "-cu": ("OFHC-Cu", 8940)}
@@ -46,7 +46,7 @@ def small(suffix, quick):
                                                     (48, 1), (60, 2), (80, 2)))}
         fine = ((80, 2), (120, 3)) if not suffix else ((60, 2), (80, 2))
         families = {"mesh": list(mesh.values()), "coarse core": coarse_cores("disc"),
-                    "duration": durations("press", 2.8, (0.25, 0.5, 2)),
+                    "coarse core, soft": soft(coarse_cores("disc")), "duration": durations("press", 2.8, (0.25, 0.5, 2)),
                     "density": densities(material, rho, (4, 16, 100)),
                     "safety": safeties((*TABLE_5_3[suffix], 0.99))}
         if not suffix:
@@ -55,7 +55,7 @@ def small(suffix, quick):
             families["coarse core, faster"] = [
                 together(coarse[m], s) for m in ("60/1 coarse", "72/1 coarse", "84/1 coarse")
                 for s in durations("press", 2.8, (0.5,))]
-            families |= {"stiffness": stiffnesses((0.35, 1, 2, 4)),
+            families |= {"stiffness": stiffnesses((0.5, 2, 5, 20)),
                          "skin": skins((0.25, 1)), "formulation": formulations(),
                          "mesh, formulation": [together(mesh[m], four_point) for m in ("48/1", "60/2")] +
                          [together(coarse["72/1 coarse"], four_point)],

@@ -65,16 +65,16 @@ def densities(material, kg_per_m3, factors=(3, 10, 30, 100)):
             for f in factors]
 
 
-def stiffnesses(values=(0.35, 1, 2, 4, 10)):
+def stiffnesses(values=(0.35, 0.5, 1, 2, 5, 20, 40)):
     return [Setting(f"{v:g}", {"contact.stiffness": v}) for v in values]
 
 
-STIFF = Setting("k 12, C 3", {"contact.stiffness": 12, "contact.hardness": 3})
+SOFT = Setting("k 0.5", {"contact.stiffness": 0.5})
 
 
-def stiff(settings):
-    """The same with stiff contacts and surfaces that indent."""
-    return [together(s, STIFF) for s in settings]
+def soft(settings):
+    """The same with soft contact springs, and surfaces that do not indent."""
+    return [together(s, SOFT) for s in settings]
 
 
 def skins(values=(0.1, 0.25, 1, 2)):

@@ -2,7 +2,7 @@
 import numpy as np
 
 from .problem import (Problem, Reference, coarse_cores, densities, durations, formulations, interpolated, meshes,
-                      own_series, relative_rms, safeties, skins, stiff, stiffnesses, together)
+                      own_series, relative_rms, safeties, skins, soft, stiffnesses, together)
 
 DENSITY = np.linspace(0.80, 0.95, 61)
 # Exact unit cell of the frictionless square packing, perfectly plastic (axial +-3 %, lateral +-10 %).
@@ -44,12 +44,12 @@ def problems(quick):
     families = {"mesh": list(mesh.values())}
     if not quick:
         families |= {
-            "coarse core": coarse_cores("disc"), "coarse core, stiff": stiff(coarse_cores("disc")),
+            "coarse core": coarse_cores("disc"), "coarse core, soft": soft(coarse_cores("disc")),
             "safety": safeties(), "duration": list(speed.values()), "density": list(density.values()),
             "stiffness": stiffnesses(), "skin": skins(), "formulation": formulations(),
             "mesh, faster": [together(mesh[m], speed[f]) for m in ("24/1", "32/1", "60/2", "80/2")
                              for f in ("x 0.5", "x 0.25")],
-            "mesh, stiffness": [together(mesh["80/2"], s) for s in stiffnesses((0.35, 1, 2))]}
+            "mesh, stiffness": [together(mesh["80/2"], s) for s in stiffnesses((0.5, 2, 40))]}
     kinds = {"unit-cell": ("perfectly plastic", {}),
              "unit-cell-hardening": ("H = 440 MPa",
                                      {"material.316L.hardening_modulus": '"440 MPa"'})}

@@ -1,7 +1,7 @@
 """A disc in a periodic cell, pressed and released a little: the areal modulus of unloading."""
 import numpy as np
 
-from .problem import Problem, Reference, Setting, coarse_cores, meshes, stiffnesses, together
+from .problem import Problem, Reference, Setting, coarse_cores, meshes, soft, stiffnesses, together
 
 STRAIN = 0.0012  # of the release, each axis, as in the scene
 # Stiff springs on fine meshes, with surfaces that indent and without.
@@ -35,8 +35,7 @@ def problems(quick):
     cores = coarse_cores("disc")
     families = {"stiffness": stiff}
     if not quick:
-        soft = Setting("k 0.5", {"contact.stiffness": 0.5})
-        families |= {"coarse core": cores, "coarse core, soft": [together(c, soft) for c in cores],
+        families |= {"coarse core": cores, "coarse core, soft": soft(cores),
                      "hardness": [Setting(f"C {c:g}", {"contact.hardness": c}) for c in (2, 3, 4, 1000)],
                      "no inerters": [together(Setting("c 0", {"contact.inertance": 0}), s) for s in stiff]}
     return [Problem("unloading-cell", "areal modulus of unloading of a disc in a periodic cell",

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "components/inerter_chains.hpp"
 #include "components/entities.hpp"
+#include "components/inerter_chains.hpp"
 #include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
 

@@ -7,11 +7,10 @@ namespace pulvis {
 namespace {
 
 constexpr document::Origin of_no_file{{1, 1}, -1};
-// By the errors of unloading and loading over run time (docs/accuracy.md). In two dimensions blocks that slide and servos
-// still need soft springs: stiff ones let them bounce.
-constexpr double default_stiffness = 0.5, default_stiffness_in_space = 10, default_hardness = 3;
+// By the errors of unloading and loading over run time (docs/accuracy.md).
+constexpr double default_stiffness = 14, default_stiffness_in_space = 10, default_hardness = 3;
 // Stiffness of bonds over that of the springs: as stiff as the springs where these are stiff by default.
-constexpr double bonds_over_springs = 20, bonds_over_default_springs_in_space = 1;
+constexpr double bonds_over_springs = 20, bonds_over_default_springs = 1;
 constexpr double hardness_above = 5;      // softer springs give way before a surface indents
 constexpr double tangential_share = 0.4;  // costs few time steps
 constexpr double inerters_above = 2;      // softer springs do not set the time step
@@ -74,14 +73,14 @@ void fill_contact(document::Table& root, int dimension) {
   if (family != nullptr && *family == "afm") return;
   document::Table* contact = table_of(root, "contact");
   if (contact == nullptr) return;
-  const bool stiff_by_default = dimension == 3 && document::find(*contact, "stiffness") == nullptr;
+  const bool stiff_by_default = document::find(*contact, "stiffness") == nullptr;
   const double stiffness = number_or(
       *contact, "stiffness", dimension == 3 ? default_stiffness_in_space : default_stiffness);
   for_each_table(root, "bond", [&](document::Table& bond) {
     const std::string* origin = document::find_text(bond, "origin");
     if (origin != nullptr && *origin != "adhesion")  // which has no stiffness
       number_or(bond, "stiffness",
-                stiff_by_default ? bonds_over_default_springs_in_space : bonds_over_springs);
+                stiff_by_default ? bonds_over_default_springs : bonds_over_springs);
   });
   number_or(*contact, "tangential_stiffness",
             std::min(stiffness, std::max(inerters_above, tangential_share * stiffness)));

@@ -61,8 +61,7 @@ std::vector<Key<BondSpec>> bond_law_keys() {
             .only_for = of_bonds,
             .doc = "Stiffness of the intact bond divided by that of the contact spring. Stiffer "
                    "bonds deform less but need smaller time steps.",
-            .fallback_doc = "20",
-            .in_3d = {.fallback_doc = "1 with the default `contact.stiffness`, otherwise 20"}},
+            .fallback_doc = "1 with the default `contact.stiffness`, otherwise 20"},
            to(&BondSpec::stiffness)}};
 }
 

@@ -179,8 +179,8 @@ const TableDeclaration<ContactSpec>& contact() {
          .doc = "Stiffness of the contact springs, as a multiple of bulk modulus times edge length "
                 "divided by the area of the element behind the edge. Soft springs give way as "
                 "well as the particles do, so that elastic contacts, springback, residual stress "
-                "and moduli are too soft: these need 12. The run reports the resulting errors.",
-         .fallback_doc = "0.5",
+                "and moduli are too soft. The run reports the resulting errors.",
+         .fallback_doc = "14",
          .in_3d = {.doc = "Stiffness of the contact springs, as a multiple of bulk modulus times "
                           "face area divided by the volume of the element behind the face. Soft "
                           "springs give way as well as the particles do, so that elastic "
@@ -209,11 +209,10 @@ const TableDeclaration<ContactSpec>& contact() {
        {{.name = "inertance",
          .kind = Kind::number,
          .range = within(0, 0.95),
-         .doc =
-             "Inerters between the boundary nodes and two layers behind them, so that stiff "
-             "contact "
-             "springs do not shorten the time step: share of the reduced mass of two nodes. They "
-             "add no mass to the motion of a particle as a whole, and do not act at rest.",
+         .doc = "Inerters between the boundary nodes and two layers behind them, so that stiff "
+                "contact springs do not shorten the time step: share of the reduced mass of two "
+                "nodes. They add no mass to the motion of a particle as a whole, and do not act at "
+                "rest.",
          .fallback_doc =
              "0.9 if `stiffness` is above 2, otherwise 0; 0 for a single body without tools"},
         to(&ContactSpec::inertance)},

@@ -48,6 +48,29 @@ std::set<Side> inner_sides(const space::Shape& shape) {
   return inner;
 }
 
+// Quadrilaterals in the body: the elements, or the faces between two of them.
+std::vector<std::array<std::int32_t, 4>> inner_quads(const Shape& shape) {
+  std::vector<std::array<std::int32_t, 4>> quads;
+  for (const auto& q : shape.quads)
+    quads.push_back({q[0].value, q[1].value, q[2].value, q[3].value});
+  return quads;
+}
+std::vector<std::array<std::int32_t, 4>> inner_quads(const space::Shape& shape) {
+  constexpr std::array<std::array<std::size_t, 4>, 6> faces{
+      {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  std::set<std::array<std::int32_t, 4>> seen;
+  std::vector<std::array<std::int32_t, 4>> quads;
+  for (const auto& h : shape.hexahedra)
+    for (const auto& face : faces) {
+      std::array<std::int32_t, 4> quad, sorted;
+      for (std::size_t k = 0; k < 4; ++k) quad[k] = h[face[k]].value;
+      sorted = quad;
+      std::ranges::sort(sorted);
+      if (!seen.insert(sorted).second) quads.push_back(quad);
+    }
+  return quads;
+}
+
 using Neighbours = std::vector<std::vector<std::int32_t>>;  // [nodes]
 
 template <class AnyShape>
@@ -94,7 +117,8 @@ std::vector<Extension> extensions(const AnyShape& shape, const InerterChains& ch
   constexpr double straight = 0.7;  // cosine
   std::vector<int> chain_of_inner(shape.nodes.size(), -1);
   for (int i = 0; i < static_cast<int>(chains.all.size()); ++i)
-    entry(chain_of_inner, entry(chains.all, i).nodes[1].value) = i;
+    if (entry(chains.all, i).links == 1)
+      entry(chain_of_inner, entry(chains.all, i).nodes[1].value) = i;
   std::vector<Extension> found;
   for (const auto& element : elements_of(shape))
     for (const Row<Node> inner : element) {
@@ -119,6 +143,22 @@ InerterChains chains_of(const AnyShape& shape) {
   InerterChains chains;
   std::vector<bool> taken(shape.nodes.size(), false);
   const auto take = [&](std::int32_t n) { taken[static_cast<std::size_t>(n)] = true; };
+  constexpr double sharp = 0.5;  // cosine
+  // No side leads inwards from a corner, or from the edge of a body: it moves with the two nodes beside it and the one across.
+  for (std::array<std::int32_t, 4> quad : inner_quads(shape)) {
+    const auto corner = std::ranges::find_if(quad, [&](std::int32_t n) {
+      return n < shape.boundary_nodes && entry(neighbours, n).empty();
+    });
+    if (corner == quad.end() || std::ranges::any_of(quad, [&](std::int32_t n) {
+          return taken[static_cast<std::size_t>(n)];
+        }))
+      continue;
+    std::ranges::rotate(quad, corner);
+    if (std::abs(alignment(shape, quad[1], quad[0], quad[3])) > sharp) continue;
+    InerterChains::Chain& ring = chains.all.emplace_back();
+    ring.links = links_of_ring;
+    for (std::size_t k = 0; k < quad.size(); ++k) ring.nodes[k] = Row<Node>(quad[k]), take(quad[k]);
+  }
   for (std::int32_t outer = 0; outer < shape.boundary_nodes; ++outer) {
     if (taken[static_cast<std::size_t>(outer)]) continue;
     std::int32_t nearest = -1;
@@ -127,21 +167,22 @@ InerterChains chains_of(const AnyShape& shape) {
           (nearest < 0 || distance2(shape, outer, n) < distance2(shape, outer, nearest)))
         nearest = n;
     if (nearest < 0) continue;
-    chains.all.push_back({{Row<Node>(outer), Row<Node>(nearest), Row<Node>(-1)}});
+    chains.all.push_back({{Row<Node>(outer), Row<Node>(nearest), Row<Node>(-1), Row<Node>(-1)}});
     take(outer), take(nearest);
   }
   for (const Extension& e : extensions(shape, chains)) {
     InerterChains::Chain& chain = entry(chains.all, e.chain);
-    if (chain.links == 2 || taken[static_cast<std::size_t>(e.third)]) continue;
+    if (chain.links != 1 || taken[static_cast<std::size_t>(e.third)]) continue;
     chain.nodes[2] = Row<Node>(e.third);
     chain.links = 2;
     take(e.third);
   }
   for (InerterChains::Chain& chain : chains.all) {
     const auto size = [&](int i) { return shape.size_of_node(entry(chain.nodes, i).value); };
+    for (int i = 0; i < nodes_of_chain(chain.links); ++i) entry(chain.inv_size, i) = 1 / size(i);
     for (int i = 0; i < chain.links; ++i)
-      entry(chain.reduced, i) = size(i) * size(i + 1) / (size(i) + size(i + 1));
-    chain.inv_shared = 1 / size(1);
+      entry(chain.reduced, i) =
+          1 / (entry(chain.inv_size, i) + entry(chain.inv_size, next_in_chain(i, chain.links)));
   }
   for (std::int32_t n = 0; n < static_cast<std::int32_t>(shape.nodes.size()); ++n)
     if (!taken[static_cast<std::size_t>(n)]) chains.single.push_back(Row<Node>(n));

@@ -78,10 +78,10 @@ void Results::take_energies() {
   Energies& e = energies_;
   e.kinetic = total<KineticEnergy>(world_);
   e.elastic = total<ElasticEnergy>(world_);
-  e.plastic =
-      (world_.has<PlasticWork>() ? total<PlasticWork>(world_) : 0) + totals.indentation_work;
+  e.plastic = world_.has<PlasticWork>() ? total<PlasticWork>(world_) : 0;
   e.hourglass = world_.has<HourglassEnergy>() ? total<HourglassEnergy>(world_) : 0;
   e.contact = totals.contact_energy;
+  e.indentation = totals.indentation_work;
   e.friction = totals.friction_work;
   e.damping = totals.damping_work;
   e.bulk_damping = world_.has<DampingWork>() ? total<DampingWork>(world_) : 0;
@@ -90,8 +90,8 @@ void Results::take_energies() {
     e.fracture = world_.resource<BondTotals>().fracture;
   }
   e.external = totals.external_work;
-  const double all = e.kinetic + e.elastic + e.plastic + e.hourglass + e.contact + e.friction +
-                     e.damping + e.bulk_damping + e.bonds + e.fracture;
+  const double all = e.kinetic + e.elastic + e.plastic + e.hourglass + e.contact + e.indentation +
+                     e.friction + e.damping + e.bulk_damping + e.bonds + e.fracture;
   if (first_) initial_energy_ = all - e.external;  // an initial state has energy of its own
   first_ = false;
   e.balance = all - e.external - initial_energy_;

@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include "components/dimension.hpp"
+#include "components/inertance.hpp"
 #include "components/shape.hpp"
+#include "components/space/shape.hpp"
 #include "components/surface.hpp"
 #include "scenes/language/problem.hpp"
 
@@ -132,6 +134,52 @@ void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
 }
 
 template <class D>
+const typename D::Shape& shape_of_chunk(const World& world, int chunk) {
+  const Bodies& bodies = world.resource<Bodies>();
+  if constexpr (D::axes == 2)
+    return bodies.shape_of_chunk(Chunk{chunk});
+  else
+    return entry(world.resource<space::Shapes>().list,
+                 entry(bodies.slots, chunk * lane_count).shape);
+}
+
+// A reaction moves a node as if it had its own mass alone: no inerter may act on it. Between two nodes held alike, normal to their
+// line, one has no force that the reaction would have to balance.
+bool held_alike(const Held& a, const Held& b) {
+  const Vec3 line = b.place - a.place;
+  return a.tool == b.tool && std::abs(a.direction.dot(line)) < round_off * line.norm() &&
+         std::abs(b.direction.dot(line)) < round_off * line.norm();
+}
+
+template <class D>
+void remove_inerters(World& world, const std::vector<Held>& by_node) {
+  const Bodies& bodies = world.resource<Bodies>();
+  auto& inertance = world.column<Inertance>();
+  const auto place = [](const Held& h) { return std::tie(h.chunk, h.lane); };
+  for (auto first = by_node.begin(); first != by_node.end();) {
+    const auto last = std::find_if(first, by_node.end(),
+                                   [&](const Held& h) { return place(h) != place(*first); });
+    if (bodies.owns(first->chunk * lane_count + first->lane)) {
+      const auto held = [&](Row<Node> node) {
+        return std::ranges::equal_range(first, last, node.value, {}, &Held::node);
+      };
+      Lane* of_chunk = inertance.lanes() + entry(inertance.table.chunk_begin, first->chunk);
+      for (const InerterChains::Chain& chain : shape_of_chunk<D>(world, first->chunk).chains.all)
+        for (int i = 0; i < chain.links; ++i) {
+          const Row<Node> node = entry(chain.nodes, i);
+          const auto of = held(node),
+                     of_next = held(entry(chain.nodes, next_in_chain(i, chain.links)));
+          if (of.empty() && of_next.empty()) continue;
+          if (of.size() == 1 && of_next.size() == 1 && held_alike(of.front(), of_next.front()))
+            continue;
+          of_chunk[node.value][first->lane] = 0;
+        }
+    }
+    first = last;
+  }
+}
+
+template <class D>
 void fill(World& world, const std::vector<Held>& held) {
   const Bodies& bodies = world.resource<Bodies>();
   for (std::size_t r = 0; r < held.size(); ++r) {
@@ -182,6 +230,7 @@ void add_constraints(World& world, const Scene& scene, const NodePlaces& places_
   world.add<ConstraintReaction>();
   world.emplace<ConstraintIndex>().begin = world.table<ConstrainedNode>().chunk_begin;
   fill<D>(world, held);
+  if (world.has<Inertance>()) remove_inerters<D>(world, by_node);
 }
 template void add_constraints<TwoD>(World& world, const Scene& scene, const NodePlaces& places_of);
 template void add_constraints<ThreeD>(World& world, const Scene& scene,

@@ -8,9 +8,9 @@
 #include "components/space/formulation.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
-#include "systems/body/inerter_chains.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/hourglass_kernel.hpp"
+#include "systems/body/inerter_chains.hpp"
 #include "systems/body/nodal_force.hpp"
 #include "systems/body/systems.hpp"
 
@@ -24,15 +24,46 @@ void kinetic_energy<D>::operator()(Chunk chunk) const {
   const Lane mass_per_size = density.chunk(chunk)(Row<Particle>()) * bodies.depth();
   const double half = 0.5 * (clock->dt_before + clock->dt);
   Lane total{};
-  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
-    const Row<Node> n(i);
-    const Lane mass = mass_per_size * shape.size_of_node(i);
-    for (int k = 0; k < D::axes; ++k)
-      total += 0.5 * v(n, k) * (mass * v(n, k) + force(n, k) * half);
+  const auto mass_of = [&](Row<Node> n) -> Lane {
+    return mass_per_size * shape.size_of_node(n.value);
+  };
+  const auto add = [&](Row<Node> n, int k, const Lane& f) {
+    total += 0.5 * v(n, k) * (mass_of(n) * v(n, k) + f * half);
+  };
+  const auto add_freely = [&](Row<Node> n) {
+    for (int k = 0; k < D::axes; ++k) add(n, k, force(n, k));
+  };
+  if (inerters) {
+    const auto x = inerters->position.chunk(chunk);
+    const auto c = inerters->inertance.chunk(chunk);
+    const Lane size_per_mass = 1 / mass_per_size;
+    const auto add_chain = [&]<int links>(const InerterChain& chain,
+                                          std::integral_constant<int, links>) {
+      const auto acceleration = [&](int i, int k) -> Lane {
+        const Row<Node> n = entry(chain.nodes, i);
+        return force(n, k) / mass_of(n);
+      };
+      const auto pull =
+          forces_of_inerters<D, links>(chain, c, mass_per_size, size_per_mass, of_chain(chain, x),
+                                       of_chain(chain, v), acceleration);
+      const auto of_node = [&](int i, int k) -> Lane {
+        return force(entry(chain.nodes, i), k) + entry(entry(pull, i), k);
+      };
+      const auto after = [&](int i, int k) -> Lane {
+        const Row<Node> n = entry(chain.nodes, i);
+        return v(n, k) + of_node(i, k) / mass_of(n) * half;
+      };
+      for (int i = 0; i < nodes_of_chain(links); ++i)
+        for (int k = 0; k < D::axes; ++k) add(entry(chain.nodes, i), k, of_node(i, k));
+      total += energy_of_inerters<D>(chain, c, mass_per_size, of_chain(chain, x),
+                                     of_chain(chain, v), after);
+    };
+    for (const InerterChain& chain : shape.chains.all)
+      with_links(chain, [&](auto links) { add_chain(chain, links); });
+    for (const Row<Node> n : shape.chains.single) add_freely(n);
+  } else {
+    for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) add_freely(Row<Node>(i));
   }
-  if (inerters && inerters->rules->inertance > 0)
-    total += energy_of_inerters<D>(shape, inerters->rules->inertance, mass_per_size,
-                                   inerters->position.chunk(chunk), v);
   energy.chunk(chunk)(Row<Particle>()) = total;
 }
 template struct kinetic_energy<TwoD>;

@@ -27,6 +27,7 @@
 namespace pulvis {
 
 inline constexpr int first_iterations = 300;
+inline constexpr int rounds_with_dashpots = 3;
 inline constexpr double looks_between_iterations = 4;
 inline constexpr double mode_margin = 0.98;  // 300 iterations leave an error of half a percent
 // Over the element bound: undeformed discs reach 1.2. It counts the contact springs as if there were no inerters, which
@@ -48,9 +49,9 @@ struct ModeBody {
     ChunkView<ContactSupport, const Lane*> support;
     std::vector<std::array<Lane, D::axes>> normal;  // [boundary nodes] of the outline or surface
     Lane along_normal, tangential;                  // Pa
-    double inertance;                               // -
   };
   std::optional<Contact> contact;  // if possible
+  std::optional<ChunkView<Inertance, const Lane*>> inertance;
 };
 
 // Not normalised: weighted with the size of the edges or faces at the node.
@@ -115,23 +116,24 @@ template <class F>
 Lane add_inerters(const ModeBody<F>& body, const ModeView<typename F::Dimension>& mode) {
   using D = typename F::Dimension;
   Lane mass{};
-  if (!body.contact || body.contact->inertance == 0) return mass;
-  const double c = body.contact->inertance;
+  if (!body.inertance) return mass;
   const auto none = [](int, int) { return Lane{}; };  // turning is of second order
   for (const InerterChain& chain : body.shape.chains.all) {
     const auto acceleration = [&](int i, int k) -> Lane {
       const Row<Node> n = entry(chain.nodes, i);
       return (1 / body.shape.size_of_node(n.value)) * mode(n, D::axes + k);
     };
+    const auto v = of_chain(chain, mode);
+    mass += 2.0 *
+            energy_of_inerters<D>(chain, *body.inertance, Lane(1.0), of_chain(chain, body.x), v, v);
     with_links(chain, [&](auto links) {
-      const auto pull = forces_of_inerters<D, links>(chain, c, Lane(1.0), Lane(1.0),
+      const auto pull = forces_of_inerters<D, links>(chain, *body.inertance, Lane(1.0), Lane(1.0),
                                                      of_chain(chain, body.x), none, acceleration);
-      for (int i = 0; i <= links; ++i)
+      for (int i = 0; i < nodes_of_chain(links); ++i)
         for (int k = 0; k < D::axes; ++k)
           mode(entry(chain.nodes, i), D::axes + k) += entry(entry(pull, i), k);
     });
   }
-  mass += 2.0 * energy_of_inerters<D>(body.shape, c, Lane(1.0), body.x, mode);
   return mass;
 }
 
@@ -173,15 +175,19 @@ inline double softest_support(const space::Shape& shape) {
   return softest;
 }
 
-// k K of the springs on the outline. A dashpot c lagging by half a step counts like a spring of 2 c/dt; no step
-// is shorter than the element bound, which stands in for dt.
+// k K of the springs on the outline. A dashpot c lagging by half a step counts like a spring of 2 c/dt; `step` stands in for dt
+// and must not be longer.
 template <class AnyShape>
 Lane contact_modulus(const ContactRules& rules, double stiffening, const AnyShape& shape,
                      const Lane& bulk, const Lane& rho, const Lane& step) {
-  // With less damping than this, blocks are stable for stiffness 0.35 to 100 within the margin of the spring bound.
+  // With less damping than this, blocks are stable for stiffness 0.35 to 100 within the margin of the spring bound. With rings
+  // of inerters, which come first, one of four elements needs more.
   constexpr double little_damping = 0.3;
+  const bool rings = rules.inertance > 0 && !shape.chains.all.empty() &&
+                     shape.chains.all.front().links == links_of_ring;
+  const double of_dashpots = rings ? 4 : 2;
   if (rules.damping == 0 || (!rules.servos && rules.damping <= little_damping))
-    return rules.stiffness * (stiffening + 2 * rules.damping) * bulk;
+    return rules.stiffness * (stiffening + of_dashpots * rules.damping) * bulk;
   return rules.stiffness * stiffening * bulk + (2 * dashpot_ratio(rules) / softest_support(shape)) *
                                                    sqrt(rules.stiffness * bulk * rho) / step;
 }
@@ -205,30 +211,43 @@ template <class F>
                    deviator.chunk(chunk),
                    k,
                    material.elastic.shear.chunk(chunk)(particle),
+                   std::nullopt,
                    std::nullopt};
-  if (springs) {
-    const ContactRules& rules = *springs->rules;
-    const double of_chunk = springs_of(chunk, *bodies.bodies, rules, *clock);
-    const Lane along = contact_modulus(rules, of_chunk, shape, k, rho, step);
-    // Bonds are equally stiff in all directions.
-    const Lane tangential = rules.initial_stiffness.empty()
-                                ? min(along, rules.tangential * rules.stiffness * k)
-                                : along;
-    body.contact = typename ModeBody<F>::Contact{springs->support.chunk(chunk),
-                                                 boundary_normals(shape, body.x), along, tangential,
-                                                 rules.inertance};
+  if (estimate.inertance) body.inertance = estimate.inertance->chunk(chunk);
+  const auto longer_than_bound = [&](const Lane& highest) {
+    const Lane longest = mode_margin * stable_step(chunk, rho, highest, damping);
+    // A quotient that is not positive says nothing.
+    const Lane gain = select(highest > 0.0, longest / step, Lane(1.0));
+    return Lane(max(1.0, min(gain, body.inertance ? longest_with_inerters : longest_gain)));
+  };
+  const auto quotient = [&](int iterations, const Lane& gain) {
+    if (springs) {
+      const ContactRules& rules = *springs->rules;
+      const double of_chunk = springs_of(chunk, *bodies.bodies, rules, *clock);
+      const Lane along = contact_modulus(rules, of_chunk, shape, k, rho, step * gain);
+      // Bonds are equally stiff in all directions.
+      const Lane tangential = rules.initial_stiffness.empty()
+                                  ? min(along, rules.tangential * rules.stiffness * k)
+                                  : along;
+      body.contact = typename ModeBody<F>::Contact{
+          springs->support.chunk(chunk), boundary_normals(shape, body.x), along, tangential};
+    }
+    Lane highest{};
+    for (int i = 0; i < iterations; ++i) highest = iterate(body, estimate.mode.chunk(chunk));
+    return highest;
+  };
+  Lane& gain = known(particle, 0);
+  // Dashpots are less stiff in longer steps: from the bound of the elements on, the estimates approach the stable step from below.
+  const bool refined = body.inertance && springs && springs->rules->damping > 0;
+  if (clock->step == 0) {
+    gain = longer_than_bound(quotient(first_iterations, Lane(1.0)));
+    for (int i = 0; i < (refined ? rounds_with_dashpots : 0); ++i)
+      gain = longer_than_bound(quotient(first_iterations, gain));
+  } else {
+    gain = longer_than_bound(quotient(1, refined ? Lane(0.95 * gain) : Lane(1.0)));
   }
-  const bool inerters = springs && springs->rules->inertance > 0;
-
-  Lane highest{};
-  for (int i = 0; i < (clock->step == 0 ? first_iterations : 1); ++i)
-    highest = iterate(body, estimate.mode.chunk(chunk));
-  const Lane longest = mode_margin * stable_step(chunk, rho, highest, damping);
-  // A quotient that is not positive says nothing.
-  const Lane gain = select(highest > 0.0, longest / step, Lane(1.0));
-  known(particle, 0) = max(1.0, min(gain, inerters ? longest_with_inerters : longest_gain));
   known(particle, 1) = 1.0;
-  step *= known(particle, 0);
+  step *= gain;
 }
 
 }  // namespace pulvis

@@ -9,6 +9,7 @@
 //          the unit vector towards the outer node, without inerters d2L/dt2 were r = (F1/m1 - F2/m2) . d + |w|^2/L. The
 //          forces f on the outer nodes along d follow from
 //            f1/(c mu1) - s f2 = -r1,   f2/(c mu2) - s f1 = -r2,   s = d1 . d2 / m2
+//          In a ring each inerter shares both of its nodes with others: four such equations
 #pragma once
 
 #include <array>
@@ -60,12 +61,34 @@ std::array<T, 2> inerter_forces(const Inerter<T>& first, const Inerter<T>& secon
           -(second.c_mu * scale) * (first.length2 * two + back * one)};
 }
 
-// J; `mu` kg.
+// Of four in a ring; `coupling` m^2/kg: of each node, that of the inerters before and after it.
+template <class T>
+std::array<T, 4> inerter_ring_forces(const std::array<Inerter<T>, 4>& of,
+                                     const std::array<T, 4>& coupling) {
+  const auto& s = coupling;
+  std::array<T, 4> w, q;  // kg/m^2; m^2/s^2, L r of each
+  for (std::size_t i = 0; i < 4; ++i) {
+    const T over = 1.0 / of[i].length2;
+    w[i] = of[i].c_mu * over;
+    q[i] = of[i].bare - of[i].along * of[i].along * over;
+  }
+  // The first and the third eliminated, which share no node.
+  const T q0 = w[0] * q[0], q2 = w[2] * q[2];
+  const T a = 1.0 - w[1] * (s[1] * s[1] * w[0] + s[2] * s[2] * w[2]),
+          b = 1.0 - w[3] * (s[0] * s[0] * w[0] + s[3] * s[3] * w[2]),
+          c = s[0] * s[1] * w[0] + s[2] * s[3] * w[2];
+  const T one = w[1] * (q[1] + s[1] * q0 + s[2] * q2),
+          three = w[3] * (q[3] + s[0] * q0 + s[3] * q2);
+  const T over = -1.0 / (a * b - w[1] * w[3] * c * c);
+  const T f1 = over * (b * one + w[1] * c * three), f3 = over * (a * three + w[3] * c * one);
+  return {w[0] * (s[1] * f1 + s[0] * f3) - q0, f1, w[2] * (s[2] * f1 + s[3] * f3) - q2, f3};
+}
+
+// J; `mu` kg. v: half a step before and after, as for the kinetic energy of nodes (systems/body/energies.cpp).
 template <class T, std::size_t Axes>
-T inerter_energy(const std::array<T, Axes>& x, const std::array<T, Axes>& v, const T& mu,
-                 double c) {
-  const T along = dot(x, v);
-  return (0.5 * c / (1 - c)) * mu * along * along / dot(x, x);
+T inerter_energy(const std::array<T, Axes>& x, const std::array<T, Axes>& before,
+                 const std::array<T, Axes>& after, const T& mu, const T& c) {
+  return (0.5 * c / (1.0 - c)) * mu * dot(x, before) * dot(x, after) / dot(x, x);
 }
 
 }  // namespace pulvis::kernels

@@ -47,17 +47,18 @@ template <class D>
     const Lane by = kick_of(n.value);
     for (int k = 0; k < D::axes; ++k) move(n, k, by, force(n, k));
   };
-  if (!inertance || (*inertance)->inertance == 0) {
+  if (!inertance) {
     for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n) move_freely(Row<Node>(n));
     return;
   }
-  const double c = (*inertance)->inertance;
+  const auto c = inertance->chunk(chunk);
   const Lane size_per_mass = 1 / mass_per_size;
   const auto move_chain = [&]<int links>(const InerterChain& chain,
                                          std::integral_constant<int, links>) {
-    std::array<Lane, links + 1> by;
-    OfNodes<D, links + 1> f;
-    for (int i = 0; i <= links; ++i) {
+    constexpr int nodes = nodes_of_chain(links);
+    std::array<Lane, nodes> by;
+    OfNodes<D, links> f;
+    for (int i = 0; i < nodes; ++i) {
       entry(by, i) = kick_of(entry(chain.nodes, i).value);
       for (int k = 0; k < D::axes; ++k) entry(entry(f, i), k) = force(entry(chain.nodes, i), k);
     }
@@ -67,7 +68,7 @@ template <class D>
     const auto pull =
         forces_of_inerters<D, links>(chain, c, mass_per_size, size_per_mass, of_chain(chain, x),
                                      of_chain(chain, v), acceleration);
-    for (int i = 0; i <= links; ++i)
+    for (int i = 0; i < nodes; ++i)
       for (int k = 0; k < D::axes; ++k)
         move(entry(chain.nodes, i), k, entry(by, i),
              entry(entry(f, i), k) + entry(entry(pull, i), k));

@@ -6,6 +6,7 @@
 
 #include "components/bundles.hpp"
 #include "components/highest_mode.hpp"
+#include "components/inertance.hpp"
 #include "components/observed.hpp"
 #include "components/shaped_bodies.hpp"
 #include "engine/look_ahead.hpp"
@@ -121,7 +122,7 @@ struct integrate {
   Read<Clock> clock;
   Read<Density> density;
   NodalForces<Read, D> forces;
-  Optional<Read<ContactRules>> inertance;
+  Optional<Read<Inertance>> inertance;
   Write<Velocity<D>> velocity;
   Write<Position<D>> position;
   void operator()(Chunk chunk) const;
@@ -155,6 +156,7 @@ struct highest_mode {
   Optional<Springs> springs;
   Optional<BulkDamping> damping;
   struct Estimate {
+    Optional<Read<Inertance>> inertance;
     Write<HighestMode<D>> mode;
     Write<ModeGain> gain;
     Write<StableTimeStep> stable;
@@ -186,7 +188,7 @@ struct kinetic_energy {
   NodalForces<Read, D> forces;
   Read<Velocity<D>> velocity;
   struct Inerters {
-    Read<ContactRules> rules;
+    Read<Inertance> inertance;
     Read<Position<D>> position;
   };
   Optional<Inerters> inerters;

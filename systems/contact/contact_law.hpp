@@ -127,7 +127,7 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
       share, at_points(*sliding.lost, two), abs(slip.rate));
   const auto friction = kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
                                                  spring.inv_kappa);
-  // A point that is apart regains its static friction.
+  // A point that is apart regains its static friction; one in its indentation is not apart.
   const Lane lost = select(slip.gap > 0.0, law.lost, Lane{});
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0)
@@ -176,7 +176,7 @@ template <class At>
           ? forces_of(law, pressing, dt,
                       [&](const Lane& slip, const Lane& pressure) {
                         return friction_of(
-                            c, two, touching, share, Slip{slip, pressing.slip_rate, pressing.gap},
+                            c, two, touching, share, Slip{slip, pressing.slip_rate, m.gap},
                             pressure, {law.tangential, halves(1 / sliding[0], 1 / sliding[1])});
                       })
           : forces_of(law, pressing, dt, Frictionless{});

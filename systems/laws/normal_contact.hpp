@@ -54,9 +54,8 @@ Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T inv_edge) {
 //
 // A spring that reaches H only where it is several times as stiff as at first is no longer a penalty: no limit then.
 inline constexpr double hardest = 0.5;  // H / (kappa g_s)
-inline constexpr double half_indentation =
-    0.0025;  // d_0, of the edge, for each surface that indents
-inline constexpr double deepest_indentation = 0.1;  // the same: more than that is the mesh's
+inline constexpr double half_indentation = 0.0025;  // d_0 over the edge, of each that indents
+inline constexpr double deepest_indentation = 0.1;  // likewise: more than that is the mesh's
 inline constexpr double fitting_strain = 0.05;      // -
 inline constexpr double no_hardness = std::numeric_limits<double>::infinity();  // never indents
 

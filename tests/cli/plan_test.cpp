@@ -260,8 +260,9 @@ TEST(Plan, BodiesAreComputedInTwoPassesOverTheChunks) {
   for (const StagePlan& stage : asked.experiment.simulation.plan().stages)
     if (stage.by_chunk) passes.push_back(stage.systems);
   EXPECT_THAT(passes, ElementsAre(ElementsAre("trial_stress", "j2_return_map", "internal_force",
-                                              "stable_time_step"),
-                                  ElementsAre("contact_force", "integrate", "contact_curve")));
+                                              "stable_time_step", "highest_mode"),
+                                  ElementsAre("contact_force", "integrate", "contact_curve",
+                                              "surface_hardness")));
 }
 
 // ---- no idle column -----------------------------------------------------------------------------
@@ -276,8 +277,10 @@ const Names shown{"tool/force",
 // Read and written by one and the same system through Write: history of a contact row, sums.
 const Names kept_by_their_writer{"contact/activation",   "tool_contact/activation",
                                  "contact/elastic_slip", "tool_contact/elastic_slip",
+                                 "contact/indentation",  "tool_contact/indentation",
                                  "curve/force",          "curve/before",
-                                 "node/damping_force"};
+                                 "node/damping_force",   "node/highest_mode",
+                                 "particle/mode_gain"};
 
 class NoIdleColumn : public ::testing::TestWithParam<const char*> {};
 
@@ -303,6 +306,8 @@ TEST_P(NoIdleColumn, EveryColumnIsWrittenBySomebodyOrByTheScene) {
                            "particle/hardening_modulus",
                            "particle/mass_damping",
                            "particle/stiffness_damping",
+                           "boundary/contact_support",
+                           "node/inertance",
                            "constrained_node/direction",
                            "constrained_node/origin",
                            "constrained_node/target",

@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(ResumeTest, CheckpointsFollowTheSimulatedTime) {
   const Course course{"", "compaction/regular-25.toml", fast_punch, 0, {}};
   Words words = with(run_words(course, "run"), {"--checkpoint-time", "10 us"});
-  ASSERT_EQ(pulvis(until(words, 450, 1)).code, 130);  // some 35 us
+  ASSERT_EQ(pulvis(until(words, 600, 1)).code, 130);  // some 35 us
   const auto files = checkpoints("run");              // the newest first: that of the stop
   ASSERT_EQ(files.size(), 2U);
   const double stopped = Checkpoint(files[0]).info().time;

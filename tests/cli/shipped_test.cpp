@@ -68,7 +68,8 @@ TEST_P(Shipped, KeepsItsEnergyBalance) {
     e.row = e.results.sample();
     const Energies& now = e.results.energies();
     EXPECT_GE(now.plastic, before.plastic);
-    EXPECT_GE(now.friction, before.friction);
+    // Of a point that turns round in the step in which its limit falls it is a little too small (docs/theory.md, "Friction").
+    EXPECT_GE(now.friction, before.friction - 1e-9 * e.results.energies().external);
     EXPECT_GE(now.damping, before.damping);
     before = now;
     if (updates(static_cast<double>(clock().step)) >= most_updates_of(e.scene)) break;

@@ -25,6 +25,7 @@ TEST(Compaction, UnitCellConvergesWithTheMesh) {
                  std::string("particle.disc.mesh.rings=") + (edges[0] == '8' ? "2" : "1")});
     double sum = 0;
     for (const UnitCellReference& r : unit_cell_reference) {
+      if (r.density < table_holds_from) continue;
       sum += std::pow(at(curve.density, curve.lateral, r.density) / r.lateral - 1, 2);
       sum += std::pow(at(curve.density, curve.axial, r.density) / r.axial - 1, 2);
     }
@@ -160,6 +161,8 @@ outline = "rectangle"
 width = "10 mm"
 height = "10 mm"
 mesh = { columns = 4, rows = 4 }
+[contact]
+stiffness = 0.5
 [[stage]]
 name = "press"
 duration = "0.3 ms"

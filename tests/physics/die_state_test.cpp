@@ -16,6 +16,7 @@ struct Die {
   const char *force, *position;           // series of the top
 };
 
+// A state has no indentations: nothing indents.
 const std::string copper = R"(
 [[material]]
 name = "Cu"
@@ -25,6 +26,7 @@ poissons_ratio = 0.35
 yield_stress = "50 MPa"
 hardening_modulus = "440 MPa"
 [contact]
+hardness = 1000
 friction = 0.1
 damping = 0.2
 [die]

@@ -74,7 +74,7 @@ TEST_P(ObliqueImpact, OfDiscsOfOneAndFourElementsKeepsThemToo) {
   for (const char* edges : {"4", "8"})
     for (const char* formulation : {"one-point", "four-point"})
       expect_momentum_and_energy_kept(
-          {std::string("contact.friction=") + GetParam(),
+          {std::string("contact.friction=") + GetParam(), "contact.stiffness=0.5",
            std::string("particle.disc.mesh.boundary_edges=") + edges, "particle.disc.mesh.rings=0",
            std::string("element.formulation=") + formulation},
           1e-8 * 3.14 * 10e-3 / std::stod(edges),

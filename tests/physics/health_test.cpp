@@ -34,9 +34,10 @@ std::string step_now(const Simulation& simulation) {
 // ---- too fast -------------------------------------------------------------------------------------
 // 2 km/s: the punch is through the first row before the particles can get out of its way.
 TEST(Health, AbsurdPunchIsNamedWithBothSides) {
-  Experiment e(
-      "compaction/regular-25.toml",
-      {"stage.press.duration=10 us", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]"}, 2);
+  Experiment e("compaction/regular-25.toml",
+               {"stage.press.duration=10 us",
+                "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]", "contact.stiffness=0.5"},
+               2);
   const std::string failure = failure_of(e.simulation, 10000);
   EXPECT_THAT(failure,
               ContainsRegex("^(tool_contact: particle 2[0-4], edge [0-9]+ against tool 'top'|"
@@ -55,8 +56,9 @@ TEST(Health, ElementTurnedInsideOutIsNamed) {
        "limits.penetration=1e6"},
       2);
   const std::string failure = failure_of(e.simulation, 10000);
-  EXPECT_THAT(failure,
-              ContainsRegex("^element_health: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
+  EXPECT_THAT(
+      failure,
+      ContainsRegex("^element_health: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
   EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
 }
 
@@ -167,7 +169,7 @@ TEST(Health, BodiesInTheirDieAreNotLost) {
 
 // ---- limits of the scene --------------------------------------------------------------------------
 TEST(Health, PenetrationLimitNamesParticleAndTool) {
-  Experiment e("compaction/unit-cell.toml", {"limits.penetration=0.01"});
+  Experiment e("compaction/unit-cell.toml", {"limits.penetration=0.01", "contact.stiffness=0.5"});
   const std::string failure = failure_of(e.simulation, 100000);
   EXPECT_THAT(failure,
               ContainsRegex("^tool_contact: particle 0, edge [0-9]+ against tool '[a-z]+': "));

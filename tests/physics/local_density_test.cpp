@@ -77,7 +77,7 @@ TEST(LocalDensity, AddsUpToTheAreaOfTheParticlesOnAnyGrid) {
 // is missing of their deformed area.
 TEST(LocalDensity, OfACompactMissesOnlyWhatReachesIntoTheTools) {
   const std::vector<std::string> short_run{"stage.press.duration=0.7 ms",
-                                           "output.particle_stress=true"};
+                                           "output.particle_stress=true", "contact.hardness=1000"};
   auto with = [&](const std::string& cells) {
     auto all = short_run;
     all.push_back("output.density_cells=" + cells);

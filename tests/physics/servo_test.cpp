@@ -152,7 +152,8 @@ TEST(Servo, KeepsTheLateralForceOfABiaxialTestOnABlock) {
                          servo("top", 1000, 0.5) + stage("press", "compact", 1) +
                          "[[stage.move]]\ntool = \"top\"\ndisplacement = [\"0 mm\", \"-0.5 mm\"]\n"
                          "ramp = 0.3\n" +
-                         servo("right", 1000, 0.2) + "[contact]\nfriction = 0\ndamping = 0.1\n"));
+                         servo("right", 1000, 0.2) +
+                         "[contact]\nfriction = 0\ndamping = 0.1\nstiffness = 0.5\n"));
   double off = 0, off_at_yield = 0;
   e.run(400, [&] {
     const double time = e.simulation.clock().time * 1e3;

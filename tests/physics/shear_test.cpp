@@ -192,7 +192,8 @@ TEST(Shear, StaticFrictionFadesAsTheLawSays) {
 }
 
 double dynamic_friction_with_strength(const char* strength) {
-  Experiment e = sheared(std::string("coefficient = 0.3\nshear_strength = \"") + strength + "\"\n");
+  Experiment e = sheared(std::string("coefficient = 0.3\nshear_strength = \"") + strength + "\"\n",
+                         {"contact.stiffness=0.5"});
   e.run(400);
   const auto figures = e.results.shear().figures();
   EXPECT_TRUE(figures);

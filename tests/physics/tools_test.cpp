@@ -95,6 +95,7 @@ name = "fall"
 kind = "settle"
 duration = "0.05 ms"
 [contact]
+stiffness = 0.5
 friction = 0.3
 damping = 0.1
 [[tool]]
@@ -165,6 +166,8 @@ velocity = ["20 m/s", "-4 m/s"]
 name = "fly"
 kind = "settle"
 duration = "1.5 ms"
+[time]
+safety = 0.6
 [[tool]]
 name = "waves"
 shape = "polyline"
@@ -224,6 +227,7 @@ tool = "clamp"
 displacement = ["0.05 mm", "0.01 mm"]
 ramp = 0.2
 [contact]
+stiffness = 0.5
 friction = 0.3
 damping = 0.5)";
 

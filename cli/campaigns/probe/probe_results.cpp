@@ -40,8 +40,8 @@ double at_time(const std::vector<double>& times, const std::vector<double>& valu
 // J, dissipated so far.
 std::vector<double> dissipation_of(const StudyResult& result) {
   std::vector<double> sum = result.series("energy/plastic");
-  for (const char* name :
-       {"energy/friction", "energy/damping", "energy/bulk_damping", "energy/fracture"}) {
+  for (const char* name : {"energy/indentation", "energy/friction", "energy/damping",
+                           "energy/bulk_damping", "energy/fracture"}) {
     const std::vector<double>& one = result.series(name);
     for (std::size_t i = 0; i < std::min(sum.size(), one.size()); ++i) sum[i] += one[i];
   }

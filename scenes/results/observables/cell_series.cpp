@@ -20,7 +20,8 @@ CellFigures with_energies(CellFigures f, const Observation& now, double area) {
   const double volume = area * now.world.resource<Bodies>().thickness;
   f.density = now.powder / area;
   f.stored = (e.elastic + e.hourglass + e.contact + e.bonds) / volume;
-  f.dissipated = (e.plastic + e.friction + e.damping + e.bulk_damping + e.fracture) / volume;
+  f.dissipated =
+      (e.plastic + e.indentation + e.friction + e.damping + e.bulk_damping + e.fracture) / volume;
   return f;
 }
 

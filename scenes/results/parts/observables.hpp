@@ -18,15 +18,15 @@ class ShearResults;
 
 // Energies of the whole scene at t_n, J. `balance` is the remainder of the others: 0 in a perfect run.
 struct Energies {
-  double kinetic = 0, elastic = 0, plastic = 0, hourglass = 0, contact = 0;
+  double kinetic = 0, elastic = 0, plastic = 0, hourglass = 0, contact = 0, indentation = 0;
   double friction = 0, damping = 0, bulk_damping = 0, bonds = 0, fracture = 0;
   double external = 0, balance = 0;
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(kinetic, elastic, plastic, hourglass, contact, friction, damping, bulk_damping, bonds,
-          fracture, external, balance);
+    bytes(kinetic, elastic, plastic, hourglass, contact, indentation, friction, damping,
+          bulk_damping, bonds, fracture, external, balance);
   }
-  double internal() const { return elastic + plastic + hourglass; }
+  double internal() const { return elastic + plastic + hourglass + indentation; }
 };
 
 // What the rows read at a sample.

@@ -121,7 +121,7 @@ struct WeakeningPass {
   Lane lost;     // of the static part of friction
 };
 
-// Returns the loss of the static part: zero where the surfaces are apart.
+// Returns the loss of the static part: zero where the surfaces are apart. One in its indentation is not apart.
 [[gnu::noinline]] inline Lane add_weakening_friction(const WeakeningPass& pass, const PointLaw& law,
                                                      const PointMotion& m, double dt,
                                                      const Lane& pressure,
@@ -130,7 +130,7 @@ struct WeakeningPass {
       [&](const auto& number) { return Lane(number(pass.of_pair)); }, pass.share, pass.lost,
       sqrt(dot(m.slip, m.slip)));
   add_friction(law, m, dt, pressure, before, sliding, f);
-  return select(m.pressing() > 0.0, sliding.lost, Lane{});
+  return select(m.depth() > 0.0, sliding.lost, Lane{});
 }
 
 // ---- sums -----------------------------------------------------------------------------------------------

@@ -86,7 +86,8 @@ TEST(NetworkInSpace, GivesEveryParticleAndToolItsForce) {
 
 // Held, with damping enough for it to come to rest: the forces on each particle cancel.
 TEST(NetworkInSpace, IsInEquilibriumAtRest) {
-  Scene scene = body_centred({"contact.damping=0.5", "contact.friction=0.3"});
+  Scene scene = body_centred({"contact.damping=0.5", "contact.friction=0.3",
+                              "material.316L.damping.stiffness_proportional=40 ns"});
   scene.stages.front().duration = 0.4e-3;
   scene.stages.emplace_back().duration = 0.6e-3;
   Experiment e(std::move(scene));

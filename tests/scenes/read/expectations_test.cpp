@@ -214,7 +214,7 @@ TEST_F(Program, ASampleWithoutAValueIsLikeNoOther) {
 }
 
 TEST_F(Program, AStopThatIsExpected) {
-  const std::string limit = "[limits]\npenetration = 1e-4\n";
+  const std::string limit = "[limits]\npenetration = 1e-5\n";
   EXPECT_EQ(run(pressed + limit), 3);
   EXPECT_EQ(run(pressed + limit + expect("series = \"dt\"\nabove = 0")), 3);
   EXPECT_THAT(out, HasSubstr("NOT met  outcome: stopped: tool_contact: particle 0"));

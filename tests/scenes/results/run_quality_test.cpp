@@ -137,7 +137,8 @@ TEST(RunQuality, JudgesKineticEnergyUnderLoad) {
   for (const auto& [scene, changes] :
        {std::pair("basic/disc-platens.toml", coarse_disc()),
         {"compaction-3d/one-sphere.toml", Changes{"accuracy=draft"}}}) {
-    Experiment e(scene, with(changes, "output.samples=200"));
+    // With soft springs the sample at first touch bears less than a tenth of the load.
+    Experiment e(scene, with(with(changes, "contact.stiffness=0.5"), "output.samples=200"));
     const std::string force = e.scene.in_space() ? "tool/top/force_z" : "tool/top/force_y";
     const std::string other = e.scene.in_space() ? "tool/bottom/force_z" : "tool/bottom/force_y";
     struct Sample {
@@ -159,7 +160,7 @@ TEST(RunQuality, JudgesKineticEnergyUnderLoad) {
       if (load > 0.1 * largest && internal > 0.01 * most_internal)
         under_load = std::max(under_load, ratio);
     EXPECT_NEAR(e.results.kinetic_ratio() / under_load, 1, 1e-6) << scene;
-    EXPECT_LE(e.results.kinetic_ratio(), at_first_touch) << scene;
+    EXPECT_LT(e.results.kinetic_ratio(), at_first_touch) << scene;
     EXPECT_GT(e.results.kinetic_ratio(), 0) << scene;
   }
 }

@@ -20,7 +20,7 @@ TEST(Inerter, DoesNotActOnRigidMotion) {
   const V v = cross(omega, x), a = cross(omega, v);
   const auto turning = inerter(x, v, a, 1.0);
   EXPECT_NEAR(inerter_force(turning), 0, 1e-14);
-  EXPECT_NEAR(inerter_energy(x, v, 1.0, 0.9), 0, 1e-15);
+  EXPECT_NEAR(inerter_energy(x, v, v, 1.0, 0.9), 0, 1e-15);
   EXPECT_LT(inerter_force(inerter(x, v, V{0, 0, 0}, 1.0)), -1);  // free nodes would fly apart
   for (const double f : inerter_forces(turning, turning, 0.3)) EXPECT_NEAR(f, 0, 1e-13);
 }
@@ -44,8 +44,9 @@ TEST(Inerter, SlowsDownStretching) {
     x1 += v1 * dt;
     x2 += v2 * dt;
     if (x1 - x2 < rest) crossed = i * dt;
-    const double kinetic = 0.5 * (m1 * v1 * v1 + m2 * v2 * v2) +
-                           inerter_energy(V{x1 - x2, 0, 0}, V{v1 - v2, 0, 0}, mu, c);
+    const double kinetic =
+        0.5 * (m1 * v1 * v1 + m2 * v2 * v2) +
+        inerter_energy(V{x1 - x2, 0, 0}, V{v1 - v2, 0, 0}, V{v1 - v2, 0, 0}, mu, c);
     EXPECT_NEAR((kinetic + 0.5 * k * std::pow(x1 - x2 - rest, 2)) / energy, 1, 2e-3);
   }
   EXPECT_NEAR(crossed * omega, std::numbers::pi / 2, 3e-3);
@@ -91,6 +92,51 @@ TEST(Inerter, SharesANodeWithAnother) {
                  second = (dot(d, apart(a, link)) + dot(w, w) - rate * rate) / L;
     const double b = reduced(link) * c / (1 - c);
     EXPECT_NEAR(pull[link] * L, -b * second, 1e-12) << link;
+  }
+}
+
+// Four masses in a bent ring: the same.
+TEST(Inerter, FormsARing) {
+  constexpr std::array<double, 4> m{1, 2, 4, 3};
+  constexpr double c = 0.9;
+  const std::array<V, 4> x{{{0, 0, 0.1}, {1, 0.2, 0}, {1.2, 0.9, -0.2}, {-0.1, 1.1, 0}}},
+      v{{{0.5, -1, 2}, {0, 1, -1}, {0.3, 0.2, 0.4}, {-1, 0, 1}}},
+      f{{{1, 2, 3}, {-2, 0, 1}, {0, 5, -1}, {2, -2, 1}}};
+  const auto apart = [](const std::array<V, 4>& of, std::size_t link) {
+    V d;
+    for (std::size_t k = 0; k < 3; ++k) d[k] = of[link][k] - of[(link + 1) % 4][k];
+    return d;
+  };
+  const auto accelerations = [&](const std::array<V, 4>& forces) {
+    std::array<V, 4> a;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 3; ++k) a[i][k] = forces[i][k] / m[i];
+    return a;
+  };
+  const auto reduced = [&](std::size_t link) {
+    const double next = m[(link + 1) % 4];
+    return m[link] * next / (m[link] + next);
+  };
+  const auto bare = accelerations(f);
+  std::array<Inerter<double>, 4> of;
+  std::array<double, 4> coupling;
+  for (std::size_t i = 0; i < 4; ++i) {
+    of[i] = inerter(apart(x, i), apart(v, i), apart(bare, i), c * reduced(i));
+    coupling[i] = dot(apart(x, (i + 3) % 4), apart(x, i)) / m[i];
+  }
+  const auto pull = inerter_ring_forces(of, coupling);
+  std::array<V, 4> with = f;
+  for (std::size_t link = 0; link < 4; ++link)
+    for (std::size_t k = 0; k < 3; ++k) {
+      with[link][k] += pull[link] * apart(x, link)[k];
+      with[(link + 1) % 4][k] -= pull[link] * apart(x, link)[k];
+    }
+  const auto a = accelerations(with);
+  for (std::size_t link = 0; link < 4; ++link) {
+    const V d = apart(x, link), w = apart(v, link);
+    const double L = std::sqrt(dot(d, d)), rate = dot(d, w) / L,
+                 second = (dot(d, apart(a, link)) + dot(w, w) - rate * rate) / L;
+    EXPECT_NEAR(pull[link] * L, -reduced(link) * c / (1 - c) * second, 1e-12) << link;
   }
 }
 

@@ -63,7 +63,8 @@ TEST(SpaceBonds, CarryNothingWhereTheyWereMade) {
   GluedBalls w(unbreakable);
   EXPECT_GT(w.bonds().made[0], 50);
   EXPECT_GT(w.bonds().area, 1e-6);
-  EXPECT_LT(w.bonds().energy, 1e-14);
+  EXPECT_LT(w.bonds().energy,
+            1e-14);  // J, round-off of places on bonds ten times as stiff as the balls
 }
 
 TEST(SpaceBonds, ForceIsMinusTheGradientOfTheEnergy) {
