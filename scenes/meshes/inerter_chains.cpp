@@ -143,8 +143,8 @@ InerterChains chains_of(const AnyShape& shape) {
   InerterChains chains;
   std::vector<bool> taken(shape.nodes.size(), false);
   const auto take = [&](std::int32_t n) { taken[static_cast<std::size_t>(n)] = true; };
-  constexpr double sharp = 0.5;  // cosine
   // No side leads inwards from a corner, or from the edge of a body: it moves with the two nodes beside it and the one across.
+  constexpr double sharp = 0.5;  // cosine of the angle there: none at the tip of a star
   for (std::array<std::int32_t, 4> quad : inner_quads(shape)) {
     const auto corner = std::ranges::find_if(quad, [&](std::int32_t n) {
       return n < shape.boundary_nodes && entry(neighbours, n).empty();
@@ -153,7 +153,7 @@ InerterChains chains_of(const AnyShape& shape) {
           return taken[static_cast<std::size_t>(n)];
         }))
       continue;
-    std::ranges::rotate(quad, corner);
+    std::rotate(quad.begin(), corner, quad.end());
     if (std::abs(alignment(shape, quad[1], quad[0], quad[3])) > sharp) continue;
     InerterChains::Chain& ring = chains.all.emplace_back();
     ring.links = links_of_ring;

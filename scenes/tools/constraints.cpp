@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 
 #include "components/dimension.hpp"
@@ -161,7 +162,9 @@ void remove_inerters(World& world, const std::vector<Held>& by_node) {
                                    [&](const Held& h) { return place(h) != place(*first); });
     if (bodies.owns(first->chunk * lane_count + first->lane)) {
       const auto held = [&](Row<Node> node) {
-        return std::ranges::equal_range(first, last, node.value, {}, &Held::node);
+        const auto before = [](const Held& h, std::int32_t n) { return h.node < n; };
+        const auto begin = std::lower_bound(first, last, node.value, before);
+        return std::span(begin, std::lower_bound(begin, last, node.value + 1, before));
       };
       Lane* of_chunk = inertance.lanes() + entry(inertance.table.chunk_begin, first->chunk);
       for (const InerterChains::Chain& chain : shape_of_chunk<D>(world, first->chunk).chains.all)
