@@ -25,6 +25,7 @@ seeds = [1, 2]
 "stage.press.move[0].displacement" = ["0 mm", "-0.4 mm"]
 output.frames = 2
 output.samples = 40
+"contact.stiffness" = 0.5
 [grid]
 contact.friction = [0.1, 0.3]
 [[fit]]
