@@ -196,16 +196,16 @@ template <class At>
     store_points(free, (1 / share) * f.pressure, half, &(*c.bonding->weld)(row));
 }
 
-// Law, columns and sums for those of two candidates that touch (bit 0, bit 1). Returns their friction traction times
-// weight [N] (needed for the slope load on the other body).
+// Law, columns and sums for those of two candidates that touch (bit 0, bit 1); those in `bearing` count as contacts. Returns
+// their friction traction times weight [N] (needed for the slope load on the other body).
 template <class At>
 [[gnu::always_inline]] inline Lane act_by(const RowColumns<At>& c, const TwoCandidates<At>& two,
-                                          unsigned touching, const PointMotion& m,
+                                          unsigned touching, unsigned bearing, const PointMotion& m,
                                           const PointMotion& pressing, double share, double dt,
                                           LaneSums& sums) {
   const PointForces f = forces_of(c, two, touching, m, pressing, share, dt);
   sums.add(f, touching);
-  sums.add_depth(two, touching, pressing.gap * at_candidates(c.law, two, ContactLaw<At>::inv_size));
+  sums.add_depth(two, bearing, pressing.gap * at_candidates(c.law, two, ContactLaw<At>::inv_size));
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0) keep(c, entry(two, half), half, f, share);
   return f.along;
@@ -231,6 +231,14 @@ PointMotion indented(const RowColumns<At>& c, const TwoCandidates<At>& two, unsi
   return m;
 }
 
+// Those of the touching whose points are not all inside their indentations, where nothing acts.
+template <class At>
+unsigned bearing_of(const RowColumns<At>& c, const TwoCandidates<At>& two, unsigned touching,
+                    const PointMotion& pressing) {
+  const unsigned points = (~(pressing.gap <= -range_of(c, two))).bits();  // NaN acts
+  return touching & ((half_of(points, 0) != 0 ? 1U : 0U) | (half_of(points, 1) != 0 ? 2U : 0U));
+}
+
 // Kept apart: most scenes have no such surfaces.
 template <class At, class FindHardness>
 [[gnu::noinline, gnu::flatten]] Lane act_indenting(const RowColumns<At>& c,
@@ -239,7 +247,8 @@ template <class At, class FindHardness>
                                                    LaneSums& sums,
                                                    const FindHardness& find_hardness) {
   const PointMotion pressing = indented(c, two, touching, m, find_hardness(), share, sums);
-  return act_by(c, two, touching, m, pressing, share, dt, sums);
+  return act_by(c, two, touching, bearing_of(c, two, touching, pressing), m, pressing, share, dt,
+                sums);
 }
 
 // `find_hardness()`: of the surfaces at the points; asked only where surfaces indent.
@@ -249,7 +258,7 @@ template <class At, class FindHardness>
                           const FindHardness& find_hardness) {
   if (c.state.indentation)
     return act_indenting(c, two, touching, m, share, dt, sums, find_hardness);
-  return act_by(c, two, touching, m, m, share, dt, sums);
+  return act_by(c, two, touching, touching, m, m, share, dt, sums);
 }
 
 // The forces of contact on bonded points, whose indentation stays as it is.

@@ -48,12 +48,12 @@ struct LaneSums {
     damping_work += select(touch, f.damping_work, Lane{});
   }
   template <class At>
-  [[gnu::always_inline]] void add_depth(const TwoCandidates<At>& two, unsigned touching,
+  [[gnu::always_inline]] void add_depth(const TwoCandidates<At>& two, unsigned bearing,
                                         const Lane& depth) {
-    const LaneMask touch = LaneMask::of(entry(lanes_of_halves, touching));
-    const bool deeper = any(touch & ~(depth <= block.depth));
+    const LaneMask bear = LaneMask::of(entry(lanes_of_halves, bearing));
+    const bool deeper = any(bear & ~(depth <= block.depth));
     for (int half = 0; half < 2; ++half) {
-      if ((touching >> half & 1) == 0) continue;
+      if ((bearing >> half & 1) == 0) continue;
       block.touching += 1;
       if (deeper) record_depth(entry(two, half), greatest_of_half(depth, half), block);
     }

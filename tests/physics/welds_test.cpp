@@ -12,10 +12,7 @@ namespace pulvis {
 namespace {
 
 // Pressed, unloaded and without walls: how many boundary edges still touch another particle.
-struct Ejected {
-  double touching, pressing;  // -; J, in the springs of contacts
-};
-Ejected after_ejection(const char* scene, const std::vector<std::string>& more) {
+double touching_after_ejection(const char* scene, const std::vector<std::string>& more) {
   std::vector<std::string> overrides{
       "packing[0].width=40 mm", "packing[0].class[0].number=16",
       "tool.right.point=[\"40 mm\", \"0 mm\"]",
@@ -27,18 +24,18 @@ Ejected after_ejection(const char* scene, const std::vector<std::string>& more) 
   e.run(40, [&] { largest = std::max(largest, e.value("contacts")); });
   EXPECT_GT(largest, 100);
   EXPECT_LT(e.results.energy_balance_error(), 0.01);
-  return {e.value("contacts"), e.value("energy/contact")};
+  return e.value("contacts");
 }
 
 TEST(Glue, OfColdWeldingHoldsACompactTogether) {
-  EXPECT_LT(after_ejection("bonds/loose-compact.toml", {}).pressing, 1e-12);
-  const Ejected welded =
-      after_ejection("bonds/green-strength.toml",
-                     {"stage.split.duration=1 us",
-                      "stage.split.move.left-platen.displacement=[\"1e-6 mm\", \"0 mm\"]",
-                      "stage.split.move.right-platen.displacement=[\"-1e-6 mm\", \"0 mm\"]"});
-  EXPECT_GT(welded.touching, 50);
-  EXPECT_GT(welded.pressing, 1e-9);
+  // One or two touch as they fly past each other.
+  EXPECT_LE(touching_after_ejection("bonds/loose-compact.toml", {}), 2);
+  EXPECT_GT(touching_after_ejection(
+                "bonds/green-strength.toml",
+                {"stage.split.duration=1 us",
+                 "stage.split.move.left-platen.displacement=[\"1e-6 mm\", \"0 mm\"]",
+                 "stage.split.move.right-platen.displacement=[\"-1e-6 mm\", \"0 mm\"]"}),
+            50);
 }
 
 // A block pressed onto another and lifted: every step is looked at, those in which points weld, too.

@@ -243,7 +243,11 @@ class PairPass {
     }
     const PointLaw law = law_of(eight, motion[7], motion[6]);
     Lane pressure, indenting{};
-    if (hardness_ != nullptr) indenting = indent(law, indentation, hardness_of(eight), share, m);
+    if (hardness_ != nullptr) {
+      indenting = indent(law, indentation, hardness_of(eight), share, m);
+      // Inside an indentation nothing acts but adhesion.
+      if (!eight.bonded && adhesion_.range == 0) touching = touching & ~(m.pressing() <= 0.0);
+    }
     PointForces f = normal_forces(law, m, s_.clock->dt_before, pressure);
     f.indentation_work = select(real, indenting * law.weight, Lane{});
     if (rubs_) {

@@ -138,7 +138,6 @@ void act(const tool_contact& s, const ToolRow& of, RowMotion& motion, ToolSums& 
   const double dt = s.clock->dt_before;
   const bool new_touch = c.touches(row) == 0;
   c.touches(row) = 1;
-  sums.contact.block.touching += 1;
   Lane deepest{};
   for (int half = 0; half < 2; ++half) {
     if (!motion.touches(half)) {
@@ -181,7 +180,11 @@ void act(const tool_contact& s, const ToolRow& of, RowMotion& motion, ToolSums& 
     sums.contact.add(f);
     deepest = max(m.pressing(), deepest);
   }
-  sums.contact.record_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
+  const double depth = FaceSums::greatest(deepest);
+  // Where all points are inside their indentations, nothing acts.
+  if (!c.indentation || !(depth <= 0) || motion.bonded != 0 || of.rules.adhesion.range > 0)
+    sums.contact.block.touching += 1;
+  sums.contact.record_depth(row.value, depth * c.law(row, Law::inv_size));
 }
 
 struct ToolPass {

@@ -89,16 +89,16 @@ TEST(DensityInSpace, OfABodyCentredCellIsAlikeInAllOctants) {
 // With planes drawn back, so that no particle reaches into one.
 TEST(DensityInSpace, HoldsTheVolumeOfTheDeformedElementsWhateverTheGrid) {
   for (const char* cells : {"[1, 1, 1]", "[3, 4, 5]", "[17, 16, 15]"}) {
-    Scene scene = scene_with_cells(
-        "unit-cell-bcc.toml", cells,
-        {"let.move=0.6 mm", "stage.press.duration=0.04 ms", "contact.stiffness=0.5"});
+    Scene scene = scene_with_cells("unit-cell-bcc.toml", cells,
+                                   {"let.move=0.6 mm", "stage.press.duration=0.04 ms"});
     Experiment e(std::move(scene));
     e.run(1);
     World& world = e.simulation.world();
     for (const int side : world.resource<DensityGrid>().between.tool)
       for (int k = 0; k < 3; ++k) {
         const Vec3 normal = e.scene.tools[static_cast<std::size_t>(side)].normal;
-        world.column<ToolPosition>().values()[tool_axes * side + k] -= 1e-3 * normal[k];
+        world.resource<ToolProgram>()
+            .start[static_cast<std::size_t>(side)][static_cast<std::size_t>(k)] -= 1e-3 * normal[k];
       }
     const double volume = volume_of_elements(e);
     EXPECT_NEAR(total(observed_grid(e).filled), volume, 1e-10 * volume) << cells;

@@ -93,10 +93,9 @@ duration = "0.4 ms"
 damping = 0.5
 )";
 
-Scene tablet_in_a_die(double friction) {
-  // Stiff springs would let the tablet ring in the die.
-  return own_scene(set_up + plates("16.4 mm") + stages,
-                   {"contact.friction=" + std::to_string(friction), "contact.stiffness=0.5"});
+Scene tablet_in_a_die(double friction, std::vector<std::string> overrides = {}) {
+  overrides.push_back("contact.friction=" + std::to_string(friction));
+  return own_scene(set_up + plates("16.4 mm") + stages, overrides);
 }
 
 using Places = std::vector<Vec3>;  // of the nodes
@@ -140,7 +139,8 @@ double force_on_wall(const Experiment& e) {
 // Law: by the theorem of the mean stress, a wall that bears N at a radius R holds a body of volume V with N R/(2 V) in its plane,
 // whatever the distribution. Without axial stress, this holds it (1 - nu) N R/(2 V E) too narrow.
 TEST(Ejection, ReleasesTheStressThatTheWallBore) {
-  Experiment e(tablet_in_a_die(0));
+  // With stiff springs the wall keeps more of its stress, at the yield stress, and the tablet flows as it is let go.
+  Experiment e(tablet_in_a_die(0, {"contact.stiffness=0.5"}));
   double wall = 0, released = 0, volume = 0;
   Places held;
   int samples = 0;
