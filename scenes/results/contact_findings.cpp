@@ -10,6 +10,7 @@ namespace pulvis {
 namespace {
 
 constexpr double stiffest = 100;    // largest value that a scene may have
+constexpr double hard = 1000;       // largest hardness that a scene may have: nothing indents
 constexpr double min_force = 1e-3;  // of the largest: below it an approach has no meaning
 
 // y at x, of a curve with ascending xs; 0 before its start.
@@ -23,7 +24,9 @@ double value_at(const std::vector<double>& xs, const std::vector<double>& ys, do
 }  // namespace
 
 ContactLoading::ContactLoading(const Scene& scene)
-    : in_space_(scene.in_space()), stiffness_(scene.contact.stiffness) {
+    : in_space_(scene.in_space()),
+      indents_(scene.contact.hardness && *scene.contact.hardness < hard),
+      stiffness_(scene.contact.stiffness) {
   using Kind = StageSpec::Kind;
   bool loads = true;
   for (const StageSpec& stage : scene.stages) {
@@ -72,6 +75,7 @@ std::optional<double> ContactLoading::force_error() const {
 ContactFindings ContactLoading::findings() const {
   ContactFindings found;
   found.stiffness = stiffness_;
+  found.indents = indents_;
   found.force_error = force_error();
   if (!(heaviest_.force > 0)) return found;
   found.narrow_share = heaviest_.narrow_force / heaviest_.force;

@@ -6,8 +6,8 @@
 //              contact springs. Rigid contacts would have given F at the approach a - u, with a = integral of
 //              dW/F, W the work of the tools. So the force at a - u is too low by the share
 //              1 - F(a - u)/F(a): all from the run's own curve
-// Narrow       A contact narrower than two boundary edges, in three dimensions two faces, is not resolved
-//              (docs/accuracy.md)
+// Narrow       A contact narrower than two boundary edges, in three dimensions two faces, is not resolved; where
+//              surfaces indent, one narrower than one (docs/accuracy.md)
 // Range        up to the largest force before any shearing or unloading
 #pragma once
 
@@ -28,11 +28,16 @@ struct ContactFindings {
 
   std::optional<double> narrow_share;  // -, of the contact force, when that was largest
   double narrow_edges = 0;             // -, mean width of those contacts in boundary edges or faces
+  bool indents = false;                // the surfaces
   double edge_to_do = 0;  // m, length of edges, or size of faces, of which they would span two
   std::optional<double> force_error;  // -, of the largest force, due to penetration: < 0, too low
   double stiffness = 0;               // -, the scene's contact.stiffness
 
-  bool too_narrow() const { return narrow_share > most_narrow; }
+  // None: the narrow ones are resolved by their indentation.
+  std::optional<double> narrow_limit() const {
+    return indents && narrow_edges >= 1 ? std::nullopt : std::optional(most_narrow);
+  }
+  bool too_narrow() const { return narrow_limit() && narrow_share > narrow_limit(); }
   bool too_soft() const { return force_error && *force_error < -max_force_error; }
   double stiffness_to_do() const;
 };
@@ -56,6 +61,7 @@ class ContactLoading {
 
   std::vector<bool> loads_;  // [stages]
   bool in_space_ = false;
+  bool indents_ = false;
   double stiffness_ = 0;
   std::vector<double> approach_, force_, sunk_;  // m, N, m: of every sample
   double work_ = 0;                              // J, of the tools so far

@@ -142,7 +142,7 @@ void add_contacts(Figures& figures, const Scene& scene, const ContactFindings& c
               fmt::format("share of the largest contact force carried by contacts narrower than "
                           "two {}",
                           scene.in_space() ? "faces" : "boundary edges"),
-              *contacts.narrow_share, ContactFindings::most_narrow, finer(scene, contacts));
+              *contacts.narrow_share, contacts.narrow_limit(), finer(scene, contacts));
 }
 
 // The servo that passed its target most, relative to its tolerance.

@@ -196,18 +196,25 @@ template <class At>
     store_points(free, (1 / share) * f.pressure, half, &(*c.bonding->weld)(row));
 }
 
-// Law, columns and sums for those of two candidates that touch (bit 0, bit 1); those in `bearing` count as contacts. Returns
-// their friction traction times weight [N] (needed for the slope load on the other body).
+// Which of two candidates (bit 0, bit 1) touch, and which of these bear a force and count as contacts.
+struct Acting {
+  unsigned touching;
+  unsigned bearing;
+};
+
+// Law, columns and sums for those of two candidates that touch. Returns their friction traction
+// times weight [N] (needed for the slope load on the other body).
 template <class At>
 [[gnu::always_inline]] inline Lane act_by(const RowColumns<At>& c, const TwoCandidates<At>& two,
-                                          unsigned touching, unsigned bearing, const PointMotion& m,
+                                          const Acting& acting, const PointMotion& m,
                                           const PointMotion& pressing, double share, double dt,
                                           LaneSums& sums) {
-  const PointForces f = forces_of(c, two, touching, m, pressing, share, dt);
-  sums.add(f, touching);
-  sums.add_depth(two, bearing, pressing.gap * at_candidates(c.law, two, ContactLaw<At>::inv_size));
+  const PointForces f = forces_of(c, two, acting.touching, m, pressing, share, dt);
+  sums.add(f, acting.touching);
+  sums.add_depth(two, acting.bearing,
+                 pressing.gap * at_candidates(c.law, two, ContactLaw<At>::inv_size));
   for (int half = 0; half < 2; ++half)
-    if ((touching >> half & 1) != 0) keep(c, entry(two, half), half, f, share);
+    if ((acting.touching >> half & 1) != 0) keep(c, entry(two, half), half, f, share);
   return f.along;
 }
 
@@ -247,8 +254,8 @@ template <class At, class FindHardness>
                                                    LaneSums& sums,
                                                    const FindHardness& find_hardness) {
   const PointMotion pressing = indented(c, two, touching, m, find_hardness(), share, sums);
-  return act_by(c, two, touching, bearing_of(c, two, touching, pressing), m, pressing, share, dt,
-                sums);
+  const Acting acting{touching, bearing_of(c, two, touching, pressing)};
+  return act_by(c, two, acting, m, pressing, share, dt, sums);
 }
 
 // `find_hardness()`: of the surfaces at the points; asked only where surfaces indent.
@@ -258,7 +265,7 @@ template <class At, class FindHardness>
                           const FindHardness& find_hardness) {
   if (c.state.indentation)
     return act_indenting(c, two, touching, m, share, dt, sums, find_hardness);
-  return act_by(c, two, touching, touching, m, m, share, dt, sums);
+  return act_by(c, two, {touching, touching}, m, m, share, dt, sums);
 }
 
 // The forces of contact on bonded points, whose indentation stays as it is.
