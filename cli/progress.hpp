@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 
 namespace pulvis {
 
@@ -15,6 +16,8 @@ class Progress {
   };
   Progress(double end, std::int64_t elements, bool shown, const Before& before);
   Progress(double end, std::int64_t elements, bool shown);
+  // The simulated time at which the run will probably end.
+  void expect_end(double time) { end_ = time; }
   // Cheap; prints a few times per second on a terminal, every ten seconds into a log.
   void show(double time, std::int64_t step);
   void finish();
@@ -22,6 +25,12 @@ class Progress {
 
  private:
   using Time = std::chrono::steady_clock;
+  struct Mark {
+    double wall = 0, time = 0;  // s
+  };
+  // s of wall time to come: as fast as in the last third, since steps get shorter and more expensive.
+  double left(double wall, double time);
+
   double end_;
   std::int64_t elements_;
   bool is_shown_;
@@ -29,6 +38,7 @@ class Progress {
   bool terminal_;
   Time::time_point start_, shown_;
   bool line_open_ = false;
+  std::deque<Mark> marks_;  // of this session
 };
 
 }  // namespace pulvis

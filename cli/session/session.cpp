@@ -162,6 +162,10 @@ void Session::record() {
   compaction_.sample(results_);
   contacts_.sample(results_, simulation_->whole());
   samples_.pass(clock().time);
+  const char* const density = "relative_density";
+  progress_->expect_end(forecast_.sample(
+      simulation_->world(), clock(),
+      results_.has(density) ? results_.value(density) : std::numeric_limits<double>::quiet_NaN()));
   const bool at_an_end = has_passed_an_end() || simulation_->finished();
   check_limits(loaded_.scene, results_, simulation_->whole(), at_an_end);
   const bool is_frame = frames_.due(clock().time) || simulation_->finished();

@@ -18,6 +18,7 @@
 
 #include "cli/checkpoints.hpp"
 #include "cli/progress.hpp"
+#include "cli/session/end_forecast.hpp"
 #include "cli/session/ranks.hpp"
 #include "cli/session/session_hooks.hpp"
 #include "cli/summary.hpp"
@@ -145,6 +146,7 @@ class Session {
   std::chrono::steady_clock::time_point ticked_{};
   Checkpoints checkpoints_;
   std::unique_ptr<Recorder> recorder_;
+  EndForecast forecast_;
   std::unique_ptr<Progress> progress_;
 };
 
