@@ -66,12 +66,6 @@ function(add_python_module library)
   add_custom_command(TARGET pulvis_python POST_BUILD VERBATIM
     COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_BINARY_DIR}/python PYTHONDONTWRITEBYTECODE=1
             ${Python3_EXECUTABLE} ${folder}/write_declarations.py ${package}/declarations.py)
-  # The API reference, built by Sphinx in <build>/python-docs.
-  add_custom_target(python_docs VERBATIM
-    COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_BINARY_DIR}/python PYTHONDONTWRITEBYTECODE=1
-            ${Python3_EXECUTABLE} -m sphinx -q -W --keep-going -b html -d ${CMAKE_BINARY_DIR}/python-docs/.trees
-            ${CMAKE_SOURCE_DIR}/docs/python-api ${CMAKE_BINARY_DIR}/python-docs
-    DEPENDS pulvis_python)
   install(FILES ${package}/declarations.py DESTINATION ${PULVIS_PYTHON_DESTINATION}/pulvis COMPONENT python)
   install(DIRECTORY ${folder}/pulvis DESTINATION ${PULVIS_PYTHON_DESTINATION} COMPONENT package
           PATTERN __pycache__ EXCLUDE)

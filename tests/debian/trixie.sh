@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Pulvis on Debian 13 (trixie), in a folder of its own: installs Debian 13 there, builds the last commit as users do, with its
-# compiler and libraries, runs the demo, imports the Python package, runs the tests of the engine, and compares the state hashes
-# of runs in 2D, of levers and of the demo with those of docs/trust.md and of this machine's program. By hand, as root.
+# compiler and libraries, runs the demo, imports the Python package, builds the documentation, runs the tests of the engine, and
+# compares the state hashes of runs in 2D, of levers and of the demo with those of docs/trust.md and of this machine's program.
+# By hand, as root.
 #
 # usage: trixie.sh [FOLDER [MIRROR]]
 #   FOLDER   (default /var/tmp/pulvis-trixie) is kept: the next time only what has changed is installed and compiled
@@ -90,6 +91,8 @@ step "./pulvis demo"
 same_demo
 step "the Python package"
 inside env PYTHONPATH=build/release/python /usr/bin/python3 -c 'import pulvis; print(pulvis.Scene("scenes/compaction/unit-cell.toml"))'
+step "./pulvis docs"
+inside ./pulvis docs
 step "tests of the engine, the schemas, the launcher"
 inside cmake --preset release -DPULVIS_WERROR=OFF -DPULVIS_TESTS=ON -DPULVIS_BENCH=OFF -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 inside cmake --build --preset release --parallel "$(nproc)" --target pulvis_and_module test_engine
