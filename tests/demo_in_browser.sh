@@ -24,7 +24,7 @@ install_packages() { :; }
 compile_program() { :; }
 die() { fail "$1"; }
 say() { fail "$1"; }
-eval "$(sed -n '/^demo() {/,/^}/p' "$source_dir/pulvis")"
+eval "$(sed -n '/^demo_run() {/,/^}/p;/^demo() {/,/^}/p' "$source_dir/pulvis")"
 
 (demo --threads 1 --quiet --set output.frames=2 --set "packing[0].rows=5" --set "packing[0].columns=5" \
   --set 'tool.right.point=["50 mm", "0 mm"]' --set 'tool.top.point=["0 mm", "50 mm"]' \

@@ -19,7 +19,7 @@ version = release = re.search(r"project\(pulvis VERSION (\S+)", (ROOT / "CMakeLi
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "outside_files", "notebooks", "pages"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext", ".ipynb": "markdown"}
 exclude_patterns = ["site", "**.ipynb_checkpoints"]
-shown_whole = {"overview": "README.md", "contributing": "CONTRIBUTING.md"}  # pages that are a file outside docs/
+shown_whole = {"contributing": "CONTRIBUTING.md"}  # pages that are a file outside docs/
 highlight_language = "none"
 toc_object_entries = False
 

@@ -63,9 +63,9 @@ def test_examples_of_docstrings(name, beside_scenes):
 
 
 def test_the_way_from_an_idea_to_a_figure(beside_scenes):
-    """The section of the README."""
-    section = (SOURCE / "README.md").read_text().split("\n## From Python\n")[1].split("\n## ")[0]
+    """The section of the overview."""
+    section = (SOURCE / "docs/overview.md").read_text().split("\n## From Python\n")[1].split("\n## ")[0]
     code = re.search(r"^```python\n(.*?)^```$", section, re.M | re.S)[1]
     assert inspect.cleandoc(code).startswith("import pulvis")
-    exec(compile(code, "README.md", "exec"), {})
+    exec(compile(code, "docs/overview.md", "exec"), {})
     assert (beside_scenes / "runs/mine/run.h5").is_file()

@@ -102,7 +102,7 @@ class Scene:
         threads : int
             Worker threads; 0: all processors. Results are bitwise identical for any number.
         folder : str or Path, optional
-            Where the run's files go (README, "What a run leaves"). Without it, nothing is written.
+            Where the run's files go (docs/overview.md, "What a run leaves"). Without it, nothing is written.
         overwrite : bool
             Replace a run that is already in the folder.
         checkpoint_every : float

@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+"""Makes docs/gallery.md: every scene below is run by the built program, and its picture drawn.
+
+  /usr/bin/python3 docs/site/gallery.py             all of them; runs that the same program has made before are kept
+  /usr/bin/python3 docs/site/gallery.py ring salt   only those whose scene has one of these in its name
+  /usr/bin/python3 docs/site/gallery.py --list
+
+Results are in build/gallery, pictures in docs/pictures/gallery. Run times are wall times of two threads of this machine.
+"""
+import argparse
+import dataclasses
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "build/release/cli/pulvis"
+RUNS = ROOT / "build/gallery"
+PICTURES = ROOT / "docs/pictures/gallery"
+
+
+@dataclasses.dataclass(frozen=True)
+class Picture:
+    scene: str          # below scenes/, without .toml
+    sentence: str
+    field: str = ""     # drawn; empty: `series`
+    series: str = ""    # drawn over `against`
+    against: str = ""
+    frame: str = ""     # empty: the last one
+    run: tuple = ()     # further options of `run`
+
+    @property
+    def name(self):
+        return self.scene.replace("/", "-").replace("+", "plus")
+
+    def command(self):
+        return " ".join(["./pulvis run", f"scenes/{self.scene}.toml", *self.run])
+
+
+CHAPTERS = {
+    "Compaction in two dimensions": (
+        Picture("compaction/regular-25", "Twenty-five discs of steel in a die; the dies of the thesis.", "effective_stress"),
+        Picture("compaction/random-100", "A hundred discs of two sizes at random, with friction.", "plastic_strain"),
+        Picture("compaction/ejection-25", "Pressed, unloaded and pushed out of the die.", "pressure"),
+        Picture("compaction/drawn-punch", "A punch with a profile from an SVG drawing.", "effective_stress"),
+        Picture("basic/traced-grain", "A grain whose outline was traced from an image.", "effective_stress"),
+        Picture("periodic/soft-pentagons", "Soft pentagons in a periodic cell, without walls.", "pressure"),
+    ),
+    "Compaction in three dimensions": (
+        Picture("compaction-3d/one-sphere", "A sphere between two plates, pressed by a quarter of its diameter.", "plastic_strain"),
+        Picture("compaction-3d/unit-cell-fcc", "The face-centred cubic cell in a closing box.", "effective_stress"),
+        Picture("compaction-3d/random-30-316L", "Thirty spheres at random, pressed to a relative density of 0.9 and released.",
+                "effective_stress", frame="52"),
+        Picture("compaction-3d/superquadrics", "Rounded cubes and octahedra.", "effective_stress"),
+        Picture("compaction-3d/tablet", "A tablet in a round die: pressed, unloaded, ejected.", "effective_stress"),
+    ),
+    "Shear and friction": (
+        Picture("shear/grooves-16", "A compact drawn over a grooved plate.", "effective_stress"),
+        Picture("shear/stick-slip", "Stick-slip of a block behind a spring.", series="tool/target/force_x"),
+        Picture("basic/oblique-impact", "A disc hits a wall at an angle, with friction.", "effective_stress"),
+    ),
+    "Bonds and breakage": (
+        Picture("bonds/brazilian-disc", "The Brazilian test: a disc of grains split across its diameter.", "damage"),
+        Picture("bonds/crushed-particle", "A brittle particle crushed between plates.", "fragment"),
+        Picture("brittle/salt-and-copper", "Brittle salt and ductile copper in one die.", "damage"),
+    ),
+    "Atomic force microscope": (
+        Picture("afm/calibration-v", "A V-shaped cantilever, calibrated with unit forces.", "displacement"),
+        Picture("afm/loop-v+14", "A friction loop on a slope of 14 degrees.", series="lateral_signal"),
+        Picture("afm/jkr-force-curve", "A force curve of a sticky sphere, with snap-in and pull-off.", series="force"),
+        Picture("afm/raster", "A raster scan of a rough surface.", "height"),
+    ),
+}
+
+
+def key_of(picture):
+    text = subprocess.run([PROGRAM, "check", "--print", ROOT / f"scenes/{picture.scene}.toml"], capture_output=True,
+                          text=True, check=True).stdout
+    program = hashlib.sha256(PROGRAM.read_bytes()).hexdigest()
+    return hashlib.sha256((program + text + " ".join(picture.run)).encode()).hexdigest()
+
+
+def run(picture):
+    """The run's folder; it is run unless that was done."""
+    folder, key = RUNS / picture.name, key_of(picture)
+    stamp = RUNS / f"{picture.name}.key"
+    if stamp.exists() and stamp.read_text() == key:
+        return folder
+    command = [PROGRAM, "run", ROOT / f"scenes/{picture.scene}.toml", "-o", folder, "--overwrite", "--threads", "2",
+               *picture.run]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{picture.scene}: exit code {done.returncode}\n{done.stderr[-2000:]}")
+    stamp.write_text(key)
+    return folder
+
+
+def draw(picture, folder):
+    options = ["--field", picture.field] if picture.field else ["--series", picture.series]
+    options += ["--against", picture.against] if picture.against else []
+    options += ["--frame", picture.frame] if picture.frame else []
+    target = PICTURES / f"{picture.name}.png"
+    done = subprocess.run([PROGRAM, "figure", folder, *options, "--no-title", "--width", "100mm", "--dpi", "130",
+                           "-o", target], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{picture.scene}: no picture\n{done.stderr[-2000:]}")
+    return target
+
+
+def seconds(folder):
+    wall = json.loads((folder / "summary.json").read_text())["wall_seconds"]
+    return "less than a second" if wall < 1 else f"{wall:.0f} s" if wall < 100 else f"{wall / 60:.0f} min"
+
+
+def page(rows):
+    cpu = re.search(r"model name\s*:\s*(.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    lines = ["# Gallery", "",
+             "Every picture is the result of one command, made by the program as it is "
+             "(`/usr/bin/python3 docs/site/gallery.py`). Run times are those of two threads of "
+             f"{'one machine' if not cpu else 'an ' + cpu[1]}, {os.cpu_count()} processors.", ""]
+    for chapter, pictures in CHAPTERS.items():
+        lines += [f"## {chapter}", ""]
+        for picture in pictures:
+            lines += [f"### {rows[picture.name][0]}", "",
+                      f"![{rows[picture.name][0]}](pictures/gallery/{picture.name}.png)", "",
+                      f"{picture.sentence} Run time {rows[picture.name][1]}.", "", "```",
+                      picture.command(), "```", ""]
+    (ROOT / "docs/gallery.md").write_text("\n".join(lines))
+
+
+def title(folder):
+    return re.search(r'^title = "(.*)"', (folder / "scene.toml").read_text(), flags=re.M)[1]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("name", nargs="*", help="only scenes with one of these in their name")
+    parser.add_argument("--list", action="store_true", help="name the scenes and stop")
+    options = parser.parse_args()
+    pictures = [p for chapter in CHAPTERS.values() for p in chapter]
+    if options.list:
+        print("\n".join(p.scene for p in pictures))
+        return
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    RUNS.mkdir(parents=True, exist_ok=True)
+    chosen = [p for p in pictures if not options.name or any(n in p.name for n in options.name)]
+    rows = {}
+    for picture in chosen:
+        folder = run(picture)
+        draw(picture, folder)
+        rows[picture.name] = (title(folder), seconds(folder))
+        print(f"{picture.scene}: {rows[picture.name][1]}", flush=True)
+    if len(chosen) == len(pictures):
+        page(rows)
+
+
+if __name__ == "__main__":
+    main()
