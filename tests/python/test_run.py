@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import pulvis
+from conftest import SCENE
 
 FAST = {"stage.press.duration": "0.1 ms", "output.samples": 20, "output.frames": 4}
 
@@ -198,3 +199,11 @@ def test_a_simulation_belongs_to_the_thread_that_runs_it(cell):
 def test_progress_is_shown(cell, capsys):
     cell.simulation().run(progress=True)
     assert "100%" in capsys.readouterr().err
+
+
+def test_running_a_finished_simulation_says_so():
+    short = {"stage.press.duration": "2 us", "stage.press.move[0].displacement": ["0 mm", "-0.01 mm"]}
+    sim = pulvis.Scene(SCENE, short).simulation(threads=1).run()
+    for again in (sim.run, lambda: sim.run_until("1 ms"), sim.step):
+        with pytest.warns(RuntimeWarning, match="has finished"):
+            again()

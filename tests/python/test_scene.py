@@ -141,3 +141,16 @@ def test_a_servo_without_time_is_told_of():
     del given["stage"][0]["move"]
     given["stage"][0].update(duration="1 us", servo=[{"tool": "top", "force": "1 N"}])
     assert any("may not reach" in line for line in pulvis.Scene(given).warnings())
+
+
+def test_one_underscore_in_place_of_a_dot_is_told():
+    with pytest.raises(pulvis.SceneError, match="contact__friction= is contact.friction"):
+        pulvis.Scene(tables(), contact_friction=0.2)
+    with pytest.raises(pulvis.SceneError) as error:
+        pulvis.Scene(tables(), contact__frictoin=0.2)
+    assert "underscores" not in str(error.value)
+
+
+def test_a_powder_has_no_lever():
+    with pytest.raises(pulvis.RunError, match="a powder has no lever"):
+        pulvis.Scene(tables()).lever()

@@ -5,12 +5,16 @@ from __future__ import annotations
 import dataclasses
 import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pulvis import _core
 from pulvis.arguments import checked_class, utf8
-from pulvis.errors import RunError
+from pulvis.errors import RunError, SceneError
 from pulvis.toml_text import toml_text, toml_value
+
+if TYPE_CHECKING:
+    from pulvis.afm import Lever
+    from pulvis.simulation import Simulation
 
 # File name of a scene without a file; its paths are relative to the working directory.
 NO_FILE = "<python>"
@@ -42,12 +46,13 @@ class Scene:
         given = dict(overrides or {})
         given.update({key.replace("__", "."): value for key, value in keys.items()})
         words = [utf8("overrides", f"{path}={toml_value(value)}") for path, value in given.items()]
-        if isinstance(source, (str, os.PathLike)):
-            self._core = _core.load_scene(utf8("scene", str(os.fspath(source))), words)
-        elif not isinstance(source, dict) and not dataclasses.is_dataclass(source):
-            raise TypeError(f"scene: a {type(source).__name__}, allowed: a path, a dict or a dataclass")
-        else:
-            self._core = _core.load_scene_text(utf8("scene", toml_text(as_tables(source))), NO_FILE, words)
+        try:
+            self._core = loaded(source, words)
+        except SceneError as error:
+            if hint := dots_meant(keys, error):
+                raise SceneError(f"{error}\n{hint}", error.file, line=error.line, column=error.column, key=error.key,
+                                 problems=error.problems) from None
+            raise
         self._source, self._given = source, given
 
     @property
@@ -94,8 +99,10 @@ class Scene:
         return Path(folder) / "scene.toml"
 
     def simulation(self, threads: int = 0, folder: str | os.PathLike[str] | None = None, overwrite: bool = False,
-                   checkpoint_every: float = 60.0, checkpoint_steps: int = 0) -> Any:
+                   checkpoint_every: float = 60.0, checkpoint_steps: int = 0) -> Simulation:
         """Creates a simulation of the scene, at its start.
+
+        A scene of the family "afm" gives its `Lever`; `lever` does the same and has its type.
 
         Parameters
         ----------
@@ -112,17 +119,30 @@ class Scene:
 
         Returns
         -------
-        Simulation, or Lever for a scene of the family "afm"
+        Simulation
         """
         if self.is_afm:
-            from pulvis.afm import Lever
-
-            return Lever(self, threads, folder, overwrite, checkpoint_every, checkpoint_steps)
+            return self.lever(threads, folder, overwrite, checkpoint_every, checkpoint_steps)  # type: ignore[return-value]
         from pulvis.simulation import Simulation
 
         where = "" if folder is None else os.fspath(folder)
         run = _core.Run(self._core, where, threads, overwrite, checkpoint_every, checkpoint_steps)
         return Simulation(run, self, folder)
+
+    def lever(self, threads: int = 0, folder: str | os.PathLike[str] | None = None, overwrite: bool = False,
+              checkpoint_every: float = 60.0, checkpoint_steps: int = 0) -> Lever:
+        """Creates the AFM lever of a scene of the family "afm", at its start; arguments as for `simulation`.
+
+        Raises
+        ------
+        RunError
+            If this is not an AFM scene.
+        """
+        if not self.is_afm:
+            raise RunError(f"{self.title}: a powder has no lever; allowed: a scene with family = \"afm\"")
+        from pulvis.afm import Lever
+
+        return Lever(self, threads, folder, overwrite, checkpoint_every, checkpoint_steps)
 
     def calibration(self, threads: int = 0) -> dict[str, float]:
         """Stiffnesses and detector constants of a lever, in SI units: dict (docs/afm.md).
@@ -134,10 +154,28 @@ class Scene:
         """
         if not self.is_afm:
             raise RunError(f"{self.title}: a powder has no lever to calibrate; allowed: a scene with family = \"afm\"")
-        return self.simulation(threads=threads).calibration
+        return self.lever(threads=threads).calibration
 
     def __repr__(self) -> str:
         return f"<pulvis.Scene {self.title!r} {self.hash}>"
+
+
+def loaded(source: Any, words: list[str]) -> Any:
+    """The scene of the compiled module."""
+    if isinstance(source, (str, os.PathLike)):
+        return _core.load_scene(utf8("scene", str(os.fspath(source))), words)
+    if not isinstance(source, dict) and not dataclasses.is_dataclass(source):
+        raise TypeError(f"scene: a {type(source).__name__}, allowed: a path, a dict or a dataclass")
+    return _core.load_scene_text(utf8("scene", toml_text(as_tables(source))), NO_FILE, words)
+
+
+def dots_meant(keys: dict[str, Any], error: SceneError) -> str:
+    """What to write where a keyword has one underscore in place of a dot, and the error is of that keyword; or ""."""
+    for key in keys:
+        if "_" in key and "__" not in key and any(key in str(problem.get("message", "")) or problem.get("key") == key
+                                                  for problem in [*error.problems, {"message": str(error)}]):
+            return f"{key}=: two underscores stand for a dot: {key.replace('_', '__', 1)}= is {key.replace('_', '.', 1)}"
+    return ""
 
 
 def as_tables(source: Any) -> Any:

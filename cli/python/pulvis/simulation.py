@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 import weakref
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -53,21 +54,34 @@ class Simulation:
         ------
         RunError
             If the run fails its checks (docs/stability.md). Its files are complete even then.
+
+        Warns
+        -----
+        RuntimeWarning
+            If the simulation has finished: it does nothing.
         """
+        self._warn_if_finished()
         with progress_bar(self, progress):
             self._run.run()
         return self
 
     def run_until(self, time: Quantity, progress: bool | None = None) -> Simulation:
         """Runs to the first step at or after `time` (seconds, ``"1 ms"``, or a pint quantity). Returns the simulation."""
+        self._warn_if_finished()
         with progress_bar(self, progress):
             self._run.run_until(in_si("time", time, "s"))
         return self
 
     def step(self, count: int = 1) -> Simulation:
         """Takes `count` steps, or fewer if the run ends first. Returns the simulation."""
+        self._warn_if_finished()
         self._run.step(count)
         return self
+
+    def _warn_if_finished(self) -> None:
+        if self.finished:
+            warnings.warn(f"the simulation has finished ({self.outcome}), and nothing is run: make another one with "
+                          "scene.simulation()", RuntimeWarning, stacklevel=3)
 
     def stop(self) -> None:
         """Makes `run` return after the current step. Call it from a callback or another thread."""
