@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from pulvis.results import Run
 
 ROUND = 0.01  # semi-axes that differ by less are equal: their directions are then those of the material
-GAUSS = np.array([-np.sqrt(0.6), 0.0, np.sqrt(0.6)]), np.array([5.0, 8.0, 5.0]) / 9  # exact for second moments of elements
+GAUSS = np.array([-1, 1]) / np.sqrt(3)
 CORNERS = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
 TO_OVITO = [0, 1, 2, 3, 5, 4]  # xx yy zz xy yz zx; OVITO: xx yy zz xy xz yz
 
@@ -34,28 +34,30 @@ class Points:
         self.cells, owner = run.mesh.cells, run.mesh.cell_particle
         dimension = run.mesh.reference.shape[1]
         corners = CORNERS[:2**dimension, :dimension]
-        at = np.array(list(itertools.product(GAUSS[0], repeat=dimension)))
-        self.weights = np.prod(list(itertools.product(GAUSS[1], repeat=dimension)), axis=1)
+        at = np.array(list(itertools.product(GAUSS, repeat=dimension)))
         factors = 0.5 * (1 + at[:, None, :] * corners)  # [points, corners, axes]
         self.shapes = factors.prod(axis=2)
         self.slopes = np.stack([0.5 * corners[:, k] * np.delete(factors, k, axis=2).prod(axis=2) for k in range(dimension)], axis=2)
-        self.count = int(owner.max()) + 1
+        self.count, self.owner_of_cell, self.points_per_cell = int(owner.max()) + 1, owner, len(at)
         self.owner = np.repeat(owner, len(at))
-        self.points_per_cell = len(at)
 
     def places(self, nodes: np.ndarray) -> np.ndarray:
         """Of the points, [points, axes], for these nodes."""
-        return np.einsum("pc,ecx->epx", self.shapes, nodes[self.cells]).reshape(-1, nodes.shape[1])
+        return (self.shapes @ nodes[self.cells]).reshape(-1, nodes.shape[1])
 
     def volumes(self, nodes: np.ndarray) -> np.ndarray:
         """Area or volume that each point stands for."""
-        jacobians = np.einsum("pck,ecx->epxk", self.slopes, nodes[self.cells])
-        return (self.weights * np.linalg.det(jacobians)).ravel()
+        corners = nodes[self.cells]
+        along = [self.slopes[:, :, k] @ corners for k in range(nodes.shape[1])]
+        if len(along) == 2:
+            (a, b), (c, d) = (np.moveaxis(one, -1, 0) for one in along)
+            return (a * d - b * c).ravel()
+        return (np.cross(along[0], along[1]) * along[2]).sum(axis=-1).ravel()
 
     def sums(self, values: np.ndarray) -> np.ndarray:
         """Of the points of every particle."""
-        flat = values.reshape(len(values), -1)
-        sums = [np.bincount(self.owner, column, minlength=self.count) for column in flat.T]
+        of_cells = values.reshape(len(self.cells), self.points_per_cell, -1).sum(axis=1)
+        sums = [np.bincount(self.owner_of_cell, column, minlength=self.count) for column in of_cells.T]
         return np.stack(sums, axis=1).reshape(self.count, *values.shape[1:])
 
 
@@ -124,6 +126,7 @@ class Shapes:
         self.volumes = self.points.volumes(reference)
         self.arms = self._about_centres(self.points.places(reference), self.volumes)[1]
         self.dimension = reference.shape[1]
+        self.inverse = np.linalg.inv(self.products(self.arms, self.volumes[:, None] * self.arms))
 
     def _about_centres(self, places, volumes):
         total = self.points.sums(volumes)
@@ -133,16 +136,21 @@ class Shapes:
     def rotations(self, nodes: np.ndarray) -> np.ndarray:
         """Of the material, from the deformation gradients that fit the particles best."""
         _, arms = self._about_centres(self.points.places(nodes), self.volumes)
-        weighted = self.volumes[:, None] * self.arms
-        now = self.points.sums(arms[:, :, None] * weighted[:, None, :])
-        before = self.points.sums(self.arms[:, :, None] * weighted[:, None, :])
-        return nearest_rotations(now @ np.linalg.inv(before))
+        return nearest_rotations(self.products(arms, self.volumes[:, None] * self.arms) @ self.inverse)
+
+    def products(self, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Sums of a b^T over the points of every particle."""
+        shape = len(self.points.cells), self.points.points_per_cell, self.dimension
+        of_cells = one.reshape(shape).transpose(0, 2, 1) @ other.reshape(shape)
+        sums = [np.bincount(self.points.owner_of_cell, column, minlength=self.points.count)
+                for column in of_cells.reshape(len(of_cells), -1).T]
+        return np.stack(sums, axis=1).reshape(-1, self.dimension, self.dimension)
 
     def of(self, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Centres, semi-axes, their directions and rotations of the material, all in space."""
         volumes = self.points.volumes(nodes)
         centres, arms = self._about_centres(self.points.places(nodes), volumes)
-        moments = self.points.sums(volumes[:, None, None] * arms[:, :, None] * arms[:, None, :])
+        moments = self.products(arms, volumes[:, None] * arms)
         moments /= self.points.sums(volumes)[:, None, None]
         rotations = self.rotations(nodes)
         turned = rotations.transpose(0, 2, 1) @ moments @ rotations  # as seen by the material
