@@ -1,5 +1,5 @@
 // A thin RAII wrapper of the HDF5 C library: only what the recorder, the checkpoint and the report
-// need. The C header is included only in hdf5.cpp, so that its macros do not leak out.
+// need. The C header is included only in hdf5*.cpp, so that its macros do not leak out.
 //
 // Every failing call throws OutputError with the file, the operation and HDF5's innermost
 // error message; HDF5's own printing to stderr is off. Paths inside a file are absolute
