@@ -167,13 +167,15 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
                       "series on the horizontal axis (default: time)");
   command
       ->add_option("-o,--output", options.output,
-                   "output file (.png, .svg, .pdf or .csv); without --field and --series a folder "
-                   "for all figures (default: pictures/ in the run's folder)")
+                   "output file (.png, .svg, .pdf, .csv or .xyz); without --field and --series a "
+                   "folder for all figures (default: pictures/ in the run's folder)")
       ->transform(without_detours);
   command
-      ->add_option("--format", options.format,
-                   "format of all figures: png, svg, pdf or csv; gsf: raster images for Gwyddion")
-      ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "gsf"}));
+      ->add_option(
+          "--format", options.format,
+          "format of all figures: png, svg, pdf or csv; gsf: raster images for Gwyddion; xyz: "
+          "the particles of all frames for OVITO")
+      ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "gsf", "xyz"}));
   command
       ->add_option("--level", options.level,
                    "levelling of raster images: none, plane, or lines (the median of each line is "

@@ -57,6 +57,12 @@ def frames_in(folder):
         listed = folder / "run.xdmf"
         named = set(re.findall(r"run\.h5:/frames/(\d+)/", listed.read_text())) if listed.exists() else set()
         assert named <= set(file["frames"]), f"{folder}: run.xdmf names frames {named - set(file['frames'])}"
+        for view in folder.glob("*.vtkhdf"):
+            with h5py.File(view) as shown:
+                points = shown["VTKHDF/Points"]
+                named = {source.dset_name.split("/")[2] for source in points.virtual_sources()} if points.is_virtual else set()
+                assert named <= set(file["frames"]), f"{view} names frames {named - set(file['frames'])}"
+                assert shown["VTKHDF/Steps"].attrs["NSteps"] == len(named), view
         lengths = {len(file["history/time"])}
         file["history"].visititems(
             lambda _, o: lengths.add(len(o)) if isinstance(o, h5py.Dataset) else None)

@@ -8,7 +8,7 @@ function(add_report_assets target)
   set(package ${report_folder}/../python/pulvis)
   file(GLOB assets CONFIGURE_DEPENDS ${report_folder}/page/*.html ${report_folder}/page/*.css
        ${report_folder}/page/*.js ${report_folder}/page/space/*.js ${report_folder}/page/library/*.js ${package}/__init__.py ${package}/arguments.py ${package}/errors.py ${package}/frames.py ${package}/results.py
-       ${package}/lever_results.py ${package}/figures/*.py ${package}/preview/*.py)
+       ${package}/lever_results.py ${package}/particle_table.py ${package}/figures/*.py ${package}/preview/*.py)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/report_assets.cpp)
   add_custom_command(
     OUTPUT ${source}

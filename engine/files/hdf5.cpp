@@ -309,8 +309,12 @@ void File::set_attribute(const std::string& object, const std::string& name,
 }
 
 void File::set_any(const std::string& object, const std::string& name, Id type, const void* value) {
+  set_any(object, name, type, Handle(H5Screate(H5S_SCALAR)), value);
+}
+
+void File::set_any(const std::string& object, const std::string& name, Id type, const Handle& space,
+                   const void* value) {
   const Handle owner(checked(H5Oopen(handle_.get(), object.c_str(), defaults), "open", object));
-  const Handle space(H5Screate(H5S_SCALAR));
   const Handle made(
       checked(H5Acreate2(owner.get(), name.c_str(), type, space.get(), defaults, defaults),
               "write the attribute " + name + " of", object));

@@ -1,5 +1,5 @@
 // A thin RAII wrapper of the HDF5 C library: only what the recorder, the checkpoint and the report
-// need. The C header is included only in hdf5.cpp, so that its macros do not leak out.
+// need. The C header is included only in hdf5*.cpp, so that its macros do not leak out.
 //
 // Every failing call throws OutputError with the file, the operation and HDF5's innermost
 // error message; HDF5's own printing to stderr is off. Paths inside a file are absolute
@@ -45,6 +45,16 @@ enum class Number { real, byte };  // of a dataset that is filled later
 
 enum class Stored { real, whole };  // for numbers passed as doubles
 
+enum class Viewed { reals, integers, indices };  // double, 32 and 64 bits
+
+// Rows of a view, from `first` on, that are those of a dataset of another file. In a view with one column that has more, each
+// of its values is a row.
+struct Piece {
+  std::uint64_t first = 0;
+  std::string source;
+  Shape shape;  // of the source
+};
+
 class File {
  public:
   // Replaces an existing file. The first `user_block` bytes (0, or a power of two from 512) are left
@@ -74,7 +84,15 @@ class File {
              Packing packing = Packing::none);
   void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
              Packing packing = Packing::none);
+  void write(const std::string& dataset, std::span<const std::int64_t> values, const Shape& shape,
+             Packing packing = Packing::none);
   void write(const std::string& dataset, std::span<const std::byte> bytes);
+  // So many rows of the same byte, which takes one.
+  void write_constant(const std::string& dataset, std::uint8_t value, std::uint64_t rows);
+  // A dataset without values of its own ("virtual"): those of datasets of the file `of` beside this one, and zeros where
+  // there is no piece, or where a piece has fewer columns.
+  void write_view(const std::string& dataset, Viewed number, const Shape& shape,
+                  const std::string& of, std::span<const Piece> pieces);
   // A dataset whose values other processes write straight to the file, and where they begin, in bytes from its start; 0 if
   // it is empty. Nothing, and no dataset, if the only free space is within what was committed before: bytes there change only
   // with a commit.
@@ -89,6 +107,10 @@ class File {
   void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::uint64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::string_view value);
+  void set_attribute(const std::string& object, const std::string& name,
+                     std::span<const std::int64_t> values);
+  // Text of fixed length, in ASCII, for readers that understand no other.
+  void set_plain_text(const std::string& object, const std::string& name, std::string_view value);
 
   void link(const std::string& object,
             const std::string& name);  // a second name for the same object
@@ -130,6 +152,8 @@ class File {
   void write_any(const std::string& dataset, Id type, const void* values, std::size_t count,
                  const Shape& shape, Packing packing);
   void set_any(const std::string& object, const std::string& name, Id type, const void* value);
+  void set_any(const std::string& object, const std::string& name, Id type, const Handle& space,
+               const void* value);
   void read_any(const std::string& dataset, Id type, void* values) const;
   void read_attribute(const std::string& object, const std::string& name, Id type,
                       void* value) const;

@@ -148,7 +148,8 @@ bool fits(const FileDescriptor& file, std::uint64_t bytes, const Line& line) {
 
 // The first bytes of files that identify themselves; empty: the list decides.
 std::string_view own_beginning(const std::string& name) {
-  if (name == "run.h5" || name == "run.h5.new") return "pulvis run";
+  if (name == "run.h5" || name == "run.h5.new" || name == "run.vtkhdf" || name == "tools.vtkhdf")
+    return "pulvis run";
   if (name == "run.h5.journal") return "PLVJNL";
   const bool state = name.starts_with("checkpoint-") || name.starts_with("state-");
   if (state && (name.ends_with(".h5") || name.ends_with(".h5.new"))) return "pulvis checkpoint";

@@ -5,8 +5,8 @@
 //   whole  the file holds exactly these bytes
 //   start  the file begins with these bytes, and grows
 // The last such line for a name and role counts, and all `next` lines after it. A file is Pulvis's own in that role
-// if its bytes match; one that someone else changed or put there is not. run.h5, its journal and checkpoints are
-// identified by their first bytes. Lines are only appended, each with one write: several programs may do so.
+// if its bytes match; one that someone else changed or put there is not. run.h5, its journal, files for VTK and
+// checkpoints are identified by their first bytes. Lines are only appended, each with one write: several programs may do so.
 //
 // Text is first written beside it, as .<name>.pulvis-new, and renamed: links to the old file keep the old one.
 #pragma once

@@ -88,6 +88,7 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
       file_(marked_file(folder / "run.h5.new")),
       csv_(folder / "history.csv", abscissa, series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
+      vtk_hdf_(folder, "run.h5", mesh, fields_),
       abscissa_(abscissa),
       run_id_(new_run_id(file_.path())),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
@@ -123,6 +124,7 @@ Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
       file_(hdf5::File::open_to_change(folder / "run.h5")),
       csv_(folder / "history.csv", abscissa, series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
+      vtk_hdf_(folder, "run.h5", mesh, fields_),
       abscissa_(abscissa),
       run_id_(file_.text_attribute("/", "run")),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
@@ -146,9 +148,9 @@ void Recorder::cut(const RecorderPosition& position) {
             there, rows_there, position.frames, rows));
   for (; frames_ < position.frames; ++frames_) {
     const std::string group = "/frames" + frame_name(frames_);
-    xdmf_.add(file_.number_attribute(group, "time"), group);
+    show(file_.number_attribute(group, "time"), group);
   }
-  if (there > 0) xdmf_.write();  // first: it then refers to no removed frame
+  if (there > 0) write_shown();  // first: nothing then refers to a removed frame
   samples_ = position.samples;
   begin_change();
   link_frames();
@@ -163,6 +165,17 @@ void Recorder::cut(const RecorderPosition& position) {
   }
   replace(renewed);
   committed_ = Clock::now();
+}
+
+// The frame for other programs.
+void Recorder::show(double time, const std::string& group) {
+  xdmf_.add(time, group);
+  vtk_hdf_.add(time, group);
+}
+
+void Recorder::write_shown() {
+  xdmf_.write();
+  vtk_hdf_.write();
 }
 
 void Recorder::begin_change() {
@@ -225,7 +238,7 @@ void Recorder::commit(Extent extent) {
     file_.record_checksum(dataset, from);
   replace(renewed);
   csv_.flush();
-  if (has_new_frames) xdmf_.write();
+  if (has_new_frames) write_shown();
   committed_ = Clock::now();
   cost_ = linking_ + (committed_ - begin);
 }
@@ -318,7 +331,7 @@ void Recorder::frame(double time, std::int64_t step, const FrameValues& values) 
   begin_frames();
   write_frame(time, step, values);
   is_half_ = false;
-  xdmf_.add(time, "/frames" + frame_name(frames_));
+  show(time, "/frames" + frame_name(frames_));
   ++frames_;
   if (is_commit_due()) commit(Extent::due);
 }

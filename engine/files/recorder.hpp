@@ -1,5 +1,5 @@
-// Recorder: writes the results of a run into its folder: run.h5 (everything), run.xdmf (the
-// frames, for ParaView and meshio) and history.csv (the history, for spreadsheets). It knows
+// Recorder: writes the results of a run into its folder: run.h5 (everything), run.xdmf and
+// run.vtkhdf (the frames, for ParaView and meshio; tools.vtkhdf: the tools) and history.csv (the history, for spreadsheets). It knows
 // names, units and numbers, but no physics.
 //
 // run.h5 4096 bytes of text     "pulvis run 1": marks the file as Pulvis's own
@@ -40,6 +40,7 @@
 #include "engine/files/hdf5.hpp"
 #include "engine/files/history_csv.hpp"
 #include "engine/files/record.hpp"
+#include "engine/files/vtk_hdf.hpp"
 #include "engine/files/xdmf.hpp"
 
 namespace pulvis {
@@ -104,6 +105,8 @@ class Recorder {
 
   void write_attributes(const RunAttributes& attributes);
   void put_in_place(const std::filesystem::path& folder);
+  void show(double time, const std::string& group);
+  void write_shown();
   void begin_change();
   void begin_frames();
   enum class Extent { due, whole };  // how much of the new data to commit
@@ -130,6 +133,7 @@ class Recorder {
   hdf5::File file_;
   HistoryCsv csv_;
   Xdmf xdmf_;
+  VtkHdf vtk_hdf_;
   SeriesInfo abscissa_;
   std::string run_id_;
   std::vector<std::uint64_t> places_;         // number of places for each FieldPlace

@@ -44,8 +44,8 @@ std::error_code try_to_write(const fs::path& folder) {
 
 // Files of a run that must not be deleted without asking.
 bool is_result(const std::string& name) {
-  for (const char* const own :
-       {"run.h5", "run.xdmf", "history.csv", "summary.json", "report.html", "scene.toml"})
+  for (const char* const own : {"run.h5", "run.xdmf", "run.vtkhdf", "tools.vtkhdf", "history.csv",
+                                "summary.json", "report.html", "scene.toml"})
     if (name == own) return true;
   return name.starts_with("state-") && name.ends_with(".h5");
 }
@@ -106,7 +106,8 @@ void require_own_files(const fs::path& folder) {
 
 void require_own_results(const fs::path& folder) {
   require_own_list_in(folder);
-  for (const char* const name : {"run.xdmf", "history.csv", "summary.json", "report.html"})
+  for (const char* const name :
+       {"run.xdmf", "run.vtkhdf", "tools.vtkhdf", "history.csv", "summary.json", "report.html"})
     require_own_or_none(folder / name, role::run);
 }
 

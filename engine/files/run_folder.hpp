@@ -32,8 +32,8 @@ bool is_locked(const std::filesystem::path& folder);
 
 // Creates the folder, including parents, and checks that files can be written into it. A folder with a file where
 // the run will write one, but that no run wrote, is refused (ForeignFile: engine/files/own_files.hpp), so is one with
-// results of a run unless `overwrite`. Then the old run's own files (run.h5, run.xdmf, history.csv, summary.json,
-// report.html, scene.toml, checkpoint-*.h5, state-*.h5, what `figure` drew in pictures/) are removed, others stay. A
+// results of a run unless `overwrite`. Then the old run's own files (run.h5, run.xdmf, run.vtkhdf, tools.vtkhdf, history.csv,
+// summary.json, report.html, scene.toml, checkpoint-*.h5, state-*.h5, what `figure` drew in pictures/) are removed, others stay. A
 // refusal leaves everything as it was: whatever this call created is removed again.
 FolderLock open_run_folder(const std::filesystem::path& folder, bool overwrite = false);
 // Only that part: created, including parents, and files can be written into it.

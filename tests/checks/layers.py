@@ -93,7 +93,7 @@ ROOMS = {
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
 # Sources of one kind that a header of another name declares.
-PARTS = ("engine/files/hdf5_change", "engine/files/hdf5_checksum", "scenes/keys/declare_",
+PARTS = ("engine/files/hdf5_change", "engine/files/hdf5_checksum", "engine/files/hdf5_view", "scenes/keys/declare_",
          "cli/laboratory/declare_", "scenes/meshes/mesh_", "scenes/results/observables/", "cli/python/module/bind_")
 MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}

@@ -71,8 +71,8 @@ TEST_F(CommandLine, RunLeavesEveryFileItPromises) {
   const Outcome end = short_run();
   EXPECT_EQ(end.code, 0) << end.err;
   EXPECT_THAT(end.out, HasSubstr("results in " + run.string()));
-  for (const char* name :
-       {"run.h5", "run.xdmf", "history.csv", "summary.json", "report.html", "scene.toml"}) {
+  for (const char* name : {"run.h5", "run.xdmf", "run.vtkhdf", "tools.vtkhdf", "history.csv",
+                           "summary.json", "report.html", "scene.toml"}) {
     EXPECT_TRUE(fs::exists(run / name)) << name;
   }
   expect_whole_frames(5);

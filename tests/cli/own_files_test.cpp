@@ -40,9 +40,9 @@ TEST_F(OwnFilesOfCommands, ARunLeavesTheSceneThatIsGiven) {
 }
 
 TEST_F(OwnFilesOfCommands, ARunLeavesEveryFileThatIsNotItsOwn) {
-  for (const char* name :
-       {"scene.toml", "run.h5", "run.h5.new", "run.h5.journal", "run.xdmf", "history.csv",
-        "summary.json", "report.html", "checkpoint-000000000000.h5"}) {
+  for (const char* name : {"scene.toml", "run.h5", "run.h5.new", "run.h5.journal", "run.xdmf",
+                           "run.vtkhdf", "tools.vtkhdf", "history.csv", "summary.json",
+                           "report.html", "checkpoint-000000000000.h5"}) {
     const std::string folder = std::string("with-") + name;
     put(folder + "/" + name);
     for (const Words& more : {Words{}, Words{"--overwrite"}})

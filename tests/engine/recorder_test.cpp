@@ -334,6 +334,23 @@ TEST_F(RecorderTest, AResumedRunTakesFramesThatItCutsOutOfTheXdmf) {
               ElementsAre("000000", "000001", "000002"));
   EXPECT_THAT(text_of("run.xdmf"), HasSubstr("/frames/000002/"));
   EXPECT_EQ(text_of("run.xdmf").find("/frames/000003/"), std::string::npos);
+  EXPECT_THAT(hdf5::File::open(folder / "run.vtkhdf").shape("/VTKHDF/Steps/Values"),
+              ElementsAre(3));
+}
+
+// The newest frame first, vectors and places in the plane with a third component; read through run.h5.
+TEST_F(RecorderTest, ViewsOfAllFramesAreReadFromRunH5) {
+  record(3);
+  const auto file = hdf5::File::open(folder / "run.vtkhdf");
+  EXPECT_EQ(file.shape("/VTKHDF/Points"), (hdf5::Shape{24, 3}));
+  const std::vector<double> stress = file.read_doubles("/VTKHDF/CellData/effective_stress");
+  EXPECT_THAT(stress, ElementsAre(200, 201, 100, 101, 0, 1));
+  EXPECT_THAT(file.read_doubles("/VTKHDF/Steps/CellDataOffsets/effective_stress"),
+              ElementsAre(4, 2, 0));
+  EXPECT_THAT(file.read_doubles("/VTKHDF/Types"), ElementsAre(9, 9));
+  EXPECT_THAT(file.read_integers("/VTKHDF/CellData/particle"), ElementsAre(0, 1));
+  const std::vector<double> points = file.read_doubles("/VTKHDF/Points");
+  for (std::size_t i = 2; i < points.size(); i += 3) EXPECT_EQ(points[i], 0);
 }
 
 // Lists of their own length: none in the first frame, then two rows; no part of the XDMF picture.

@@ -27,7 +27,7 @@ def test_hash_and_history_are_those_of_the_command_line(scenes, cell, program, r
     assert ours["steps"] == theirs["steps"] == sim.steps
     assert ours["scene_hash"] == theirs["scene_hash"]
     assert (folder / "history.csv").read_text() == (tmp_path / "python/history.csv").read_text()
-    for name in ("run.h5", "run.xdmf", "report.html", "scene.toml"):
+    for name in ("run.h5", "run.xdmf", "run.vtkhdf", "report.html", "scene.toml"):
         assert (tmp_path / "python" / name).is_file()
     assert not list((tmp_path / "python").glob("checkpoint-*"))
 

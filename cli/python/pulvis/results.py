@@ -289,6 +289,13 @@ class Run:
         columns = {name: (data[()], data.attrs["unit"]) for name, data in self.file["cracks"].items()}
         return table(columns, name="crack")
 
+    @checked
+    def write_xyz(self, path: str | os.PathLike[str], frame: int | None = None) -> None:
+        """Writes the particles of all frames, or of one, as extended XYZ for OVITO: places, semi-axes, orientations, stresses."""
+        from pulvis.particle_table import write_xyz
+
+        write_xyz(self, path, frame)
+
     @property
     def calibration(self) -> dict[str, Any] | None:
         """Lever only: stiffnesses, sensitivities, closed-form values. None for other runs."""

@@ -4,7 +4,7 @@ for a lever: mesh and curves; for a study: its charts; for a probe: yield surfac
 
 All figures go into FOLDER/pictures/ (or the folder given by -o), except those of which nothing was recorded. With
 --series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its data in SI units. With --format gsf, raster
-images are written as Gwyddion Simple Fields, one per file.
+images are written as Gwyddion Simple Fields, one per file; with --format xyz, the particles of all frames for OVITO.
 Exit codes: 2 if the requested data does not exist, 4 if the machine lacks a required program.
 """
 import argparse
@@ -33,7 +33,7 @@ from pulvis.figures.space_density import density_slice
 from pulvis.figures.study import figures_of_study
 from pulvis.results import Run
 
-FORMATS = {".png", ".svg", ".pdf", ".csv"}
+FORMATS = {".png", ".svg", ".pdf", ".csv", ".xyz"}
 PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "friction": friction, "energies": energies,
                  "local_density": local_density, "density_profile": density_profile,
                  "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
@@ -90,6 +90,14 @@ def save_images(run, asked, options, place):
         place.save(image, asked.to / f"{name}.gsf")
 
 
+def save_particles(run, asked, options, place):
+    """All frames, or the one asked for, in one file."""
+    if options.series or options.field or asked.animate:
+        raise PulvisError("xyz is a table of particles: use it without --series, --field and --animate")
+    path = asked.output if asked.output and asked.output.suffix == ".xyz" else asked.to / "particles.xyz"
+    place.save(lambda file: run.write_xyz(file, options.frame), path)
+
+
 def picture_for(run):
     """The function that draws a field."""
     return space_picture if run.in_space else field_picture
@@ -116,7 +124,7 @@ def save_all(run, asked, options, place):
 def save_group(figures, what, asked, options, place):
     """Figures of a probe or a study."""
     if options.series or options.field or asked.animate or asked.across or asked.at or options.level != "none" \
-            or asked.format in ("csv", "gsf"):
+            or asked.format in ("csv", "gsf", "xyz"):
         raise PulvisError(f"a {what} has its own figures: use it without --series, --field, --across, --at, --animate, --level and csv")
     for name, figure in figures(asked.folder, options):
         path = asked.to / f"{name}.{asked.format}"
@@ -138,6 +146,9 @@ def save_run(run, asked, options, place):
         raise PulvisError(f"--level is for raster images, and {asked.folder} has none")
     if options.series and options.field:
         raise PulvisError("--field draws a field, --series curves: give one of them")
+    if asked.format == "xyz" or (file and file.suffix == ".xyz"):
+        save_particles(run, asked, options, place)
+        return
     if asked.animate:
         if options.series or file or asked.output:
             raise PulvisError("--animate names its output file: use it without --series and -o")
@@ -176,7 +187,7 @@ def arguments(words=None):
                         help=f"field of cells or particles (default: {DEFAULT_FIELD}); NAME:k for component k")
     parser.add_argument("--series", action="append", default=[], help="series of the history to draw")
     parser.add_argument("--against", help="series on the horizontal axis (default: time)")
-    parser.add_argument("--format", choices=["png", "svg", "pdf", "csv", "gsf"], default="png")
+    parser.add_argument("--format", choices=["png", "svg", "pdf", "csv", "gsf", "xyz"], default="png")
     parser.add_argument("--level", choices=LEVELS, default="none", help="levelling of raster images")
     parser.add_argument("--width", help="width of every figure, e.g. 85mm")
     parser.add_argument("--height", help="height of every figure, e.g. 60mm")
