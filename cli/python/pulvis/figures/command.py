@@ -41,6 +41,9 @@ PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "friction": fric
 SPACE_FIGURES = {"section": section_picture, "local_density": density_slice, "density_profile": space_profile,
                  "contact_network": space_network, "force": forces, "stress_ratio": stress_ratio, "energies": energies,
                  "cracks": space_cracks, "breaking": breaking, "fragment_sizes": fragment_sizes}
+NAMED_FIGURES = {"plane": PLANE_FIGURES, "space": SPACE_FIGURES, "lever": AFM_FIGURES}  # of a run, besides its fields
+GROUPS = {"probe": (figures_of_probe, lambda folder: (folder / "probe.toml").exists()),
+          "study": (figures_of_study, lambda folder: (folder / "curves.json").exists() and not (folder / "run.h5").exists())}
 OF_A_FIELD = (field_picture, space_picture, section_picture)
 LIKE_EVERY_FIGURE = {"limits": None}  # colour limits apply to a single field
 
@@ -90,6 +93,11 @@ def save_images(run, asked, options, place):
         place.save(image, asked.to / f"{name}.gsf")
 
 
+def kind_of(run):
+    """Which of NAMED_FIGURES a run has."""
+    return "lever" if run.is_solid else "space" if run.in_space else "plane"
+
+
 def picture_for(run):
     """The function that draws a field."""
     return space_picture if run.in_space else field_picture
@@ -97,7 +105,7 @@ def picture_for(run):
 
 def save_all(run, asked, options, place):
     field = (options.field or DEFAULT_FIELD).replace(":", "_")
-    names = AFM_FIGURES if run.is_solid else {field: picture_for(run), **(SPACE_FIGURES if run.in_space else PLANE_FIGURES)}
+    names = {**({} if run.is_solid else {field: picture_for(run)}), **NAMED_FIGURES[kind_of(run)]}
     drawn = 0
     for name, draw in names.items():
         path = asked.to / f"{name}.{asked.format}"
@@ -215,10 +223,9 @@ def draw(asked):
     place = Place(asked, options)
     with plt.rc_context(options.style()):
         try:
-            if (asked.folder / "probe.toml").exists():
-                save_group(figures_of_probe, "probe", asked, options, place)
-            elif (asked.folder / "curves.json").exists() and not (asked.folder / "run.h5").exists():
-                save_group(figures_of_study, "study", asked, options, place)
+            what = next((name for name, (_, is_here) in GROUPS.items() if is_here(asked.folder)), None)
+            if what:
+                save_group(GROUPS[what][0], what, asked, options, place)
             else:
                 save_run(Run(asked.folder), asked, options, place)
         except (OSError, ValueError, KeyError) as error:
