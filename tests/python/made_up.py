@@ -64,12 +64,13 @@ def write_particles(file, count):
 def loading():
     """(time, density, pressure): pressed, then unloaded."""
     time = np.linspace(0, 2e-3, SAMPLES)
-    load = np.minimum(time / 1.4e-3, 1)
+    full = time[42]
+    load = np.minimum(time / full, 1)
     density = 0.6 + 0.34 * load
     pressure = 4.2e8 * load**3
-    back = time > 1.4e-3
-    pressure[back] *= np.maximum(0, 1 - (time[back] - 1.4e-3) / 2e-4)
-    density[back] -= 0.004 * np.minimum((time[back] - 1.4e-3) / 2e-4, 1)
+    back = time > full
+    pressure[back] *= np.maximum(0, 1 - (time[back] - full) / 2e-4)
+    density[back] -= 0.004 * np.minimum((time[back] - full) / 2e-4, 1)
     return time, density, pressure
 
 
@@ -91,7 +92,7 @@ def series_of_a_die(axis, walls):
         series[f"tool/{tool}/position_{axis}"] = (1e-3 / density, "m", f"position of {tool} ${axis}$")
         series[f"stress/axial_{tool}"] = (np.abs(force), "Pa", f"axial stress on the {tool} tool {AXIAL}")
     for wall, label in walls.items():
-        series[f"stress/{wall}"] = (0.6 * pressure + 2e7 * (time > 1.4e-3), "Pa", label)
+        series[f"stress/{wall}"] = (0.6 * pressure + 2e7 * (time > time[42]), "Pa", label)
     for k, (name, words) in enumerate(ENERGIES.items()):
         series[f"energy/{name}"] = (1.37 / (k + 1) * density**2 * np.linspace(0, 1, SAMPLES) ** (1 + k % 3), "J", f"{words} $E$")
     return series

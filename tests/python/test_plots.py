@@ -128,41 +128,6 @@ def test_a_network_has_a_line_for_every_contact(compact):
     assert re.fullmatch(r"Normal force \$F_n\$ / k?N", bars(axes)[0].get_ylabel())
 
 
-def test_compaction_curve_and_heckel_plot_of_a_die(compact, tmp_path):
-    run = pulvis.open(compact)
-    _, axes = run.plot.compaction_curve()
-    assert [line.get_label() for line in axes.lines] == ["top punch", "bottom punch"]
-    assert axes.get_xlabel() == r"Relative density $\rho$" and axes.get_ylabel() == "Pressure of the punch $P$ / MPa"
-    np.testing.assert_allclose(axes.lines[0].get_ydata(), 1e-6 * run.series("stress/axial_top"))
-    figure, axes = run.plot.heckel()
-    assert axes.get_xlabel() == "Pressure of the top punch $P$ / MPa" and axes.get_ylabel() == r"$\ln[1/(1 - \rho)]$"
-    (_, _, pressure), (_, _, density), (_, _, ordinate), *_ = figure.table
-    np.testing.assert_allclose(ordinate, np.log(1 / (1 - density)))
-    assert len(pressure) == run.summary["fits"]["samples"]  # those that the program has fitted
-    assert [pressure.min(), pressure.max()] == pytest.approx(run.summary["fits"]["pressure"])
-    law = next(law for law in run.summary["fits"]["laws"] if law["law"] == "heckel")
-    assert len(axes.lines) == (2 if "parameters" in law else 1)
-    figure, axes = run.plot.radial_ratio()
-    assert axes.get_ylabel() == r"Lateral over axial stress $\sigma_\mathrm{lat}/\sigma_\mathrm{ax}$"
-    call("figure", compact, "--format", "csv", "-o", tmp_path / "csv")
-    assert (tmp_path / "csv/heckel.csv").read_text().startswith("pressure [Pa],relative density [-],ln 1/(1 - D) [-]")
-
-
-def test_density_maps_are_scaled_by_their_own_frame_on_request(compact, tmp_path):
-    run = pulvis.open(compact)
-    figure, _ = run.plot.density(frame=None)
-    assert len({one.collections[0].get_clim() for one in main_axes(figure)}) == 1
-    figure, _ = run.plot.density(frame=None, limits="frame")
-    for axes in main_axes(figure):
-        values = axes.collections[0].get_array()
-        low, high = axes.collections[0].get_clim()
-        assert low <= values.min() and values.max() <= high and high - low <= max(np.ptp(values), 0.02) + 1e-12
-    assert sum(axes.get_label() == "<colorbar>" for axes in figure.axes) == len(main_axes(figure))
-    call("figure", compact, "--field", "local_density", "--frame", "2", "--range", "0.5:1", "-o", tmp_path / "one.png")
-    call("figure", compact, "--field", "local_density", "--range", "frame", "-o", tmp_path / "maps.svg")
-    assert "--range frame is for density maps" in call("figure", compact, "--range", "frame", "--animate", "f.gif", code=2, cwd=tmp_path)
-
-
 def test_densities_of_a_frame_and_of_the_run(compact):
     run = pulvis.open(compact)
     figure, axes = run.plot.density()

@@ -14,6 +14,7 @@ from pulvis.lever_results import vertical_moves
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 SMALL_SOLID = 5.5  # inches, of a figure
+SMALL_PADS = ((3, 3), (0, -7), (-6, -13))  # of ticks and labels along x, y, z of a small solid: matplotlib sets those of a short side far off
 SHORTEST_SIDE = 0.15  # of the box around a mesh, as drawn, over the longest
 COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
 
@@ -34,11 +35,11 @@ def make_room(axes, ends):
     sides = np.ptp(ends, axis=0)
     wide, tall = axes.get_position(original=True).size * axes.figure.get_size_inches()
     small = axes.figure.get_figwidth() < SMALL_SOLID
-    for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max()):
+    for axis, share, pads in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max(), SMALL_PADS):
         axis.set_major_locator(MaxNLocator((4 if small else 5) if share > 0.5 else 1 if small or share < 0.15 else 2))
-        axis.labelpad = 24 if share > 0.5 else -3 if small else 3
-        if small and share <= 0.5:  # matplotlib sets its labels off along the long side, by a part of it
-            axis.set_tick_params(pad=-5)
+        axis.labelpad = 24 if share > 0.5 else pads[1] if small else 3
+        if small and share <= 0.5:
+            axis.set_tick_params(pad=pads[0])
     axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(1.0, 0.82 * wide / tall)))
 
 
@@ -86,7 +87,8 @@ def solid(run, options=None):
     sides = np.ptp(chosen[0].nodes, axis=0)
     width, height = options.size(7, len(chosen) * (2.8 + 2.5 * np.sort(sides / sides.max())[1]))
     figure = plt.figure(figsize=(width, height))
-    figure.subplots_adjust(left=0, right=0.82, bottom=0.06 / len(chosen), top=1 - 0.3 / height, hspace=(0.5 if width < SMALL_SOLID else 0.3) / height * len(chosen))
+    right, low, apart = (0.8, 0.12, 0.5) if width < SMALL_SOLID else (0.82, 0.06, 0.3)
+    figure.subplots_adjust(left=0, right=right, bottom=low / len(chosen), top=1 - 0.3 / height, hspace=apart / height * len(chosen))
     colours = part_colours(run, faces)
     for i, frame in enumerate(chosen):
         axis = figure.add_subplot(len(chosen), 1, i + 1, projection="3d")

@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 from pulvis.errors import PulvisError
 from pulvis.figures.look import COLOURS, bar_beside, unit_for
 from pulvis.figures.names import label
-from pulvis.figures.room import has_room, legend_below
+from pulvis.figures.room import has_room, legend_below, renderer_of
 
 NO_VALUE = "#d5dbe2"  # what has no value is grey
 COUNTS = ("coordination", "tools_touched")  # ordered integers
@@ -94,7 +94,7 @@ class Kinds:
         patches = [Patch(facecolor=colour, label=self.names[k] if self.names else "none" if k == self.none else str(k))
                    for k, colour in zip(self.known, self.of(self.known))]
         legend = axes.legend(handles=patches, title=self.words, loc="upper left", bbox_to_anchor=(1.01, 1))
-        if has_room(figure) and legend.get_window_extent(figure.canvas.get_renderer()).width > WIDEST_LEGEND * figure.bbox.width:
+        if has_room(figure) and legend.get_window_extent(renderer_of(figure)).width > WIDEST_LEGEND * figure.bbox.width:
             legend.remove()
             legend_below(figure, patches, grows=False, title=self.words)
 

@@ -1,6 +1,5 @@
 """Common to all figures: style, size, units, and line plots."""
 import csv
-import textwrap
 from dataclasses import dataclass, field as of_dataclass
 
 import numpy as np
@@ -12,7 +11,7 @@ from pulvis.errors import RunError
 from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.names import label, name_of, plain
 from pulvis.figures.quantities import limits_of, unit_for, with_unit
-from pulvis.figures.room import UNDER, has_room, legend_below, legend_within, legends_height, points_of, subplots
+from pulvis.figures.room import UNDER, has_room, legend_below, legend_within, legends_height, points_of, subplots, wrapped
 
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#8c6d1f",
            "#882255", "#117733"]
@@ -88,7 +87,7 @@ class Options:
             size = points_of(plt.rcParams["axes.titlesize"])
             letters = int((self.width or of_width) * 72 * 0.8 / (0.5 * size))
             lines = (text if run is None else f"{text}\n{run.title}").split("\n")
-            axes.set_title("\n".join(textwrap.fill(line, letters) for line in lines), loc="left")
+            axes.set_title("\n".join(wrapped(line, letters) for line in lines), loc="left")
 
 
 def sheet(options, size, axes=None, beside=0.0):

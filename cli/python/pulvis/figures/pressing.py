@@ -53,7 +53,7 @@ def heckel_law(run):
 def told(law):
     """The fitted line in a legend."""
     fit = f", $r^2$ = {law['r_squared']:.3f}" if law["r_squared"] is not None else ""
-    return f"line: 1/K = {with_unit(1 / law['K'], 'Pa')}, A = {law['A']:.3g}{fit}"
+    return f"line: $1/K$ = {with_unit(1 / law['K'], 'Pa')}, $A$ = {law['A']:.3g}{fit}"
 
 
 def heckel(run, options=None, axes=None):
@@ -82,7 +82,7 @@ def heckel(run, options=None, axes=None):
     axes.set_ylabel(r"$\ln[1/(1 - \rho)]$")
     options.head(axes, "Heckel plot", run)
     if law:
-        legend_within(axes, options)
+        legend_within(axes, options, 0.7)
     return figure
 
 

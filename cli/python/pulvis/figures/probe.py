@@ -132,7 +132,7 @@ def models(summary, options):
     if not paths:
         return None
     alone = options.width and options.width < WORDS_FROM  # each pair one above the other
-    size = (4.8, 2 * 3.6 * len(paths)) if alone else (9.6, 4.6 * len(paths))
+    size = (4.8, 2 * 3.1 * len(paths)) if alone else (9.6, 4.6 * len(paths))
     figure, axes = subplots(2 * len(paths) if alone else len(paths), 1 if alone else 2, figsize=options.size(*size), squeeze=False)
     for row, path in zip(axes.reshape(-1, 2), paths):
         state = of_path(summary, path)[-1]
@@ -140,11 +140,12 @@ def models(summary, options):
         factor, unit = unit_for("Pa", np.array([point["p"] for point in mine["points"]]))
         for side, names, x, y in ((row[0], MODELS, "p", "q"), (row[1], PLANE_MODELS, "plane_p", "plane_shear")):
             draw_fitted(side, mine["points"], x, y, factor)
+            curves = []
             for model in mine["models"]:
                 if model["name"] in names:
                     name, line = names[model["name"]]
-                    side.plot(*(factor * np.array(model["surface"]).T), line,
-                              label=f"{name}, off by {100 * model['misfit']:.1f}%")
+                    curves += side.plot(*(factor * np.array(model["surface"]).T), line, label=f"{name}, off by {100 * model['misfit']:.1f}%")
+            dash_hidden(side, curves)
             legend_under(side, fontsize=7, ncols=1 if options.narrow else 2)
         row[0].set_title(f"{path}, density {state['relative_density']:.3f}", loc="left")
         row[0].set_xlabel(label(("pressure", "p"), unit))
@@ -161,7 +162,8 @@ def spread(values):
 
 
 def parameters(summary, options):
-    figure, axes = subplots(2, 2, figsize=options.size(8.4, 6.8))
+    high = 9.2 if options.width and options.width < WORDS_FROM else 6.8
+    figure, axes = subplots(2, 2, figsize=options.size(8.4, high))
     rows = (("youngs_modulus", "Young's modulus", "Pa"), ("poissons_ratio", "Poisson's ratio", ""))
     colour = {path: COLOURS[k % len(COLOURS)] for k, path in enumerate(paths_of(summary))}
     curves = [[], []]

@@ -15,13 +15,26 @@ from matplotlib.transforms import ScaledTranslation
 SMALLEST = 6  # points, of letters
 LONGEST = 1.0  # a label is as long as its side at most
 MOST_LINES = 4  # of a label
+FEWEST = 12  # letters on a line of a title or a legend
+MOST_COLUMNS = 4  # of a legend below a figure
+UNITS = r"(?<=\d) (?=[GMkmµn]?(?:s|m|Pa|N|J|V|seeds)\b)"  # the space between a number and its unit
 APART = 2.0  # points between the labels of two ticks
 UNDER = 3.8  # heights of letters that ticks and label of an axis take
+
+
+def renderer_of(figure):
+    """Measures texts, whatever the figure is drawn or written with."""
+    return figure._get_renderer()
 
 
 def points_of(size):
     """A font size in points; it may be a word, as "small"."""
     return FontProperties(size=size).get_size_in_points()
+
+
+def wrapped(text, letters):
+    """The text on lines of at most so many letters; a number keeps its unit."""
+    return textwrap.fill(re.sub(UNITS, "\u00a0", text), letters, break_on_hyphens=False, break_long_words=False).replace("\u00a0", " ")
 
 
 def pieces_of(text):
@@ -115,12 +128,13 @@ def fit_title(title, renderer, right):
     """Breaks the lines of a title that go beyond `right`, then makes it smaller. Returns whether it changed."""
     changed, lines = False, title.get_text().split("\n")
     extent = title.get_window_extent(renderer)
-    while extent.x1 > right and (max(map(len, lines)) > 12 or title.get_size() > SMALLEST):
+    while extent.x1 > right and (max(map(len, lines)) > FEWEST or title.get_size() > SMALLEST):
         most = max(map(len, lines))
-        if most > 12:
-            lines = [part for line in lines for part in textwrap.wrap(line, max(12, min(most - 1, int(most * (right - extent.x0) / extent.width))))]
+        if most > FEWEST:
+            letters = max(FEWEST, min(most - 1, int(most * (right - extent.x0) / extent.width)))
+            lines = "\n".join(wrapped(line, letters) for line in lines).split("\n")
             title.set_text("\n".join(lines))
-        if most <= 12 or max(map(len, lines)) >= most:
+        if most <= FEWEST or max(map(len, lines)) >= most:
             if title.get_size() <= SMALLEST:
                 break
             title.set_size(max(SMALLEST, title.get_size() - 0.5))
@@ -140,8 +154,8 @@ class Room(ConstrainedLayoutEngine):
     """Constrained layout that makes room for the texts, with the legends of the figure below everything."""
 
     def execute(self, figure):
-        renderer = figure.canvas.get_renderer() if hasattr(figure.canvas, "get_renderer") else figure._get_renderer()
-        self.set(rect=(0, legends_height(figure, renderer), 1, 1 - legends_height(figure, renderer)))
+        renderer, below = renderer_of(figure), legends_height(figure)
+        self.set(rect=(0, below, 1, 1 - below))
         for _ in range(3):
             super().execute(figure)
             if not self._fit(figure, renderer):
@@ -166,6 +180,13 @@ class Room(ConstrainedLayoutEngine):
         return changed
 
 
+class Still(Room):
+    """Leaves everything in its place, for the frames of a film, and fits the texts of each."""
+
+    def execute(self, figure):
+        self._fit(figure, renderer_of(figure))
+
+
 def has_room(figure):
     """Whether the figure is one of ours, which may be changed as a whole."""
     return isinstance(figure.get_layout_engine(), Room)
@@ -175,27 +196,31 @@ def subplots(*counts, **more):
     return plt.subplots(*counts, layout=Room(), **more)
 
 
-def legends_height(figure, renderer=None):
+def legends_height(figure):
     """The part of the height of a figure that its legends take."""
-    renderer = renderer or figure.canvas.get_renderer()
+    renderer = renderer_of(figure)
     return sum(legend.get_window_extent(renderer).height for legend in figure.legends) / figure.bbox.height
 
 
 def legend_below(figure, handles, grows=True, **more):
     """One legend for the whole figure, below everything, in as many columns as fit; `grows`: the figure becomes higher by it."""
-    words = [handle.get_label() for handle in handles]
-    size = max(SMALLEST, points_of(plt.rcParams["legend.fontsize"]))
-    letters = int(72 * figure.get_figwidth() / (0.52 * size)) - 8
-    words = [textwrap.fill(text, letters) for text in words]
     first = not figure.legends
     for legend in list(figure.legends):
         legend.remove()
-    for columns in range(min(len(words), 4), 0, -1):
-        legend = figure.legend(handles, words, loc="lower center", ncol=columns, bbox_to_anchor=(0.5, 0), borderaxespad=0.2,
-                               columnspacing=1.2, handlelength=1.8, **more)
-        if columns == 1 or legend.get_window_extent(figure.canvas.get_renderer()).width < 0.97 * figure.bbox.width:
+    words, letters = [handle.get_label() for handle in handles], max(len(handle.get_label()) for handle in handles)
+    columns, size = min(len(words), MOST_COLUMNS), points_of(plt.rcParams["legend.fontsize"])
+    while True:
+        legend = figure.legend(handles, [wrapped(text, letters) for text in words], loc="lower center", ncol=columns, bbox_to_anchor=(0.5, 0),
+                               borderaxespad=0.2, columnspacing=1.2, handlelength=1.8, fontsize=size, **more)
+        if legend.get_window_extent(renderer_of(figure)).width < 0.97 * figure.bbox.width or letters <= FEWEST:
             break
         legend.remove()
+        if columns > 1:
+            columns -= 1
+        elif size > SMALLEST:
+            size = SMALLEST
+        else:
+            letters = max(FEWEST, letters - 4)
     legend.set_in_layout(False)
     if first and grows:
         figure.set_figheight(figure.get_figheight() * (1 + legends_height(figure)))
@@ -212,12 +237,12 @@ def legend_under(axes, **more):
 def legend_within(axes, options, share=0.55, **more):
     """The legend in axes, or beside them by loc and bbox_to_anchor in `more`; below the figure where it is wider than `share`
     of it, or higher than half of it."""
-    handles = axes.get_legend_handles_labels()[0]
-    legend = axes.legend(**more)
     figure = axes.figure
-    if not has_room(figure):
-        return
-    extent = legend.get_window_extent(figure.canvas.get_renderer())
-    if extent.width > share * figure.bbox.width or extent.height > 0.5 * figure.bbox.height:
+    if has_room(figure):
+        legend = axes.legend(**{**more, "loc": "upper left"})  # its size: the best place for it takes long to find
+        extent = legend.get_window_extent(renderer_of(figure))
         legend.remove()
-        legend_below(figure, handles, not options.height)
+        if extent.width > share * figure.bbox.width or extent.height > 0.5 * figure.bbox.height:
+            legend_below(figure, axes.get_legend_handles_labels()[0], not options.height)
+            return
+    axes.legend(**more)
