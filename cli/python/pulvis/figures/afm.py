@@ -7,14 +7,14 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from pulvis.figures.colours import colour_map
 from pulvis.figures.hidden import dash_hidden
-from pulvis.figures.look import COLOURS as LINES, Options, legend_beside, sheet, unit_for, worded
+from pulvis.figures.look import COLOURS as LINES, Options, bar_beside, legend_beside, sheet, unit_for, worded
 from pulvis.figures.names import capital, over
 from pulvis.figures.room import Room, legend_within, subplots
 from pulvis.lever_results import vertical_moves
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 SMALL_SOLID = 5.5  # inches, of a figure
-SMALL_PADS = ((3, 3), (0, -7), (-6, -13))  # of ticks and labels along x, y, z of a small solid: matplotlib sets those of a short side far off
+SMALL_PADS = ((3, 3), (0, -7), (-6, -13))  # of ticks and labels along x, y, z of a small solid; matplotlib sets them far off short sides
 SHORTEST_SIDE = 0.15  # of the box around a mesh, as drawn, over the longest
 COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
 
@@ -264,7 +264,8 @@ def maps_of(run, level):
                 yield action, channel, "difference", data.attrs["unit"], levelled(half, level), size
 
 
-def draw_map(figure, axis, one, options):
+def draw_map(figure, axis, one, options, heading):
+    """heading: of its title, as the action."""
     action, channel, direction, unit, values, size = one
     factor, shown = unit_for(unit, values)
     lines, pixels = values.shape
@@ -272,9 +273,16 @@ def draw_map(figure, axis, one, options):
     axis.grid(False)
     picture = axis.imshow(factor * values, origin="lower", cmap=colour_map(options, "afmhot"), extent=extent)
     named = "(trace − retrace)/2" if direction == "difference" else direction
-    axis.set(title=f"{action}: {channel}, {named}" if options.title else "",
-             xlabel="Along the scan / µm" if size else "Pixel", ylabel="Across / µm" if size else "Line")
-    figure.colorbar(picture, ax=axis, label=over(capital(channel), shown), shrink=0.8)
+    if options.title:
+        axis.set_title(f"{heading}{channel}, {named}", loc="left")
+    across, up = ("$x$ / µm", "$y$ / µm") if is_small(options) else ("Along the scan / µm", "Across / µm")
+    axis.set(xlabel=across if size else "Pixel", ylabel=up if size else "Line")
+    bar_beside(figure, axis, picture, over(capital(channel), shown))
+
+
+def is_small(options):
+    """Whether rasters get trace and retrace side by side, one channel below the other."""
+    return bool(options.width) and options.width < SMALL_IMAGES
 
 
 def images(run, options=None):
@@ -283,7 +291,7 @@ def images(run, options=None):
     if "images" not in run.file:
         return None
     actions, traces = sorted(run.file["images"]), ["trace", "retrace", "difference"]
-    beside = options.width and options.width < SMALL_IMAGES  # trace and retrace side by side, one channel below the other
+    beside = is_small(options)
     rows, columns = (len(CHANNELS) + 1, 2) if beside else (3, 3)
     figure, axes = subplots(rows * len(actions), columns, squeeze=False,
                             figsize=options.size(5 * columns, 4.33 * rows * len(actions)))
@@ -296,7 +304,7 @@ def images(run, options=None):
         down, right = (right + down // 2, down % 2) if beside else (down, right)
         axis = axes[rows * actions.index(action) + down, right]
         axis.set_visible(True)
-        draw_map(figure, axis, one, options)
+        draw_map(figure, axis, one, options, f"{action}: " if len(actions) > 1 else "")
         figure.table.append((f"{action} {channel} {direction}, line by line", unit, values.ravel()))
     return figure
 

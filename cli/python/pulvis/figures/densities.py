@@ -51,6 +51,11 @@ def write_values(axes, lines, density, ends, room):
                       color="#1d2733" if (value - low) / (high - low) > 0.6 else "white")
 
 
+def room_of(figure, axes, beside, maps=1):
+    """About the width of a map in points. axes: those of the caller, or None for a new figure, with `beside` inches for labels."""
+    return 72 * ((figure.get_figwidth() - beside) / maps if axes is None else 0.7 * axes.get_window_extent().width / figure.dpi)
+
+
 def draw_map(axes, frame, ends, colours, room):
     """The cells of one frame, with density values printed if they fit; room: width of the map in points."""
     low, high = ends
@@ -102,7 +107,7 @@ def local_density(run, options=None, axes=None):
     else:
         figure, places, frames = axes.figure, [axes], frames[-1:]
     shared = not options.own_range or len(places) == 1
-    room = 72 * (figure.get_figwidth() - (1.5 if shared else 0.7)) / len(frames) if axes is None else 0.7 * axes.get_window_extent().width * 72 / figure.dpi
+    room = room_of(figure, axes, 1.5 if shared else 0.7, len(frames))
     for place, frame in zip(places, frames):
         mesh = draw_map(place, frame, ends_of(options, frames if shared else [frame]), colour_map(options), room)
         if not shared:

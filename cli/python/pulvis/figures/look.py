@@ -79,7 +79,8 @@ class Options:
         values = np.asarray(values, float)
         finite = values[np.isfinite(values)]
         ends = (finite.min(), finite.max()) if finite.size else (0.0, 1.0)
-        return tuple(end if asked is None else asked for asked, end in zip(limits_of(None if self.own_range else self.limits, unit), ends))
+        asked = limits_of(None if self.own_range else self.limits, unit)
+        return tuple(end if one is None else one for one, end in zip(asked, ends))
 
     def head(self, axes, text, run=None, of_width=7.2):
         """The title of axes; of_width: default width of the figure, inches."""
@@ -141,7 +142,8 @@ def bar_beside(figure, axes, mappable, words, **more):
     size = points_of(plt.rcParams["axes.labelsize"])
     if has_room(figure) and 0.5 * size * len(plain(words)) > 2 * 0.75 * 72 * figure.get_figwidth() * high:
         down = (UNDER if axes.axison else 0.5) * size
-        place = axes.inset_axes([0.1, -0.035 / high, 0.8, 0.035 / high], transform=offset_copy(axes.transAxes, figure, y=-down, units="points"))
+        under = offset_copy(axes.transAxes, figure, y=-down, units="points")
+        place = axes.inset_axes([0.1, -0.035 / high, 0.8, 0.035 / high], transform=under)
         more["orientation"] = "horizontal"
     else:
         place = axes.inset_axes([1.03, 0, 0.035, 1])

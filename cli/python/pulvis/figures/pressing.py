@@ -40,7 +40,8 @@ def compaction_curve(run, options=None, axes=None):
     lines = [(f"{punch} punch", run.series(name)[inside], "Pa") for punch, name in PUNCHES.items() if run.has(name)]
     if not inside.any() or not any(np.nanmax(values, initial=0) > 0 for _, values, _ in lines):
         return None
-    return draw_lines(run, ("relative_density", density[inside], "-"), lines, ("pressure of the punch", "P"), "Compaction curve", options, axes)
+    return draw_lines(run, ("relative_density", density[inside], "-"), lines, ("pressure of the punch", "P"), "Compaction curve",
+                      options, axes)
 
 
 def heckel_law(run):
@@ -87,7 +88,8 @@ def heckel(run, options=None, axes=None):
 
 
 def radial_ratio(run, options=None, axes=None):
-    """Radial over axial stress against the relative density while the powder is pressed: mean of the walls over that of the punches."""
+    """Radial over axial stress against the relative density while the powder is pressed: the mean of the walls over that of the
+    punches."""
     density = density_of(run)
     walls = [run.series(f"stress/{wall}") for wall in WALLS if run.has(f"stress/{wall}")]
     if density is None or not walls:

@@ -144,7 +144,8 @@ def models(summary, options):
             for model in mine["models"]:
                 if model["name"] in names:
                     name, line = names[model["name"]]
-                    curves += side.plot(*(factor * np.array(model["surface"]).T), line, label=f"{name}, off by {100 * model['misfit']:.1f}%")
+                    curves += side.plot(*(factor * np.array(model["surface"]).T), line,
+                                        label=f"{name}, off by {100 * model['misfit']:.1f}%")
             dash_hidden(side, curves)
             legend_under(side, fontsize=7, ncols=1 if options.narrow else 2)
         row[0].set_title(f"{path}, density {state['relative_density']:.3f}", loc="left")
@@ -173,8 +174,8 @@ def parameters(summary, options):
         for side, mine, (key, name, unit) in zip(axes[0], curves, rows):
             means = np.array([spread([one[key] for one in state["states"]]) for state in states])
             factor, shown = unit_for(unit, means[:, 0])
-            mine.append(side.errorbar(density, factor * means[:, 0], factor * means[:, 1], marker="o", markersize=4, linestyle="-", capsize=3,
-                                      color=colour[path], label=path).lines[0])
+            mine.append(side.errorbar(density, factor * means[:, 0], factor * means[:, 1], marker="o", markersize=4, linestyle="-",
+                                      capsize=3, color=colour[path], label=path).lines[0])
             side.set_ylabel(over(name, shown))
         for side, names in zip(axes[1], (("p_b", "p_c"), ("R", "M"))):
             for name, line in zip(names, ("-", "--")):
@@ -189,8 +190,8 @@ def parameters(summary, options):
     axes[1][1].set_ylabel("Eccentricity $R$, slope $M$")
     models = [Line2D([], [], color="0.4", linestyle=line, label=text) for line, text in
               (("-", "$p_b$, $R$: Drucker–Prager cap"), ("--", "$p_c$, $M$: modified Cam-Clay"))]
-    legend_below(figure, [*(Line2D([], [], color=shade, marker="o", markersize=4, linestyle="-", label=path) for path, shade in colour.items()),
-                          *models], not options.height)
+    paths = [Line2D([], [], color=shade, marker="o", markersize=4, linestyle="-", label=path) for path, shade in colour.items()]
+    legend_below(figure, [*paths, *models], not options.height)
     if options.title:
         figure.suptitle(f"{summary['title']}: parameters, bars: standard deviation over seeds", x=0.01, ha="left")
     return figure

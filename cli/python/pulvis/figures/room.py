@@ -101,9 +101,10 @@ def tick_labels(axis, upright, renderer):
     """Begin and end of the labels that are seen along an axis, ascending."""
     low, high = sorted(axis.get_view_interval())
     slack = 1e-9 * (high - low)
-    ends = [(extent.y0, extent.y1) if upright else (extent.x0, extent.x1) for place, label in zip(axis.get_majorticklocs(), axis.get_majorticklabels())
-            if low - slack <= place <= high + slack and label.get_text() for extent in [label.get_window_extent(renderer)]]
-    return sorted(ends)
+    labels = [label for place, label in zip(axis.get_majorticklocs(), axis.get_majorticklabels())
+              if low - slack <= place <= high + slack and label.get_text()]
+    extents = [label.get_window_extent(renderer) for label in labels]
+    return sorted((extent.y0, extent.y1) if upright else (extent.x0, extent.x1) for extent in extents)
 
 
 def fit_ticks(axis, upright, renderer):
@@ -207,12 +208,13 @@ def legend_below(figure, handles, grows=True, **more):
     first = not figure.legends
     for legend in list(figure.legends):
         legend.remove()
-    words, letters = [handle.get_label() for handle in handles], max(len(handle.get_label()) for handle in handles)
+    words = [handle.get_label() for handle in handles]
+    letters = max(FEWEST, *map(len, words))
     columns, size = min(len(words), MOST_COLUMNS), points_of(plt.rcParams["legend.fontsize"])
     while True:
-        legend = figure.legend(handles, [wrapped(text, letters) for text in words], loc="lower center", ncol=columns, bbox_to_anchor=(0.5, 0),
-                               borderaxespad=0.2, columnspacing=1.2, handlelength=1.8, fontsize=size, **more)
-        if legend.get_window_extent(renderer_of(figure)).width < 0.97 * figure.bbox.width or letters <= FEWEST:
+        legend = figure.legend(handles, [wrapped(text, letters) for text in words], loc="lower center", bbox_to_anchor=(0.5, 0),
+                               ncol=columns, borderaxespad=0.2, columnspacing=1.2, handlelength=1.8, fontsize=size, **more)
+        if legend.get_window_extent(renderer_of(figure)).width < 0.97 * figure.bbox.width or (columns, letters) == (1, FEWEST):
             break
         legend.remove()
         if columns > 1:

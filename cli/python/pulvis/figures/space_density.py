@@ -3,7 +3,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from pulvis.figures.colours import colour_map
-from pulvis.figures.densities import ends_of, write_values
+from pulvis.figures.densities import ends_of, room_of, write_values
 from pulvis.figures.look import Options, bar_beside, close_up, moment, printed, recorded, set_axes, shape_of, sheet, worded
 from pulvis.figures.space import asked_place
 from pulvis.figures.space_tools import cut, pieces
@@ -40,8 +40,7 @@ def density_slice(run, options=None, axes=None):
     figure, place = sheet(options, size, axes, beside)
     drawn = place.pcolormesh(across, up, cells, cmap=colour_map(options), vmin=low, vmax=high, edgecolors="white", linewidth=0.5)
     if cells.shape[1] <= WRITTEN_UP_TO and not options.narrow:
-        room = 72 * (figure.get_figwidth() - 1.6) if axes is None else 0.7 * axes.get_window_extent().width * 72 / figure.dpi
-        write_values(place, (across, up), cells, (low, high), room)
+        write_values(place, (across, up), cells, (low, high), room_of(figure, axes, 1.6))
     at = (lines[axis][layer] + lines[axis][layer + 1]) / 2
     walls = cut(pieces(run, frame)[0], axis, at)
     place.add_collection(LineCollection(1e3 * walls, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
