@@ -140,7 +140,8 @@ void add_look(CLI::App& command, FigureOptions& options) {
       "colour map for continuous values: a name of matplotlib, e.g. cividis or magma_r");
   command.add_option(
       "--range", options.range,
-      "colour range of the field as LOW:HIGH, e.g. 0:400MPa; either end may be omitted");
+      "colour range of the field as LOW:HIGH, e.g. 0:400MPa; either end may be omitted. frame: "
+      "density maps are each scaled by their own frame");
   command.add_option("--dpi", options.dpi, "resolution of a PNG in dots per inch (default 200)");
   command
       .add_option("--animate", options.animation,

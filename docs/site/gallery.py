@@ -5,15 +5,16 @@
   /usr/bin/python3 docs/site/gallery.py ring salt   only those whose scene has one of these in its name
   /usr/bin/python3 docs/site/gallery.py --list
 
-Results are in build/gallery, pictures in docs/pictures/gallery. Run times are wall times of two threads of this machine.
+Results are in build/gallery, pictures in docs/pictures/gallery. Run times are processor times of this machine.
 """
 import argparse
 import dataclasses
 import hashlib
 import json
-import os
 import pathlib
 import re
+import resource
+import shutil
 import subprocess
 import sys
 
@@ -27,9 +28,8 @@ PICTURES = ROOT / "docs/pictures/gallery"
 class Picture:
     scene: str          # below scenes/, without .toml
     sentence: str
-    field: str = ""     # drawn; empty: `series`
-    series: str = ""    # drawn over `against`
-    against: str = ""
+    field: str = ""     # drawn; empty: `figure`
+    figure: str = ""    # the name of one of all figures of the run
     frame: str = ""     # empty: the last one
     run: tuple = ()     # further options of `run`
 
@@ -60,7 +60,6 @@ CHAPTERS = {
     ),
     "Shear and friction": (
         Picture("shear/grooves-16", "A compact drawn over a grooved plate.", "effective_stress"),
-        Picture("shear/stick-slip", "Stick-slip of a block behind a spring.", series="tool/target/force_x"),
         Picture("basic/oblique-impact", "A disc hits a wall at an angle, with friction.", "effective_stress"),
     ),
     "Bonds and breakage": (
@@ -69,10 +68,9 @@ CHAPTERS = {
         Picture("brittle/salt-and-copper", "Brittle salt and ductile copper in one die.", "damage"),
     ),
     "Atomic force microscope": (
-        Picture("afm/calibration-v", "A V-shaped cantilever, calibrated with unit forces.", "displacement"),
-        Picture("afm/loop-v+14", "A friction loop on a slope of 14 degrees.", series="lateral_signal"),
-        Picture("afm/jkr-force-curve", "A force curve of a sticky sphere, with snap-in and pull-off.", series="force"),
-        Picture("afm/raster", "A raster scan of a rough surface.", "height"),
+        Picture("afm/calibration-v", "A V-shaped cantilever, calibrated with unit forces.", figure="solid"),
+        Picture("afm/jkr-force-curve", "A force curve of a sticky sphere, with snap-in and pull-off.", figure="force_curve"),
+        Picture("afm/bump", "A tip drawn over a bump: height, and friction in both directions.", figure="solid"),
     ),
 }
 
@@ -85,49 +83,54 @@ def key_of(picture):
 
 
 def run(picture):
-    """The run's folder; it is run unless that was done."""
+    """The run's folder, and its processor time in s; it is run unless that was done."""
     folder, key = RUNS / picture.name, key_of(picture)
-    stamp = RUNS / f"{picture.name}.key"
-    if stamp.exists() and stamp.read_text() == key:
-        return folder
-    command = [PROGRAM, "run", ROOT / f"scenes/{picture.scene}.toml", "-o", folder, "--overwrite", "--threads", "2",
+    stamp = RUNS / f"{picture.name}.json"
+    if stamp.exists() and (kept := json.loads(stamp.read_text()))["key"] == key:
+        return folder, kept["seconds"]
+    command = [PROGRAM, "run", ROOT / f"scenes/{picture.scene}.toml", "-o", folder, "--overwrite", "--quiet", "--threads", "2",
                *picture.run]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, capture_output=True, text=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode:
         sys.exit(f"{picture.scene}: exit code {done.returncode}\n{done.stderr[-2000:]}")
-    stamp.write_text(key)
-    return folder
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    stamp.write_text(json.dumps({"key": key, "seconds": seconds}))
+    return folder, seconds
 
 
 def draw(picture, folder):
-    options = ["--field", picture.field] if picture.field else ["--series", picture.series]
-    options += ["--against", picture.against] if picture.against else []
+    target, all_figures = PICTURES / f"{picture.name}.png", RUNS / f"{picture.name}-figures"
+    options = ["--field", picture.field, "-o", target] if picture.field else ["-o", all_figures]
     options += ["--frame", picture.frame] if picture.frame else []
-    target = PICTURES / f"{picture.name}.png"
-    done = subprocess.run([PROGRAM, "figure", folder, *options, "--no-title", "--width", "100mm", "--dpi", "130",
-                           "-o", target], capture_output=True, text=True)
+    done = subprocess.run([PROGRAM, "figure", folder, *options, "--no-title", "--width", "100mm", "--dpi", "130"],
+                          capture_output=True, text=True)
+    if not done.returncode and picture.figure:
+        if not (all_figures / f"{picture.figure}.png").exists():
+            sys.exit(f"{picture.scene}: no {picture.figure} among {sorted(f.stem for f in all_figures.iterdir())}")
+        shutil.copyfile(all_figures / f"{picture.figure}.png", target)
     if done.returncode:
         sys.exit(f"{picture.scene}: no picture\n{done.stderr[-2000:]}")
     return target
 
 
-def seconds(folder):
-    wall = json.loads((folder / "summary.json").read_text())["wall_seconds"]
-    return "less than a second" if wall < 1 else f"{wall:.0f} s" if wall < 100 else f"{wall / 60:.0f} min"
+def time_text(seconds):
+    return "less than a second" if seconds < 1 else f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
 def page(rows):
     cpu = re.search(r"model name\s*:\s*(.*)", pathlib.Path("/proc/cpuinfo").read_text())
     lines = ["# Gallery", "",
              "Every picture is the result of one command, made by the program as it is "
-             "(`/usr/bin/python3 docs/site/gallery.py`). Run times are those of two threads of "
-             f"{'one machine' if not cpu else 'an ' + cpu[1]}, {os.cpu_count()} processors.", ""]
+             "(`/usr/bin/python3 docs/site/gallery.py`). Times are processor times of one run on "
+             f"{'this machine' if not cpu else 'an ' + cpu[1]}.", ""]
     for chapter, pictures in CHAPTERS.items():
         lines += [f"## {chapter}", ""]
         for picture in pictures:
             lines += [f"### {rows[picture.name][0]}", "",
                       f"![{rows[picture.name][0]}](pictures/gallery/{picture.name}.png)", "",
-                      f"{picture.sentence} Run time {rows[picture.name][1]}.", "", "```",
+                      f"{picture.sentence} Processor time {rows[picture.name][1]}.", "", "```",
                       picture.command(), "```", ""]
     (ROOT / "docs/gallery.md").write_text("\n".join(lines))
 
@@ -150,9 +153,9 @@ def main():
     chosen = [p for p in pictures if not options.name or any(n in p.name for n in options.name)]
     rows = {}
     for picture in chosen:
-        folder = run(picture)
+        folder, seconds = run(picture)
         draw(picture, folder)
-        rows[picture.name] = (title(folder), seconds(folder))
+        rows[picture.name] = (title(folder), time_text(seconds))
         print(f"{picture.scene}: {rows[picture.name][1]}", flush=True)
     if len(chosen) == len(pictures):
         page(rows)

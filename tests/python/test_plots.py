@@ -186,7 +186,7 @@ def pdf_size(path):
 def test_files_have_the_size_that_was_asked_for(compact, tmp_path):
     call("figure", compact, "--width", "85mm", "--height", "2.5in", "--format", "pdf", "-o", tmp_path / "pdf")
     sizes = {path.name: pdf_size(path) for path in (tmp_path / "pdf").iterdir() if path.suffix == ".pdf"}
-    assert len(sizes) == 8 and "effective_stress.pdf" in sizes and "contact_network.pdf" in sizes
+    assert len(sizes) == 11 and "effective_stress.pdf" in sizes and "contact_network.pdf" in sizes
     for name, (wide, tall) in sizes.items():
         assert wide == pytest.approx(85, abs=0.05) and tall == pytest.approx(63.5, abs=0.05), name
     call("figure", compact, "--field", "pressure", "--width", "8.5 cm", "--dpi", "300", "-o", tmp_path / "p.png")

@@ -21,7 +21,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
 from pulvis.errors import RunError
-from pulvis.figures import afm, bonds, curves, densities, fields, network, space, space_bonds, space_density
+from pulvis.figures import afm, bonds, curves, densities, fields, network, pressing, space, space_bonds, space_density
 from pulvis.figures.animation import animate
 from pulvis.figures.look import Options
 from pulvis.figures.names import capital, name_of
@@ -79,6 +79,18 @@ class Plot:
     def stress_ratio(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Axial and lateral stress, normalised by the yield stress, against relative density."""
         return self._drawn(curves.stress_ratio, "stress over yield stress", options_of(look), ax)
+
+    def compaction_curve(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
+        """Pressure of the punches against relative density, with unloading; needs a die."""
+        return self._drawn(pressing.compaction_curve, "a compaction in a die", options_of(look), ax)
+
+    def heckel(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
+        """Heckel plot: ln[1/(1 - D)] against the pressure of the top punch, with the fitted line; needs a die."""
+        return self._drawn(pressing.heckel, "a compaction in a die", options_of(look), ax)
+
+    def radial_ratio(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
+        """Radial over axial stress against relative density while the powder is pressed; needs a die."""
+        return self._drawn(pressing.radial_ratio, "a compaction in a die", options_of(look), ax)
 
     def friction(self, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Friction of the target over its distance, with the static and dynamic coefficients; needs a shear stage."""

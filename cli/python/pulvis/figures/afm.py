@@ -6,11 +6,15 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for, worded
+from pulvis.figures.hidden import dash_hidden
+from pulvis.figures.look import COLOURS as LINES, Options, bar_beside, legend_beside, sheet, unit_for, worded
 from pulvis.figures.names import capital, over
+from pulvis.figures.room import Room, legend_within, subplots
 from pulvis.lever_results import vertical_moves
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+SMALL_SOLID = 5.5  # inches, of a figure
+SMALL_PADS = ((3, 3), (0, -7), (-6, -13))  # of ticks and labels along x, y, z of a small solid; matplotlib sets them far off short sides
 SHORTEST_SIDE = 0.15  # of the box around a mesh, as drawn, over the longest
 COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
 
@@ -30,9 +34,12 @@ def make_room(axes, ends):
     """Few ticks along the short sides, and the mesh as large as possible."""
     sides = np.ptp(ends, axis=0)
     wide, tall = axes.get_position(original=True).size * axes.figure.get_size_inches()
-    for axis, share in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max()):
-        axis.set_major_locator(MaxNLocator(5 if share > 0.5 else 1 if share < 0.15 else 2))
-        axis.labelpad = 24 if share > 0.5 else 3
+    small = axes.figure.get_figwidth() < SMALL_SOLID
+    for axis, share, pads in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max(), SMALL_PADS):
+        axis.set_major_locator(MaxNLocator((4 if small else 5) if share > 0.5 else 1 if small or share < 0.15 else 2))
+        axis.labelpad = 24 if share > 0.5 else pads[1] if small else 3
+        if small and share <= 0.5:
+            axis.set_tick_params(pad=pads[0])
     axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(1.0, 0.82 * wide / tall)))
 
 
@@ -80,7 +87,8 @@ def solid(run, options=None):
     sides = np.ptp(chosen[0].nodes, axis=0)
     width, height = options.size(7, len(chosen) * (2.8 + 2.5 * np.sort(sides / sides.max())[1]))
     figure = plt.figure(figsize=(width, height))
-    figure.subplots_adjust(left=0, right=0.82, bottom=0.06 / len(chosen), top=1 - 0.3 / height, hspace=0.3 / height * len(chosen))
+    right, low, apart = (0.8, 0.12, 0.5) if width < SMALL_SOLID else (0.82, 0.06, 0.3)
+    figure.subplots_adjust(left=0, right=right, bottom=low / len(chosen), top=1 - 0.3 / height, hspace=apart / height * len(chosen))
     colours = part_colours(run, faces)
     for i, frame in enumerate(chosen):
         axis = figure.add_subplot(len(chosen), 1, i + 1, projection="3d")
@@ -154,10 +162,10 @@ def plastic_zones(run, options=None):
     if zone is None:
         return None
     top = max(strains[i].max() for i in chosen)
-    figure, axes = plt.subplots(1, len(chosen), figsize=options.size(7 * len(chosen), 5.5), squeeze=False,
-                                constrained_layout=True)
+    down, beside = (len(chosen), 1) if options.narrow else (1, len(chosen))
+    figure, axes = subplots(down, beside, figsize=options.size(7 * beside, 5.5 * down), squeeze=False)
     figure.table = []
-    for axis, i in zip(axes[0], chosen):
+    for axis, i in zip(axes.flat, chosen):
         drawn = draw_zone(axis, run, run.frames[i], strains[i], zone, (top, options))
         figure.colorbar(drawn, ax=axis, label=worded(run, "plastic_strain", ""), shrink=0.85)
         figure.table.append((f"frame {i}: plastic strain by cell", "-", strains[i]))
@@ -172,17 +180,19 @@ def draw_motions(run, motions, keys, title, options, axes, reversed_as=None):
     figure, axes = sheet(options, (6.4, 4.2), axes)
     x, y = run.series(x_key), run.series(y_key) * (-1 if reversed_as else 1)
     (x_factor, x_unit), (factor, unit) = unit_for(run.unit(x_key), x), unit_for(run.unit(y_key), y)
+    drawn = []
     for k, (words, rows) in enumerate(motions):
         shown = np.full(y.shape, np.nan)  # no line between separate parts
         shown[rows] = factor * y[rows]
-        axes.plot(x_factor * x, shown, label=words, color=LINES[k // 2 % len(LINES)] if len(motions) > 2
-                  else LINES[k], linestyle="--" if k % 2 else "-")
+        drawn += axes.plot(x_factor * x, shown, label=words, color=LINES[k // 2 % len(LINES)] if len(motions) > 2
+                           else LINES[k], linestyle="--" if k % 2 else "-")
+    dash_hidden(axes, drawn)
     axes.set(xlabel=worded(run, x_key, x_unit), ylabel=over(reversed_as, unit) if reversed_as else worded(run, y_key, unit))
     options.head(axes, title, run)
     if len(motions) > 2:  # several loops fill the axes
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
+        legend_beside(axes, options)
     else:
-        axes.legend()
+        legend_within(axes, options)
     y_name = reversed_as.lower() if reversed_as else y_key
     figure.table = [column for words, rows in motions for column in
                     ((f"{x_key}, {words}", run.unit(x_key), x[rows]), (f"{y_name}, {words}", run.unit(y_key), y[rows]))]
@@ -220,6 +230,7 @@ def detector(run, options=None, axes=None):
     return friction_loop(run, options, axes, "volts")
 
 
+SMALL_IMAGES = 11  # inches: rasters side by side in a narrower figure are too small
 CHANNELS = ["topography", "deflection", "friction"]
 LEVELS = ["none", "plane", "lines"]
 
@@ -253,7 +264,8 @@ def maps_of(run, level):
                 yield action, channel, "difference", data.attrs["unit"], levelled(half, level), size
 
 
-def draw_map(figure, axis, one, options):
+def draw_map(figure, axis, one, options, heading):
+    """heading: of its title, as the action."""
     action, channel, direction, unit, values, size = one
     factor, shown = unit_for(unit, values)
     lines, pixels = values.shape
@@ -261,9 +273,16 @@ def draw_map(figure, axis, one, options):
     axis.grid(False)
     picture = axis.imshow(factor * values, origin="lower", cmap=colour_map(options, "afmhot"), extent=extent)
     named = "(trace − retrace)/2" if direction == "difference" else direction
-    axis.set(title=f"{action}: {channel}, {named}" if options.title else "",
-             xlabel="Along the scan / µm" if size else "Pixel", ylabel="Across / µm" if size else "Line")
-    figure.colorbar(picture, ax=axis, label=over(capital(channel), shown), shrink=0.8)
+    if options.title:
+        axis.set_title(f"{heading}{channel}, {named}", loc="left")
+    across, up = ("$x$ / µm", "$y$ / µm") if is_small(options) else ("Along the scan / µm", "Across / µm")
+    axis.set(xlabel=across if size else "Pixel", ylabel=up if size else "Line")
+    bar_beside(figure, axis, picture, over(capital(channel), shown))
+
+
+def is_small(options):
+    """Whether rasters get trace and retrace side by side, one channel below the other."""
+    return bool(options.width) and options.width < SMALL_IMAGES
 
 
 def images(run, options=None):
@@ -272,16 +291,20 @@ def images(run, options=None):
     if "images" not in run.file:
         return None
     actions, traces = sorted(run.file["images"]), ["trace", "retrace", "difference"]
-    figure, axes = plt.subplots(3 * len(actions), 3, figsize=options.size(15, 13 * len(actions)), squeeze=False,
-                                constrained_layout=True)
+    beside = is_small(options)
+    rows, columns = (len(CHANNELS) + 1, 2) if beside else (3, 3)
+    figure, axes = subplots(rows * len(actions), columns, squeeze=False,
+                            figsize=options.size(5 * columns, 4.33 * rows * len(actions)))
     for axis in axes.flat:
         axis.set_visible(False)
     figure.table = []
     for one in maps_of(run, options.level):
         action, channel, direction, unit, values, _ = one
-        axis = axes[3 * actions.index(action) + traces.index(direction), CHANNELS.index(channel)]
+        down, right = traces.index(direction), CHANNELS.index(channel)
+        down, right = (right + down // 2, down % 2) if beside else (down, right)
+        axis = axes[rows * actions.index(action) + down, right]
         axis.set_visible(True)
-        draw_map(figure, axis, one, options)
+        draw_map(figure, axis, one, options, f"{action}: " if len(actions) > 1 else "")
         figure.table.append((f"{action} {channel} {direction}, line by line", unit, values.ravel()))
     return figure
 

@@ -12,6 +12,7 @@ from pulvis.figures.colours import colours_of
 from pulvis.figures.fields import DEFAULT_FIELD, field_of, paint
 from pulvis.figures.lever_film import lever_film
 from pulvis.figures.look import Options, close_up, shape_of, sheet
+from pulvis.figures.room import Still, has_room
 from pulvis.figures.space import space_film
 
 SUFFIXES = (".mp4", ".gif")
@@ -73,7 +74,7 @@ def animate(run, path, options=None, axes=None, per_second=None):
     writer = writer_for(path, per_second or (PER_SECOND_OF_LEVERS if run.is_solid else PER_SECOND))
     figure, axes, show = film(run, options, axes)
     figure.canvas.draw()
-    figure.set_layout_engine("none")  # laid out once, so that nothing shifts between frames
+    figure.set_layout_engine(Still() if has_room(figure) else "none")  # laid out once, so that nothing shifts between frames
     with writer.saving(figure, str(path), min(options.dpi, MOST_DPI)):
         for k in range(len(run.frames)):
             show(k)

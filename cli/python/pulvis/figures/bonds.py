@@ -1,6 +1,5 @@
 """Figures of breaking bonds: cracks by mode, fragments, fracture energy, fragment sizes."""
 import numpy as np
-from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.ticker import MaxNLocator
@@ -8,8 +7,9 @@ from matplotlib.ticker import MaxNLocator
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import fragment_colours
 from pulvis.figures.hidden import dash_hidden
-from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.look import Options, bar_beside, close_up, legend_beside, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.names import label
+from pulvis.figures.room import subplots
 from pulvis.figures.tools import draw_tools, outlines
 
 BOND_FIELDS = ("damage", "fragment")  # fields with bonds and cracks drawn on top
@@ -67,9 +67,9 @@ def cracks(run, options=None, into=None):
     edges = outlines(quads)
     axes.add_collection(LineCollection(1e3 * position[edges], colors="#8b96a3", linewidths=0.4))
     cell.draw(axes, colours, edges)
+    set_axes(axes, limits)
     draw_bonds(run, figure, axes, frame, cell, alone=True)
     draw_tools(run, axes, frame, limits / 1e3)
-    set_axes(axes, limits)
     options.head(axes, cracks_title(frame), run)
     close_up(figure, options, into)
     ends = np.concatenate([frame["cracks/start"][()], frame["cracks/end"][()]], axis=1).T
@@ -90,15 +90,14 @@ def breaking(run, options=None):
     groups = [(broken, si, {broken: "broken so far"}),
               (("energy", "E"), "J", {"energy/fracture": "dissipated in breaking", "energy/bonds": "stored in bonds"}),
               ("bonds/fragments", "-", {"bonds/fragments": "fragments"})]
-    figure, places = plt.subplots(len(groups), figsize=options.size(6.4, 6.6), sharex=True, constrained_layout=True)
+    figure, places = subplots(len(groups), figsize=options.size(6.4, 6.6), sharex=True)
     figure.table = [("time", "s", time)]
     for axes, (name, si, names) in zip(places, groups):
         series = {key: run.series(key) for key in names}
         size, shown = unit_for(si, np.concatenate(list(series.values())))
         dash_hidden(axes, [axes.plot(factor * time, size * values, label=names[key])[0] for key, values in series.items()])
         figure.table += [(key, si, values) for key, values in series.items()]
-        text = worded(run, name, shown)
-        axes.set_ylabel(text.replace(" $", "\n$", 1) if options.narrow else text)
+        axes.set_ylabel(worded(run, name, shown))
         if len(names) > 1:
             axes.legend()
     places[-1].yaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
@@ -131,7 +130,7 @@ def fragment_sizes(run, options=None, axes=None):
     axes.set(xlabel=label(("equivalent diameter", "d"), unit), ylabel="Cumulative share / %",
              xlim=(0, 1.03 * x[-1]), ylim=(0, 102))
     options.head(axes, f"Sizes of {len(diameter)} fragments at {moment(frame)}", run)
-    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    legend_beside(axes, options)
     figure.table = [("equivalent diameter", "m", diameter), ("share of the number", "-", number),
                     (f"share of the {kind}", "-", size)]
     return figure

@@ -10,10 +10,12 @@ from matplotlib.patches import Patch
 from pulvis.errors import PulvisError
 from pulvis.figures.look import COLOURS, bar_beside, unit_for
 from pulvis.figures.names import label
+from pulvis.figures.room import has_room, legend_below, renderer_of
 
 NO_VALUE = "#d5dbe2"  # what has no value is grey
 COUNTS = ("coordination", "tools_touched")  # ordered integers
 MOST_IN_LEGEND = 12
+WIDEST_LEGEND = 0.3  # of the figure, beside the picture
 
 
 def fragment_colours(numbers):
@@ -91,13 +93,16 @@ class Kinds:
             return
         patches = [Patch(facecolor=colour, label=self.names[k] if self.names else "none" if k == self.none else str(k))
                    for k, colour in zip(self.known, self.of(self.known))]
-        axes.legend(handles=patches, title=self.words, loc="upper left", bbox_to_anchor=(1.01, 1))
+        legend = axes.legend(handles=patches, title=self.words, loc="upper left", bbox_to_anchor=(1.01, 1))
+        if has_room(figure) and legend.get_window_extent(renderer_of(figure)).width > WIDEST_LEGEND * figure.bbox.width:
+            legend.remove()
+            legend_below(figure, patches, grows=False, title=self.words)
 
 
 def colours_of(field, values, options):
     """field: fields.Field of one frame; values: of all frames that share the colour scale."""
     if field.whole and field.name not in COUNTS:
-        if options.limits or options.cmap:
+        if options.limits and not options.own_range or options.cmap:
             raise PulvisError(f"--range and --cmap are for fields with a continuous scale; {field.name} has a colour for each number")
         return Kinds(field, values)
     return Scale(field, values, options)

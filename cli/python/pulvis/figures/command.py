@@ -25,6 +25,7 @@ from pulvis.figures.densities import density_profile, local_density
 from pulvis.figures.fields import DEFAULT_FIELD, field_picture
 from pulvis.figures.look import NotDrawn, Options, write_csv
 from pulvis.figures.network import contact_network, rose
+from pulvis.figures.pressing import compaction_curve, heckel, radial_ratio
 from pulvis.figures.probe import figures_of_probe
 from pulvis.figures.quantities import inches, length
 from pulvis.figures.space import asked_place, section_picture, space_network, space_picture, space_profile
@@ -34,15 +35,20 @@ from pulvis.figures.study import figures_of_study
 from pulvis.results import Run
 
 FORMATS = {".png", ".svg", ".pdf", ".csv", ".xyz"}
-PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "friction": friction, "energies": energies,
+PRESSING = {"compaction_curve": compaction_curve, "heckel": heckel, "radial_ratio": radial_ratio}  # in a die
+PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, **PRESSING, "friction": friction, "energies": energies,
                  "local_density": local_density, "density_profile": density_profile,
                  "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
                  "breaking": breaking, "fragment_sizes": fragment_sizes}
 SPACE_FIGURES = {"section": section_picture, "local_density": density_slice, "density_profile": space_profile,
-                 "contact_network": space_network, "force": forces, "stress_ratio": stress_ratio, "energies": energies,
+                 "contact_network": space_network, "force": forces, "stress_ratio": stress_ratio, **PRESSING, "energies": energies,
                  "cracks": space_cracks, "breaking": breaking, "fragment_sizes": fragment_sizes}
+NAMED_FIGURES = {"plane": PLANE_FIGURES, "space": SPACE_FIGURES, "lever": AFM_FIGURES}  # of a run, besides its fields
+GROUPS = {"probe": (figures_of_probe, lambda folder: (folder / "probe.toml").exists()),
+          "study": (figures_of_study, lambda folder: (folder / "curves.json").exists() and not (folder / "run.h5").exists())}
 OF_A_FIELD = (field_picture, space_picture, section_picture)
 LIKE_EVERY_FIGURE = {"limits": None}  # colour limits apply to a single field
+DENSITY = "local_density"  # drawn like a field if asked for
 
 
 def printable(text):
@@ -98,19 +104,27 @@ def save_particles(run, asked, options, place):
     place.save(lambda file: run.write_xyz(file, options.frame), path)
 
 
-def picture_for(run):
+def kind_of(run):
+    """Which of NAMED_FIGURES a run has."""
+    return "lever" if run.is_solid else "space" if run.in_space else "plane"
+
+
+def picture_for(run, field=None):
     """The function that draws a field."""
+    if field == DENSITY:
+        return NAMED_FIGURES[kind_of(run)][DENSITY]
     return space_picture if run.in_space else field_picture
 
 
 def save_all(run, asked, options, place):
     field = (options.field or DEFAULT_FIELD).replace(":", "_")
-    names = AFM_FIGURES if run.is_solid else {field: picture_for(run), **(SPACE_FIGURES if run.in_space else PLANE_FIGURES)}
+    names = {**({} if run.is_solid else {field: picture_for(run, options.field)}), **NAMED_FIGURES[kind_of(run)]}
+    of_a_field = (*OF_A_FIELD, *([names[DENSITY]] if DENSITY in names and (options.field == DENSITY or options.own_range) else []))
     drawn = 0
     for name, draw in names.items():
         path = asked.to / f"{name}.{asked.format}"
         try:
-            figure = draw(run, options if draw in OF_A_FIELD else replace(options, **LIKE_EVERY_FIGURE))
+            figure = draw(run, options if draw in of_a_field else replace(options, **LIKE_EVERY_FIGURE))
         except NotDrawn as reason:
             print(f"figures: no {path.name}: {reason}")
             continue
@@ -152,6 +166,8 @@ def save_run(run, asked, options, place):
     if asked.animate:
         if options.series or file or asked.output:
             raise PulvisError("--animate names its output file: use it without --series and -o")
+        if options.own_range:
+            raise PulvisError("--range frame is for density maps: a film has one colour range", key="--range")
         writer_for(asked.animate)
         place.save(lambda path: animate(run, path, options), asked.animate)
         return
@@ -165,7 +181,8 @@ def save_run(run, asked, options, place):
         return
     if run.is_solid and not options.series:
         raise PulvisError("a single figure of a lever shows one of its series: give --series")
-    draw_field = section_picture if asked.across or asked.at else picture_for(run)
+    is_section = (asked.across or asked.at) and options.field != DENSITY
+    draw_field = section_picture if is_section else picture_for(run, options.field)
     figure = chosen_series(run, options) if options.series else draw_field(run, options)
     if figure is None:
         raise PulvisError(f"no frame with {options.field or DEFAULT_FIELD}")
@@ -193,7 +210,7 @@ def arguments(words=None):
     parser.add_argument("--height", help="height of every figure, e.g. 60mm")
     parser.add_argument("--no-title", action="store_true")
     parser.add_argument("--cmap", help="colour map for continuous values: a name of matplotlib")
-    parser.add_argument("--range", help="colour range of the field as LOW:HIGH, e.g. 0:400MPa")
+    parser.add_argument("--range", help="colour range of the field as LOW:HIGH, e.g. 0:400MPa; frame: of each density map its own")
     parser.add_argument("--dpi", default="200")
     parser.add_argument("--across", choices=["x", "y", "z"], help="3D only: axis normal to sections and density maps (default: y)")
     parser.add_argument("--at", help="position along that axis, e.g. 2mm (default: near the middle)")
@@ -226,10 +243,9 @@ def draw(asked):
     place = Place(asked, options)
     with plt.rc_context(options.style()):
         try:
-            if (asked.folder / "probe.toml").exists():
-                save_group(figures_of_probe, "probe", asked, options, place)
-            elif (asked.folder / "curves.json").exists() and not (asked.folder / "run.h5").exists():
-                save_group(figures_of_study, "study", asked, options, place)
+            what = next((name for name, (_, is_here) in GROUPS.items() if is_here(asked.folder)), None)
+            if what:
+                save_group(GROUPS[what][0], what, asked, options, place)
             else:
                 save_run(Run(asked.folder), asked, options, place)
         except (OSError, ValueError, KeyError) as error:

@@ -6,6 +6,7 @@ import numpy as np
 from pulvis.errors import PulvisError
 from pulvis.figures.look import Options, draw_lines
 from pulvis.figures.names import capital, joined, name_of
+from pulvis.figures.room import legend_within
 
 
 def matching(run, pattern):
@@ -59,7 +60,7 @@ def friction(run, options=None, axes=None):
         if value is not None:
             axes.axhline(value, color=colour, linestyle=dashes, linewidth=1.2, label=f"{kind}: {value:.3g}")
     if len(axes.get_legend_handles_labels()[0]) > 1:
-        axes.legend()
+        legend_within(axes, options or Options())
     return figure
 
 

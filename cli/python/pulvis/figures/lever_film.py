@@ -8,8 +8,9 @@ from matplotlib.colors import Normalize
 from pulvis.errors import PulvisError
 from pulvis.figures.afm import draw_solid, outer_faces, part_colours, progress_words
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import unit_for, worded
+from pulvis.figures.look import legend_beside, unit_for, worded
 from pulvis.figures.names import capital, over
+from pulvis.figures.room import Room
 
 PICTURES = ("solid", "plastic_strain")
 VISIBLE = 0.08  # of the lever's length: smaller displacements are magnified to this size
@@ -41,7 +42,7 @@ def forces_of(run):
 class Forces:
     """The force curves, with the current frame marked."""
 
-    def __init__(self, run, axes):
+    def __init__(self, run, axes, options):
         self.times, self.lines = run.series("time"), []
         forces = forces_of(run)
         factor, unit = unit_for("N", np.concatenate([values for _, values in forces]))
@@ -50,7 +51,7 @@ class Forces:
             dot, = axes.plot([], [], "o", color=line.get_color(), label=worded(run, key, ""))
             self.lines.append((dot, factor * values))
         axes.set(xlabel=capital(progress_words(run)), ylabel=over("Force", unit))
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
+        legend_beside(axes, options)
 
     def show(self, time):
         row = min(int(np.searchsorted(self.times, time - 1e-9)), len(self.times) - 1)
@@ -69,11 +70,11 @@ def require_picture(run, key, into):
 def sheet_of(run, options):
     """(figure, axes of the mesh, Forces or None)"""
     with_forces = bool(run.has("probe/force_z") and forces_of(run))
-    figure = plt.figure(figsize=options.size(7.2, 6.4 if with_forces else 4.4), constrained_layout=True)
+    figure = plt.figure(figsize=options.size(7.2, 6.4 if with_forces else 4.4), layout=Room())
     if not with_forces:
         return figure, figure.add_subplot(projection="3d"), None
     grid = figure.add_gridspec(2, 1, height_ratios=[2.4, 1])
-    return figure, figure.add_subplot(grid[0], projection="3d"), Forces(run, figure.add_subplot(grid[1]))
+    return figure, figure.add_subplot(grid[0], projection="3d"), Forces(run, figure.add_subplot(grid[1]), options)
 
 
 def lever_film(run, options, into=None):

@@ -1,17 +1,17 @@
 """Common to all figures: style, size, units, and line plots."""
 import csv
-import textwrap
 from dataclasses import dataclass, field as of_dataclass
 
 import numpy as np
 from matplotlib import pyplot as plt
-from matplotlib.font_manager import FontProperties
 from matplotlib.ticker import FuncFormatter
+from matplotlib.transforms import offset_copy
 
 from pulvis.errors import RunError
 from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.names import label, name_of, plain
 from pulvis.figures.quantities import limits_of, unit_for, with_unit
+from pulvis.figures.room import UNDER, has_room, legend_below, legend_within, legends_height, points_of, subplots, wrapped
 
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#8c6d1f",
            "#882255", "#117733"]
@@ -25,6 +25,7 @@ NARROW = {"font.size": 8, "axes.titlesize": 8.5, "lines.linewidth": 1.2, "axes.l
 NARROW_BELOW = 120 / 25.4  # inches
 
 MANY_LINES = 5
+OWN_RANGE = "frame"  # colour limits: those of each frame
 
 
 class NotDrawn(RunError):
@@ -44,7 +45,7 @@ class Options:
     height: float = None
     title: bool = True
     cmap: str = None
-    limits: object = None    # colour limits: "LOW:HIGH" with units, or (low, high) in SI; None: from the values
+    limits: object = None    # colour limits: "LOW:HIGH" with units, or (low, high) in SI; None: from the values; "frame"
     dpi: float = 200
     vector: bool = False     # SVG or PDF
     across: str = "y"        # axis normal to a 3D section
@@ -68,31 +69,33 @@ class Options:
             return wide, self.height or tall
         return self.width, self.height or (tall - beside) * self.width / wide + beside
 
+    @property
+    def own_range(self):
+        """Whether every density map has the colour scale of its own frame."""
+        return self.limits == OWN_RANGE
+
     def clim(self, values, unit):
         """Colour limits in SI: as requested, or from `values` where one is open."""
         values = np.asarray(values, float)
         finite = values[np.isfinite(values)]
         ends = (finite.min(), finite.max()) if finite.size else (0.0, 1.0)
-        return tuple(end if asked is None else asked for asked, end in zip(limits_of(self.limits, unit), ends))
+        asked = limits_of(None if self.own_range else self.limits, unit)
+        return tuple(end if one is None else one for one, end in zip(asked, ends))
 
     def head(self, axes, text, run=None, of_width=7.2):
         """The title of axes; of_width: default width of the figure, inches."""
         if self.title:
-            size = FontProperties(size=plt.rcParams["axes.titlesize"]).get_size_in_points()  # may be "large"
+            size = points_of(plt.rcParams["axes.titlesize"])
             letters = int((self.width or of_width) * 72 * 0.8 / (0.5 * size))
             lines = (text if run is None else f"{text}\n{run.title}").split("\n")
-            axes.set_title("\n".join(textwrap.fill(line, letters) for line in lines), loc="left")
-
-    def broken(self, text):
-        """The axis label, on two lines if it is longer than the side of a narrow figure."""
-        return text.replace(" $", "\n$", 1) if self.narrow and len(plain(text)) > 24 else text
+            axes.set_title("\n".join(wrapped(line, letters) for line in lines), loc="left")
 
 
 def sheet(options, size, axes=None, beside=0.0):
     """(figure, axes): the given `axes` and their figure, or new ones."""
     if axes is not None:
         return axes.figure, axes
-    return plt.subplots(figsize=options.size(*size, beside), constrained_layout=True)
+    return subplots(figsize=options.size(*size, beside))
 
 
 def printed(value, unit):
@@ -134,8 +137,16 @@ def set_axes(axes, limits, names="xy"):
 
 
 def bar_beside(figure, axes, mappable, words, **more):
-    """A colour bar of the same height as its axes."""
-    place = axes.inset_axes([1.03, 0, 0.035, 1])
+    """A colour bar of the same height as its axes; below flat ones, which are too low for its label on two lines."""
+    high = np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())
+    size = points_of(plt.rcParams["axes.labelsize"])
+    if has_room(figure) and 0.5 * size * len(plain(words)) > 2 * 0.75 * 72 * figure.get_figwidth() * high:
+        down = (UNDER if axes.axison else 0.5) * size
+        under = offset_copy(axes.transAxes, figure, y=-down, units="points")
+        place = axes.inset_axes([0.1, -0.035 / high, 0.8, 0.035 / high], transform=under)
+        more["orientation"] = "horizontal"
+    else:
+        place = axes.inset_axes([1.03, 0, 0.035, 1])
     bar = figure.colorbar(mappable, cax=place, label=words, **more)
     bar.outline.set_visible(False)
     return bar
@@ -146,7 +157,8 @@ def close_up(figure, options, axes):
     if axes is not None or options.height:
         return
     figure.canvas.draw()
-    figure.set_figheight(figure.get_tightbbox().height + 0.08)
+    legends = legends_height(figure) * figure.get_figheight()
+    figure.set_figheight(figure.get_tightbbox().height + legends + 0.08)
 
 
 def recorded(run, options, name):
@@ -173,25 +185,30 @@ def worded(run, name, unit):
 def place_legend(axes, count, options):
     """Puts the legend beside the curves if there are many, or below them if there is no room."""
     if count < MANY_LINES:
-        axes.legend()
-    elif options.narrow:
-        axes.legend(loc="upper center", bbox_to_anchor=(0.45, -0.24), ncol=2)
+        legend_within(axes, options)
     else:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
+        legend_beside(axes, options)
+
+
+def legend_beside(axes, options):
+    """The legend on the right of the axes; below them in a narrow figure."""
+    if options.narrow and has_room(axes.figure):
+        legend_below(axes.figure, axes.get_legend_handles_labels()[0], not options.height)
+    else:
+        legend_within(axes, options, 0.35, loc="upper left", bbox_to_anchor=(1.01, 1))
 
 
 def draw_lines(run, x, lines, ylabel, title, options=None, into=None):
     """x: (key, values, unit); lines: [(label, values, unit)] in one unit; ylabel: a series,
     or (words, symbol)."""
     options = options or Options()
-    below = 0.16 * ((len(lines) + 1) // 2) if options.narrow and len(lines) >= MANY_LINES else 0
-    figure, axes = sheet(options, (6.4, 4.2 + below), into, below)
+    figure, axes = sheet(options, (6.4, 4.2), into)
     x_factor, x_unit = unit_for(x[2], x[1])
     factor, unit = unit_for(lines[0][2], np.concatenate([values for _, values, _ in lines]))
     drawn = [axes.plot(x_factor * x[1], factor * values, label=one)[0] for one, values, _ in lines]
     dash_hidden(axes, drawn)
     axes.set_xlabel(worded(run, x[0], x_unit))
-    axes.set_ylabel(options.broken(worded(run, ylabel, unit)))
+    axes.set_ylabel(worded(run, ylabel, unit))
     options.head(axes, title, run)
     if len(lines) > 1:
         place_legend(axes, len(lines) if into is None else 0, options)

@@ -1,6 +1,5 @@
 """The contact network: forces as lines between centres, and the directions of the contact normals."""
 import numpy as np
-from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import MaxNLocator
 
@@ -8,6 +7,7 @@ from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colour_map
 from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for
 from pulvis.figures.names import label
+from pulvis.figures.room import legend_under, subplots
 from pulvis.figures.tools import draw_tools, outlines
 
 
@@ -74,8 +74,7 @@ def rose(run, options=None):
         raise NotDrawn(f"no contacts between particles in frame {frame.number}, at {moment(frame)}", run.folder)
     number, force = frame["rose/number"][()], frame["rose/force"][()]
     middle = np.arange(2 * len(number)) * np.pi / len(number)
-    figure, axes = plt.subplots(figsize=options.size(5, 5.2), subplot_kw={"projection": "polar"},
-                                constrained_layout=True)
+    figure, axes = subplots(figsize=options.size(5, 5.2), subplot_kw={"projection": "polar"})
     width = np.pi / len(number)
     axes.bar(middle, 100 * np.tile(force, 2), width, color="#0072b2", alpha=0.55,
              label="of the normal force")
@@ -85,7 +84,7 @@ def rose(run, options=None):
     axes.yaxis.set_major_locator(MaxNLocator(4, prune="lower"))  # more would overlap; 0 is under the bars
     axes.yaxis.set_major_formatter("{x:g} %")
     options.head(axes, f"Directions of the contact normals at {moment(frame)}", run, of_width=5)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.07), ncols=2)  # below the rim and its labels
+    legend_under(axes, ncols=2)  # below the rim and its labels
     figure.table = [("direction", "rad", middle[:len(number)]), ("share of the number", "-", number),
                     ("share of the normal force", "-", force)]
     return figure

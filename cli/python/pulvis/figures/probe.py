@@ -4,15 +4,19 @@ import json
 import numpy as np
 
 from matplotlib import pyplot as plt
+from matplotlib.lines import Line2D
 
-from pulvis.figures.look import Options, unit_for
+from pulvis.figures.hidden import dash_hidden
+from pulvis.figures.look import COLOURS, Options, unit_for
 from pulvis.figures.names import label, over
+from pulvis.figures.room import legend_below, legend_under, subplots
 
 MODELS = {"drucker_prager_cap": ("Drucker–Prager cap", "-"), "modified_cam_clay": ("modified Cam-Clay", "--"),
           "fleck_kuhn_mcmeeking": ("Fleck–Kuhn–McMeeking", ":"), "gurson": ("Gurson", "-.")}
 PLANE_MODELS = {"fleck_plane": ("Fleck, no cohesion", "-"), "fleck_plane_cohesive": ("Fleck, full cohesion", ":")}
 
 
+WORDS_FROM = 6  # inches: narrower figures have symbols only, or one column
 ARROWS = 18  # of unit length fit side by side into the width of the axes
 
 
@@ -39,7 +43,7 @@ def draw_invariants(axes, states, criterion, colour, factor):
     for state in states:
         shade, mine = colour[state["asked"]], state["yield"][criterion]
         axes.plot([factor * point["p"] for point in mine["points"]], [factor * point["q"] for point in mine["points"]],
-                  "o", markersize=3.5, color=shade, label=f"density {state['relative_density']:.3f}")
+                  "o", markersize=3.5, color=shade)
         for model in mine["models"]:
             if model["name"] in ("drucker_prager_cap", "modified_cam_clay"):
                 p, q = factor * np.array(model["surface"]).T
@@ -47,8 +51,6 @@ def draw_invariants(axes, states, criterion, colour, factor):
                     axes.plot(p, side * q, MODELS[model["name"]][1], color=shade, linewidth=1)
     highest = factor * max((point["p"] for state in states for point in state["yield"][criterion]["points"]), default=1)
     axes.set_xlim(-0.1 * highest, 1.08 * highest)
-    for name in ("drucker_prager_cap", "modified_cam_clay"):
-        axes.plot([], [], MODELS[name][1], color="0.4", linewidth=1, label=MODELS[name][0])
     axes.axhline(0, color="0.8", linewidth=0.6)
 
 
@@ -78,6 +80,17 @@ def draw_stresses(axes, states, criterion, colour, factor):
     axes.set_aspect("equal")
 
 
+def keys_of_surfaces(summary, colour):
+    """Legend entries: one colour per density, the models, the state."""
+    found = {state["asked"]: state["relative_density"] for state in summary["states"]}
+    dots = [Line2D([], [], marker="o", linestyle="", markersize=3.5, color=colour[asked], label=f"density {found[asked]:.3f}")
+            for asked in sorted(found)]
+    lines = [Line2D([], [], linestyle=MODELS[name][1], color="0.4", linewidth=1, label=MODELS[name][0])
+             for name in ("drucker_prager_cap", "modified_cam_clay")]
+    return [*dots, *lines, Line2D([], [], marker="+", linestyle="", markersize=7, color="0.4", label="state"),
+            Line2D([], [], marker="$\\rightarrow$", linestyle="", markersize=8, color="0.4", label="plastic strain")]
+
+
 def surfaces(summary, criterion, options):
     paths = paths_of(summary)
     colour = colours(summary["states"])
@@ -85,22 +98,22 @@ def surfaces(summary, criterion, options):
     if not len(pressures):
         return None
     factor, unit = unit_for("Pa", pressures)
-    figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.4 * len(paths)), constrained_layout=True, squeeze=False)
+    figure, axes = subplots(len(paths), 2, figsize=options.size(9.6, 4.8 * len(paths)), squeeze=False)
+    short = options.width and options.width < WORDS_FROM
     for row, path in zip(axes, paths):
         states = of_path(summary, path)
         draw_invariants(row[0], states, criterion, colour, factor)
         draw_stresses(row[1], states, criterion, colour, factor)
-        row[0].set_xlabel(label(("pressure", "p"), unit))
-        row[0].set_ylabel(over("Von Mises' stress $q$, > 0: yy pressed more", unit))
-        row[1].set_xlabel(over("Pressure in $x$", unit))
-        row[1].set_ylabel(over("Pressure in $y$", unit))
-        row[0].set_title(f"{path}: yield surfaces", loc="left")
-        row[1].set_title("+ state, arrows: plastic strain", loc="left")
-        row[0].legend(fontsize=7)
+        row[0].set_xlabel(over("$p$", unit) if short else label(("pressure", "p"), unit))
+        row[0].set_ylabel(over("$q$" if short else "Von Mises' stress $q$, > 0: yy pressed more", unit))
+        row[1].set_xlabel(over("$p_x$" if short else "Pressure in $x$", unit))
+        row[1].set_ylabel(over("$p_y$" if short else "Pressure in $y$", unit))
+        row[0].set_title(path, loc="left")
+    legend_below(figure, keys_of_surfaces(summary, colour), not options.height)
     how = f"offset strain {summary['offset_strain']:g}" if criterion == "offset_strain" else \
         f"dissipation {summary['dissipation']:g} of the pressure"
     if options.title:
-        figure.suptitle(f"{summary['title']}, by {how}", x=0.01, ha="left")
+        figure.suptitle(f"{summary['title']}: yield surfaces by {how}", x=0.01, ha="left")
     return figure
 
 
@@ -118,19 +131,23 @@ def models(summary, options):
     paths = [path for path in paths_of(summary) if of_path(summary, path)[-1]["yield"]["dissipation"]["models"]]
     if not paths:
         return None
-    figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.6 * len(paths)), constrained_layout=True, squeeze=False)
-    for row, path in zip(axes, paths):
+    alone = options.width and options.width < WORDS_FROM  # each pair one above the other
+    size = (4.8, 2 * 3.1 * len(paths)) if alone else (9.6, 4.6 * len(paths))
+    figure, axes = subplots(2 * len(paths) if alone else len(paths), 1 if alone else 2, figsize=options.size(*size), squeeze=False)
+    for row, path in zip(axes.reshape(-1, 2), paths):
         state = of_path(summary, path)[-1]
         mine = state["yield"]["dissipation"]
         factor, unit = unit_for("Pa", np.array([point["p"] for point in mine["points"]]))
         for side, names, x, y in ((row[0], MODELS, "p", "q"), (row[1], PLANE_MODELS, "plane_p", "plane_shear")):
             draw_fitted(side, mine["points"], x, y, factor)
+            curves = []
             for model in mine["models"]:
                 if model["name"] in names:
                     name, line = names[model["name"]]
-                    side.plot(*(factor * np.array(model["surface"]).T), line,
-                              label=f"{name}, off by {100 * model['misfit']:.1f}%")
-            side.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2)
+                    curves += side.plot(*(factor * np.array(model["surface"]).T), line,
+                                        label=f"{name}, off by {100 * model['misfit']:.1f}%")
+            dash_hidden(side, curves)
+            legend_under(side, fontsize=7, ncols=1 if options.narrow else 2)
         row[0].set_title(f"{path}, density {state['relative_density']:.3f}", loc="left")
         row[0].set_xlabel(label(("pressure", "p"), unit))
         row[0].set_ylabel(over("$|q|$", unit))
@@ -146,33 +163,41 @@ def spread(values):
 
 
 def parameters(summary, options):
-    figure, axes = plt.subplots(2, 2, figsize=options.size(8.4, 6.4), constrained_layout=True)
+    high = 9.2 if options.width and options.width < WORDS_FROM else 6.8
+    figure, axes = subplots(2, 2, figsize=options.size(8.4, high))
     rows = (("youngs_modulus", "Young's modulus", "Pa"), ("poissons_ratio", "Poisson's ratio", ""))
-    for path in paths_of(summary):
+    colour = {path: COLOURS[k % len(COLOURS)] for k, path in enumerate(paths_of(summary))}
+    curves = [[], []]
+    for path in colour:
         states = of_path(summary, path)
         density = [state["relative_density"] for state in states]
-        for side, (key, name, unit) in zip(axes[0], rows):
+        for side, mine, (key, name, unit) in zip(axes[0], curves, rows):
             means = np.array([spread([one[key] for one in state["states"]]) for state in states])
             factor, shown = unit_for(unit, means[:, 0])
-            side.errorbar(density, factor * means[:, 0], factor * means[:, 1], marker="o", capsize=3, label=path)
+            mine.append(side.errorbar(density, factor * means[:, 0], factor * means[:, 1], marker="o", markersize=4, linestyle="-",
+                                      capsize=3, color=colour[path], label=path).lines[0])
             side.set_ylabel(over(name, shown))
         for side, names in zip(axes[1], (("p_b", "p_c"), ("R", "M"))):
             for name, line in zip(names, ("-", "--")):
-                draw_parameter(side, states, name, line, path)
+                draw_parameter(side, states, name, line, colour[path])
     for side in axes.flat:
         side.set_xlabel(label(("relative density", r"\rho"), ""))
-        if side.get_legend_handles_labels()[1]:
-            side.legend(fontsize=7)
-        else:
-            side.text(0.5, 0.5, "too few yield points for a fit", ha="center", transform=side.transAxes)
-    axes[1][0].set_ylabel("Hydrostatic yield pressure / MPa")
-    axes[1][1].set_ylabel("Cap eccentricity $R$, slope $M$")
+        if not side.has_data():
+            side.text(0.5, 0.5, "too few yield\npoints for a fit", ha="center", va="center", transform=side.transAxes)
+    for side, mine in zip(axes[0], curves):
+        dash_hidden(side, mine)
+    axes[1][0].set_ylabel("Yield pressure $p_b$, $p_c$ / MPa")
+    axes[1][1].set_ylabel("Eccentricity $R$, slope $M$")
+    models = [Line2D([], [], color="0.4", linestyle=line, label=text) for line, text in
+              (("-", "$p_b$, $R$: Drucker–Prager cap"), ("--", "$p_c$, $M$: modified Cam-Clay"))]
+    paths = [Line2D([], [], color=shade, marker="o", markersize=4, linestyle="-", label=path) for path, shade in colour.items()]
+    legend_below(figure, [*paths, *models], not options.height)
     if options.title:
         figure.suptitle(f"{summary['title']}: parameters, bars: standard deviation over seeds", x=0.01, ha="left")
     return figure
 
 
-def draw_parameter(axes, states, name, line, path):
+def draw_parameter(axes, states, name, line, colour):
     model = 0 if name in ("p_b", "R") else 1
     found = [(state["relative_density"], state["yield"]["dissipation"]["models"][model]) for state in states
              if state["yield"]["dissipation"]["models"]]
@@ -181,8 +206,7 @@ def draw_parameter(axes, states, name, line, path):
     factor = 1e-6 if name.startswith("p_") else 1
     values = [factor * one["parameters"][name] for _, one in found]
     bars = [factor * one["scatter"].get(name, {"deviation": 0})["deviation"] for _, one in found]
-    axes.errorbar([density for density, _ in found], values, bars, linestyle=line, marker="o", capsize=3,
-                  label=f"{path}: {name.replace('_', '')}")
+    axes.errorbar([density for density, _ in found], values, bars, linestyle=line, marker="o", markersize=4, capsize=3, color=colour)
 
 
 def figures_of_probe(folder, options=None):

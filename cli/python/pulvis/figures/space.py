@@ -249,7 +249,7 @@ def space_profile(run, options=None, axes=None):
     if not profiles:
         raise NotDrawn("no powder between the tools", run.folder)
     figure, place = sheet(options, (6.4, 4.2), axes)
-    draw_profiles(place, "z", profiles)
+    draw_profiles(place, "z", profiles, options)
     options.head(place, f"Relative density along z {room.inside if room else 'in the die'}", run)
     figure.table = profile_table("z", profiles)
     return figure

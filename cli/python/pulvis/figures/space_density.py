@@ -3,6 +3,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from pulvis.figures.colours import colour_map
+from pulvis.figures.densities import ends_of, room_of, write_values
 from pulvis.figures.look import Options, bar_beside, close_up, moment, printed, recorded, set_axes, shape_of, sheet, worded
 from pulvis.figures.space import asked_place
 from pulvis.figures.space_tools import cut, pieces
@@ -31,8 +32,7 @@ def density_slice(run, options=None, axes=None):
         return None  # outside the tools
     layer = layer_of(lines[axis], at)
     cells = np.take(values, layer, axis).T  # rows: the second of the two remaining axes
-    low, high = options.clim(values, "-")
-    low, high = (low, high) if high - low > 1e-6 else (low - 0.01, high + 0.01)
+    low, high = ends_of(options, [frame])
     across, up = (1e3 * lines[k] for k in others)
     limits = np.array([[across[0], up[0]], [across[-1], up[-1]]])
     limits += 0.03 * np.ptp(limits, axis=0).max() * np.array([[-1], [1]])
@@ -40,10 +40,7 @@ def density_slice(run, options=None, axes=None):
     figure, place = sheet(options, size, axes, beside)
     drawn = place.pcolormesh(across, up, cells, cmap=colour_map(options), vmin=low, vmax=high, edgecolors="white", linewidth=0.5)
     if cells.shape[1] <= WRITTEN_UP_TO and not options.narrow:
-        for (j, i), value in np.ndenumerate(cells):
-            if np.isfinite(value):
-                place.text((across[i] + across[i + 1]) / 2, (up[j] + up[j + 1]) / 2, f"{value:.3f}", size=7, ha="center", va="center",
-                           color="#1d2733" if (value - low) / (high - low) > 0.6 else "white")
+        write_values(place, (across, up), cells, (low, high), room_of(figure, axes, 1.6))
     at = (lines[axis][layer] + lines[axis][layer + 1]) / 2
     walls = cut(pieces(run, frame)[0], axis, at)
     place.add_collection(LineCollection(1e3 * walls, colors=TOOL_EDGE, linewidths=1.8, zorder=2))

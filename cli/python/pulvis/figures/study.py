@@ -11,6 +11,7 @@ from matplotlib import pyplot as plt
 from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for
 from pulvis.figures.names import capital, label, name_of
+from pulvis.figures.room import legend_within
 
 
 def name_in(summary, key):
@@ -54,7 +55,7 @@ def draw(curve, summary, options, axes=None):
     axes.set_xlabel(label(name_in(summary, curve["x"]), x_unit))
     axes.set_ylabel(label(name_in(summary, curve["y"]), unit))
     options.head(axes, title_of(summary, curve))
-    axes.legend(fontsize="small")
+    legend_within(axes, options, fontsize="small")
     return figure
 
 
@@ -113,7 +114,7 @@ def draw_fit(fit, summary, options):
         axes.set_xscale("log")
         plain_ticks(axes)
     options.head(axes, title_of(summary, fit))
-    axes.legend(fontsize="small")
+    legend_within(axes, options, fontsize="small")
     return figure
 
 
