@@ -4,6 +4,7 @@ import re
 import h5py
 import numpy as np
 import pytest
+from conftest import call
 
 import pulvis
 from pulvis.errors import RunError
@@ -175,3 +176,18 @@ def test_one_frame_is_written_alone_and_a_missing_one_refused(tmp_path):
     assert [a["Step"] for a, _ in parse(tmp_path / "p.xyz")] == ["10"]
     with pytest.raises(RunError, match="frame 2: there are 0 to 1"):
         run.write_xyz(tmp_path / "p.xyz", frame=2)
+
+
+def test_the_command_writes_the_particles_of_a_run(compact, tmp_path):
+    call("figure", compact, "--format", "xyz", "-o", tmp_path)
+    call("figure", compact, "-o", tmp_path / "one.xyz", "--frame", "1")
+    frames = parse(tmp_path / "particles.xyz")
+    assert len(frames) == len(pulvis.open(compact).frames) and len(frames[0][1]["pos"]) == 25
+    stress = pulvis.open(compact).frame(-1).field("particle_stress")
+    assert frames[-1][1]["stress"][:, :4] == pytest.approx(stress, rel=1e-6)
+    assert parse(tmp_path / "one.xyz")[0][0] == frames[1][0]
+    assert "without --series" in call("figure", compact, "--format", "xyz", "--field", "pressure", code=2)
+
+
+def test_a_lever_has_no_particles(loop, tmp_path):
+    assert "no particles" in call("figure", loop, "--format", "xyz", "-o", tmp_path, code=2)
