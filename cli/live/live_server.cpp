@@ -11,6 +11,7 @@
 #include <cstring>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "cli/report/report.hpp"
 
@@ -31,6 +32,15 @@ std::string random_word() {
 void use_alone(socket_t socket) {
   const int yes = 1;  // also where closed connections of an earlier server linger
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+}
+
+// The library would compress a text in one piece with Brotli at its slowest, for a minute.
+void send(httplib::Response& response, std::string text, const char* type) {
+  const auto kept = std::make_shared<const std::string>(std::move(text));
+  response.set_content_provider(
+      kept->size(), type, [kept](std::size_t from, std::size_t length, httplib::DataSink& to) {
+        return to.write(kept->data() + from, length);
+      });
 }
 
 std::int64_t known_version(const httplib::Request& request) {
@@ -79,18 +89,18 @@ void LiveServer::answer(LiveData& data, const std::string& word) {
                               {"X-Content-Type-Options", "nosniff"}});
   const std::string page = live_page();
   server.Get("/" + word + "/", [page](const httplib::Request&, httplib::Response& response) {
-    response.set_content(page, "text/html; charset=utf-8");
+    send(response, page, "text/html; charset=utf-8");
   });
   server.Get("/" + word, [word](const httplib::Request&, httplib::Response& response) {
     response.set_redirect("/" + word + "/");
   });
   server.Get("/" + word + "/state",
              [&data](const httplib::Request& request, httplib::Response& response) {
-               response.set_content(data.state(known_version(request)), json);
+               send(response, data.state(known_version(request)), json);
              });
   server.Get("/" + word + "/report",
              [&data](const httplib::Request& request, httplib::Response& response) {
-               response.set_content(data.report(known_version(request)), json);
+               send(response, data.report(known_version(request)), json);
              });
 }
 

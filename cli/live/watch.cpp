@@ -16,6 +16,7 @@
 #include "cli/report/report.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/run_folder.hpp"
+#include "engine/processor_time.hpp"
 
 namespace pulvis {
 namespace {
@@ -24,11 +25,11 @@ using Time = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto between_looks = 250ms;
-constexpr auto page_is_open = 5s;     // since its last question
+constexpr auto page_is_open = 10s;    // since its last question
 constexpr auto farewell = 15s;        // that pages have to fetch the end of a run
 constexpr auto for_other_pages = 1s;  // after the first one knows the end
-constexpr int share_of_reading =
-    8;  // of the time, at least this many times less is spent on reading the results
+// After reading the results it waits for this many times the processor time that reading took.
+constexpr int share_of_reading = 4;
 
 // The run's process holds the other end of a pipe for as long as it lives.
 bool has_ended(const WatchOptions& options) {
@@ -61,9 +62,11 @@ class Watch {
     if (!run_.has_news()) return true;
     if (data_.since_last_question() > page_is_open) return !at_once;
     if (!at_once && Time::now() < next_) return false;
-    const Time::time_point begin = Time::now();
+    const double begin = thread_seconds();
     auto report = run_.read();
-    next_ = Time::now() + share_of_reading * (Time::now() - begin);
+    next_ = Time::now() +
+            std::chrono::duration_cast<Time::duration>(
+                share_of_reading * std::chrono::duration<double>(thread_seconds() - begin));
     if (report) data_.set_report(std::move(*report));
     return report.has_value();
   }
@@ -92,7 +95,7 @@ void require_run_or_start(const std::filesystem::path& folder) {
 }  // namespace
 
 ExitCode watch_run(const WatchOptions& options) {
-  constexpr int yields_to_the_run = 10;
+  constexpr int yields_to_the_run = 5;
   setpriority(PRIO_PROCESS, 0, yields_to_the_run);
   if (!options.of_run) require_run_or_start(options.folder);
   take_interrupts();

@@ -47,16 +47,24 @@ class LiveStatus {
   // The process that serves the page does not answer any more.
   lose(isOver) {
     document.body.dataset.lost = "1";
-    this.news.textContent = isOver ? "" : "The live view has ended: this page gets no news any more.";
-    if (!isOver) this.host.dataset.mark = "bad";
     this.bar.hidden = true;
+    this.news.textContent = "";
+    if (isOver) return;
+    this.text.textContent = `The live view has ended: this page gets no news any more. Last known: ${this.text.textContent}`;
+    this.host.dataset.mark = "bad";
   }
 }
 
+class NoAnswer extends Error {}
+
 async function ask(what, version) {
-  const answer = await fetch(`${what}?since=${version}`, {cache: "no-store"});
-  if (!answer.ok) throw new Error(`${what}: answer ${answer.status}`);
-  return answer.json();
+  let answer = null;
+  try {
+    answer = await (await fetch(`${what}?since=${version}`, {cache: "no-store"})).json();
+  } catch (error) {
+    throw new NoAnswer(error.message);
+  }
+  return answer;
 }
 
 class LivePage {
@@ -103,7 +111,7 @@ async function main() {
       if (!await live.next()) return;
       lost = 0;
     } catch (error) {
-      if (!(error instanceof TypeError) || !/fetch|network/i.test(error.message)) throw error;  // only of `fetch`
+      if (!(error instanceof NoAnswer)) throw error;
       ++lost;
       if (lost === most) live.status.lose(live.phase === "ended");
       else await new Promise(done => setTimeout(done, 500));
