@@ -31,6 +31,7 @@ RunForecast::RunForecast(const std::filesystem::path& scene) {
       stages_.push_back({static_cast<double>(std::max<std::size_t>(1, read.afm->actions.size()))});
       return;
     }
+    limits_ = read.limits;
     for (const StageSpec& stage : read.stages)
       stages_.push_back({stage.duration, stage.until && stage.until->relative_density
                                              ? *stage.until->relative_density

@@ -1,9 +1,12 @@
-// When a run will end, as far as its folder tells: from the stages of its scene and the samples so far.
+// What is known of a run from its scene: when it will end, with the samples so far, and its limits.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "scenes/spec/results_spec.hpp"
 
 namespace pulvis {
 
@@ -15,6 +18,8 @@ class RunForecast {
   // The expected end in the units of the samples' times (s; of a lever: actions), NaN if it is not known. A stage that ends
   // at a density is extrapolated as in cli/session/end_forecast.hpp; any other `until` is expected at the end of its time.
   double end(std::span<const double> times, std::span<const double> densities) const;
+  // Of a powder; a lever has none.
+  const std::optional<LimitSpec>& limits() const { return limits_; }
 
  private:
   struct Stage {
@@ -22,6 +27,7 @@ class RunForecast {
     double density = 0;  // at which it ends; 0: at the end of its time
   };
   std::vector<Stage> stages_;
+  std::optional<LimitSpec> limits_;
 };
 
 }  // namespace pulvis

@@ -62,6 +62,9 @@ std::string json_of(const RunState& state) {
                               {"end", state.end},
                               {"quiet", state.quiet}};
   json["left"] = state.seconds_left ? nlohmann::ordered_json(*state.seconds_left) : nullptr;
+  if (state.limits)
+    json["limits"] = {{"energy_balance", state.limits->energy_balance},
+                      {"penetration", state.limits->penetration}};
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -129,6 +132,7 @@ void RunWatch::read_progress() {
       file.has_attribute("/", "outcome") ? file.text_attribute("/", "outcome") : std::string();
   state_.time = times.empty() ? 0 : times.back();
   state_.end = forecast_->end(times, densities);
+  state_.limits = forecast_->limits();
   if (marks_.empty())
     marks_.push_back({ns * static_cast<double>(written_at(folder_ / "scene.toml")), 0});
   if (state_.time > marks_.back().time)

@@ -22,6 +22,7 @@ struct RunState {
   double end = 0;                      // expected; NaN: not known
   std::optional<double> seconds_left;  // wall time
   double quiet = 0;                    // s since it last wrote something
+  std::optional<LimitSpec> limits;
 };
 std::string json_of(const RunState& state);
 

@@ -55,6 +55,20 @@ class LiveStatus {
   }
 }
 
+// The quality values that the samples tell while the run goes on; the run itself judges more of them at its end.
+function qualitySoFar(run, limits = {}) {
+  const energies = run.named(/^energy\/(?!balance)/).map(({values}) => largest(values)), whole = Math.max(0, ...energies);
+  const of = name => run.has(`energy/${name}`) ? largest(run.values(`energy/${name}`)) : NaN, internal = Math.max(of("elastic"), of("plastic"));
+  if (!run.has("energy/balance") || !(whole > 0)) return [];
+  return [
+    {name: "Energy balance error", meaning: "so far, relative to the largest energy in the run", value: of("balance") / whole, limit: limits.energy_balance},
+    {name: "Kinetic energy", meaning: "now, relative to the internal energy", value: run.end("energy/kinetic") / (run.end("energy/elastic") + run.end("energy/plastic"))},
+    {name: "Hourglass energy", meaning: "largest so far, relative to the largest internal energy", value: of("hourglass") / internal},
+    {name: "Penetration", meaning: "deepest overlap of two surfaces so far, relative to the length of a boundary edge",
+     value: run.has("penetration") ? run.end("penetration") : NaN, limit: limits.penetration},
+  ];
+}
+
 class NoAnswer extends Error {}
 
 async function ask(what, version) {
@@ -77,6 +91,7 @@ class LivePage {
     this.version = version;
     if (!head) return;
     const run = await Run.load(head), {body} = document;
+    if (this.state.phase !== "ended") run.summary.quality ??= qualitySoFar(run, this.state.limits);
     document.title = document.querySelector("h1").textContent = head.title;
     await this.page.show(run);
     this.follow();
@@ -97,7 +112,7 @@ class LivePage {
   async next() {
     const {version, last, state} = await ask("state", this.version), isNew = version !== this.version;
     this.status.show(state);
-    this.phase = state.phase;
+    this.state = state;
     if (isNew) await this.load();
     return !last || isNew;
   }
@@ -113,7 +128,7 @@ async function main() {
     } catch (error) {
       if (!(error instanceof NoAnswer)) throw error;
       ++lost;
-      if (lost === most) live.status.lose(live.phase === "ended");
+      if (lost === most) live.status.lose(live.state?.phase === "ended");
       else await new Promise(done => setTimeout(done, 500));
     }
   }
