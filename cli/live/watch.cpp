@@ -97,7 +97,7 @@ void require_run_or_start(const std::filesystem::path& folder) {
 ExitCode watch_run(const WatchOptions& options) {
   constexpr int yields_to_the_run = 5;
   setpriority(PRIO_PROCESS, 0, yields_to_the_run);
-  if (!options.of_run) require_run_or_start(options.folder);
+  require_run_or_start(options.folder);
   take_interrupts();
   if (options.of_run) {  // the run reacts to them
     std::signal(SIGINT, SIG_IGN);

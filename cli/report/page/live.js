@@ -8,7 +8,7 @@ sectionText = id => loadedSections.get(id);
 // What a phase of the run means: a mark, and words. `left`: s, null if not known.
 const PHASES = {
   before: () => ["wait", "The run is being set up: it has no results yet."],
-  running: ({left, share}) => ["go", Number.isFinite(share) ? `Running: ${percent(share)} done` +
+  running: ({left, share}) => ["go", Number.isFinite(share) ? `Running: ${Math.floor(100 * share)} % done` +
     (left === null ? "." : `, about ${duration(Math.max(1, Math.round(left)))} left.`) : "Running."],
   silent: ({quiet}) => ["bad", `No news for ${duration(Math.round(quiet))}: the run may have ended. It writes from another machine, which cannot be asked.`],
   gone: () => ["bad", "The process of the run is gone, and it wrote no end: it was killed. What is shown is as far as it had come; " +
@@ -59,11 +59,12 @@ class LiveStatus {
 function qualitySoFar(run, limits = {}) {
   const energies = run.named(/^energy\/(?!balance)/).map(({values}) => largest(values)), whole = Math.max(0, ...energies);
   const of = name => run.has(`energy/${name}`) ? largest(run.values(`energy/${name}`)) : NaN, internal = Math.max(of("elastic"), of("plastic"));
+  const judged = "at the end";
   if (!run.has("energy/balance") || !(whole > 0)) return [];
   return [
     {name: "Energy balance error", meaning: "so far, relative to the largest energy in the run", value: of("balance") / whole, limit: limits.energy_balance},
-    {name: "Kinetic energy", meaning: "now, relative to the internal energy", value: run.end("energy/kinetic") / (run.end("energy/elastic") + run.end("energy/plastic"))},
-    {name: "Hourglass energy", meaning: "largest so far, relative to the largest internal energy", value: of("hourglass") / internal},
+    {name: "Kinetic energy", meaning: "now, relative to the internal energy", value: run.end("energy/kinetic") / (run.end("energy/elastic") + run.end("energy/plastic")), judged},
+    {name: "Hourglass energy", meaning: "largest so far, relative to the largest internal energy", value: of("hourglass") / internal, judged},
     {name: "Penetration", meaning: "deepest overlap of two surfaces so far, relative to the length of a boundary edge",
      value: run.has("penetration") ? run.end("penetration") : NaN, limit: limits.penetration},
   ];
@@ -123,7 +124,10 @@ async function main() {
   document.getElementById("timeline").hidden = true;
   for (let lost = 0; lost < most;) {
     try {
-      if (!await live.next()) return;
+      if (!await live.next()) {
+        if (!["ended", "gone", "missing"].includes(live.state.phase)) live.status.lose(false);
+        return;
+      }
       lost = 0;
     } catch (error) {
       if (!(error instanceof NoAnswer)) throw error;
