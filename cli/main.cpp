@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <sstream>
 #include <system_error>
@@ -17,10 +18,12 @@
 #include "cli/campaigns/probe/probe_options.hpp"
 #include "cli/campaigns/study/study_options.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/figure.hpp"
+#include "cli/figure_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/kinds/toml_kind.hpp"
 #include "cli/laboratory/output/reduce_options.hpp"
+#include "cli/live/live_view.hpp"
+#include "cli/live/watch.hpp"
 #include "cli/options.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
@@ -56,7 +59,10 @@ namespace {
 struct Options {
   std::vector<std::string> words;  // of the command line
   int ranks = 1;
+  bool live = false;  // show the run in the browser
+  int port = 0;       // of that view
   RunOptions run;
+  WatchOptions watch;
   StudyOptions study;
   ProbeOptions probe;
   FitOptions fit;
@@ -126,71 +132,6 @@ void add_report(CLI::App& app, Options& options, ExitCode& code) {
           "the page (default: comparison.html, or report.html in the folder of a single run)")
       ->transform(without_detours);
   command->callback([&] { code = report(options); });
-}
-
-// Options that change the look of a figure; the scripts refuse values that are not allowed.
-void add_look(CLI::App& command, FigureOptions& options) {
-  command.add_option(
-      "--width", options.width,
-      "width of every figure in mm, cm, in or pt, e.g. 85mm (default: depends on the figure)");
-  command.add_option("--height", options.height, "height of every figure, e.g. 60mm");
-  command.add_flag("--no-title", options.no_title, "no titles above the figures");
-  command.add_option(
-      "--cmap", options.colours,
-      "colour map for continuous values: a name of matplotlib, e.g. cividis or magma_r");
-  command.add_option(
-      "--range", options.range,
-      "colour range of the field as LOW:HIGH, e.g. 0:400MPa; either end may be omitted. frame: "
-      "density maps are each scaled by their own frame");
-  command.add_option("--dpi", options.dpi, "resolution of a PNG in dots per inch (default 200)");
-  command
-      .add_option("--animate", options.animation,
-                  "animate the field over all frames; output file .mp4 or .gif (MP4 needs ffmpeg)")
-      ->transform(without_detours);
-}
-
-void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
-  auto* command = app.add_subcommand(
-      "figure",
-      "draw figures of a run for publication (PNG, SVG, PDF), or export their data (CSV)");
-  command->add_option("folder", options.folder, "results folder of a run, a study or a probe")
-      ->required();
-  command->add_option("--field", options.field,
-                      "draw this particle field; name:2 selects its second component");
-  command->add_option("--frame", options.frame,
-                      "frame number, starting at 0 (default: the last frame)");
-  command
-      ->add_option("--series", options.series,
-                   "draw this history series; repeat the option to overlay several")
-      ->allow_extra_args(false)
-      ->take_all();
-  command->add_option("--against", options.against,
-                      "series on the horizontal axis (default: time)");
-  command
-      ->add_option("-o,--output", options.output,
-                   "output file (.png, .svg, .pdf, .csv or .xyz); without --field and --series a "
-                   "folder for all figures (default: pictures/ in the run's folder)")
-      ->transform(without_detours);
-  command
-      ->add_option(
-          "--format", options.format,
-          "format of all figures: png, svg, pdf or csv; gsf: raster images for Gwyddion; xyz: "
-          "the particles of all frames for OVITO")
-      ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "gsf", "xyz"}));
-  command
-      ->add_option("--level", options.level,
-                   "levelling of raster images: none, plane, or lines (the median of each line is "
-                   "subtracted)")
-      ->check(CLI::IsMember({"none", "plane", "lines"}));
-  command
-      ->add_option("--across", options.across,
-                   "3D only: axis normal to sections and density maps (default y)")
-      ->check(CLI::IsMember({"x", "y", "z"}));
-  command->add_option(
-      "--at", options.at,
-      "position of the section along that axis, e.g. 2mm (default: near the middle)");
-  add_look(*command, options);
-  command->callback([&] { code = draw_figures(options); });
 }
 
 void add_scene(CLI::App& command, Options& options, bool required = true) {
@@ -266,6 +207,24 @@ void add_course(CLI::App& command, RunOptions& options) {
       ->check(positive<std::int64_t>("a whole number"));
 }
 
+void add_live(CLI::App& command, Options& options) {
+  auto* live = command.add_flag(
+      "--live", options.live,
+      "show the run in the browser while it is under way, at an address that is printed when it "
+      "starts; at the end wait until the page has the results");
+  add_port(command, options.port)->needs(live);
+}
+
+// With a view of it if that is wished; in a run of several processes, of the root.
+ExitCode with_view(Options& options, ExitCode (*command)(const RunOptions&)) {
+  std::unique_ptr<LiveView> view;
+  if (options.live)
+    options.run.begun = [&](const std::filesystem::path& folder) {
+      view = std::make_unique<LiveView>(folder, options.port);
+    };
+  return command(options.run);
+}
+
 void add_run(CLI::App& app, Options& options, ExitCode& code) {
   auto* run = app.add_subcommand("run", "run a scene and write its results");
   add_scene(*run, options);
@@ -274,9 +233,10 @@ void add_run(CLI::App& app, Options& options, ExitCode& code) {
   run->add_flag("--overwrite", options.run.overwrite, "replace an existing run in the folder");
   add_course(*run, options.run);
   add_ranks(*run, options);
+  add_live(*run, options);
   run->callback([&options, &code] {
     if (options.ranks == 1) {
-      code = run_scene(options.run);
+      code = with_view(options, run_scene);
       return;
     }
     leave_at_interrupts();
@@ -309,8 +269,10 @@ void add_resume(CLI::App& app, Options& options, ExitCode& code) {
   resume->add_option("folder", options.run.folder, "results folder of the run")->required();
   add_course(*resume, options.run);
   add_ranks(*resume, options);
+  add_live(*resume, options);
   resume->callback([&options, &code] {
-    code = options.ranks == 1 ? resume_run(options.run) : in_ranks(options, options.run.folder);
+    code =
+        options.ranks == 1 ? with_view(options, resume_run) : in_ranks(options, options.run.folder);
   });
 }
 
@@ -393,6 +355,7 @@ int parse_and_run(int argc, char** argv) {
     code = pack_scene(read_scene(options.run.scene, options.run.overrides), options.packing);
   });
 
+  add_watch(app, options.watch, code);
   add_report(app, options, code);
   add_figure(app, options.figure, code);
 

@@ -12,9 +12,9 @@
 namespace pulvis {
 namespace {
 
-// Scripts of both pages; last the panels, each a separate file that registers itself (panels.js). The library is
-// only for particles in three dimensions.
-std::vector<std::string> scripts(const char* page, bool in_space) {
+// Scripts of all pages; then the panels, each a separate file that registers itself (panels.js), and those of the page
+// itself. The library is only for particles in three dimensions.
+std::vector<std::string> scripts(const std::vector<std::string>& page, bool in_space) {
   std::vector<std::string> names{
       "units.js",       "names.js",     "payload.js",       "save.js",          "chart.js",
       "maps.js",        "raster.js",    "run.js",           "tags.js",          "field.js",
@@ -23,7 +23,7 @@ std::vector<std::string> scripts(const char* page, bool in_space) {
       "fits.js",        "words.js",     "tables.js"};
   if (in_space) names.insert(names.begin(), "twgl.js");
   for (const auto& panel : report_assets_named("panel_")) names.push_back(panel);
-  names.emplace_back(page);
+  names.insert(names.end(), page.begin(), page.end());
   return names;
 }
 
@@ -31,16 +31,16 @@ void write_report_as(const std::filesystem::path& run_folder, const std::filesys
                      const char* role) {
   require_own_or_none(page, role);
   const ReportData data = read_report_data(run_folder);
-  write_page(page, "page.html", scripts("report.js", data.in_space), data, role);
+  write_page(page, "page.html", scripts({"stage.js", "report.js"}, data.in_space), data, role);
 }
 
 }  // namespace
 
-void require_run(const std::filesystem::path& folder) {
+void require_run(const std::filesystem::path& folder, const std::string& command) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (fs::exists(folder / "run.h5", error)) return;
-  const std::string name = "report: " + folder.string();
+  const std::string name = command + ": " + folder.string();
   if (!fs::is_directory(folder, error)) throw NotARun(name + ": no such folder");
   for (const auto& [file, kind] : {std::pair{"study.toml", "study"},
                                    {"probe.toml", "probe"},
@@ -48,7 +48,7 @@ void require_run(const std::filesystem::path& folder) {
                                    {"reduce.toml", "reduction"}})
     if (fs::exists(folder / file, error))
       throw NotARun(
-          name + " is the folder of a " + kind + "; report is for folders of runs" +
+          name + " is the folder of a " + kind + "; " + command + " is for folders of runs" +
           (fs::exists(folder / "report.html", error) ? ", and this one has its report.html" : ""));
   throw NotARun(name + " holds no run: there is no run.h5");
 }
@@ -65,7 +65,12 @@ void write_comparison(const std::vector<std::filesystem::path>& run_folders,
                       const std::filesystem::path& page) {
   require_own_or_none(page, role::comparison);
   const ReportData data = read_comparison(run_folders);
-  write_page(page, "compare.html", scripts("compare.js", data.in_space), data, role::comparison);
+  write_page(page, "compare.html", scripts({"compare.js"}, data.in_space), data, role::comparison);
+}
+
+std::string live_page() {
+  return page_text("page.html", scripts({"stage.js", "live.js"}, true),
+                   {"Pulvis: a run under way", {}, {}, true}, Loads::from_its_server);
 }
 
 }  // namespace pulvis

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace pulvis {
@@ -34,6 +35,9 @@ class NotARun : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 // Throws NotARun, which says what the folder is instead: that of a study, a fit, a probe or a reduction.
-void require_run(const std::filesystem::path& folder);
+void require_run(const std::filesystem::path& folder, const std::string& command = "report");
+
+// The same page without data: it asks for them where it came from, again and again (page/live.js).
+std::string live_page();
 
 }  // namespace pulvis

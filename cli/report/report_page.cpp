@@ -41,6 +41,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 std::string carried(const ReportData& data) {
+  if (data.head.empty()) return {};
   std::string text =
       "<script type=\"application/json\" id=\"head\">" + harmless(data.head) + "</script>\n";
   for (const auto& section : data.sections) {
@@ -50,8 +51,15 @@ std::string carried(const ReportData& data) {
   return text;
 }
 
-std::string part(std::string_view name, const std::vector<std::string>& scripts,
-                 const ReportData& data) {
+struct PageParts {
+  const std::vector<std::string>& scripts;
+  const ReportData& data;
+  Loads loads;
+};
+
+std::string part(std::string_view name, const PageParts& parts) {
+  const auto& [scripts, data, loads] = parts;
+  if (name == "connections") return loads == Loads::nothing ? "" : "; connect-src 'self'";
   if (name == "title") return escaped(data.title);
   if (name == "style") return std::string(report_asset("report.css"));
   if (name == "script") return joined(scripts);
@@ -59,8 +67,7 @@ std::string part(std::string_view name, const std::vector<std::string>& scripts,
 }
 
 // The page with every <!--@name@--> replaced; inserted text is not searched again.
-std::string filled(std::string_view page, const std::vector<std::string>& scripts,
-                   const ReportData& data) {
+std::string filled(std::string_view page, const PageParts& parts) {
   static constexpr std::string_view opening = "<!--@", closing = "@-->";
   std::string text;
   for (std::size_t from = 0;;) {
@@ -68,19 +75,24 @@ std::string filled(std::string_view page, const std::vector<std::string>& script
     text += page.substr(from, begin - from);
     if (begin == std::string_view::npos) return text;
     const auto name = begin + opening.size(), end = page.find(closing, name);
-    text += part(page.substr(name, end - name), scripts, data);
+    text += part(page.substr(name, end - name), parts);
     from = end + closing.size();
   }
 }
 
 }  // namespace
 
-void write_page(const std::filesystem::path& path, const char* page,
-                const std::vector<std::string>& scripts, const ReportData& data, const char* of) {
+std::string page_text(const char* page, const std::vector<std::string>& scripts,
+                      const ReportData& data, Loads loads) {
   std::string text;
   for (const char* asset : {"head.html", page, "tail.html"})
-    text += filled(report_asset(asset), scripts, data);
-  write_own(path, of, text);
+    text += filled(report_asset(asset), {scripts, data, loads});
+  return text;
+}
+
+void write_page(const std::filesystem::path& path, const char* page,
+                const std::vector<std::string>& scripts, const ReportData& data, const char* of) {
+  write_own(path, of, page_text(page, scripts, data));
 }
 
 }  // namespace pulvis

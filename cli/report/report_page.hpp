@@ -14,4 +14,8 @@ namespace pulvis {
 void write_page(const std::filesystem::path& path, const char* page,
                 const std::vector<std::string>& scripts, const ReportData& data, const char* of);
 
+enum class Loads { nothing, from_its_server };  // of a page, after it has been opened
+std::string page_text(const char* page, const std::vector<std::string>& scripts,
+                      const ReportData& data, Loads loads = Loads::nothing);
+
 }  // namespace pulvis

@@ -112,6 +112,7 @@ ExitCode stopped(Session& run, const RunOptions& options, const std::string& mes
 // From the current state of the run to its end.
 ExitCode complete(Session& run, const RunOptions& options) {
   run.hooks.stop = interrupted;
+  if (options.begun) options.begun(run.folder());
   if (options.before_steps) options.before_steps(run.simulation());
   try {
     bool done = run.go() == Session::Halt::end;

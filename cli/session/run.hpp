@@ -24,6 +24,8 @@ struct RunOptions {
   CheckpointOptions checkpoints;
   bool quiet = false;  // prints only errors and warnings, on standard error
   bool json = false;   // the same, and summary.json on standard output
+  // Called when the folder is the run's, and its results can be read.
+  std::function<void(const std::filesystem::path&)> begun{};
   // Called before the first step.
   std::function<void(Simulation&)> before_steps{};
   bool talks() const { return !quiet && !json; }

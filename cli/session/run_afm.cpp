@@ -47,6 +47,7 @@ void refuse_checkpoint_time(const LoadedScene& loaded, const RunOptions& options
 
 ExitCode complete_programme(AfmSession& run, const RunOptions& options, const Checkpoint* from) {
   run.hooks.stop = interrupted;
+  if (options.begun) options.begun(run.folder());
   try {
     run.run(from);
   } catch (const OutputError&) {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "engine/files/own_files.hpp"
@@ -79,24 +81,29 @@ void remove_old_run(const fs::path& folder) {
   remove_own_below(folder / "pictures", role::figure);
 }
 
+FileDescriptor opened_folder(const fs::path& folder) {
+  return FileDescriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+}
+
+// A file system without locks grants all.
+bool is_granted(const FileDescriptor& folder, int kind) {
+  return flock(folder.get(), kind | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder, const char* taken)
-    : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+FolderLock::FolderLock(const fs::path& folder, const char* taken) : folder_(opened_folder(folder)) {
   if (!folder_) throw OutputError(folder, "open the run's folder", std::strerror(errno));
-  if (flock(folder_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw RunFolderTaken(folder, "use the folder", taken);
+  // Another process that only asks holds a lock for microseconds.
+  for (int tries = 0; !is_granted(folder_, LOCK_EX); ++tries) {
+    if (tries == 10) throw RunFolderTaken(folder, "use the folder", taken);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 bool is_locked(const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) return false;
-  try {
-    FolderLock{folder};
-    return false;
-  } catch (const RunFolderTaken&) {
-    return true;
-  }
+  const FileDescriptor asking = opened_folder(folder);
+  return asking && !is_granted(asking, LOCK_SH);
 }
 
 void require_own_files(const fs::path& folder) {

@@ -26,8 +26,7 @@ class FolderLock {
   FileDescriptor folder_;
 };
 
-// Whether some process holds such a lock now; false for a missing folder. A process that requests one at that moment
-// is refused: only ask about folders in which nothing is about to start.
+// Whether some process holds such a lock now; false for a missing folder. Asking refuses no process its lock.
 bool is_locked(const std::filesystem::path& folder);
 
 // Creates the folder, including parents, and checks that files can be written into it. A folder with a file where

@@ -86,6 +86,7 @@ ROOMS = {
         "preview": "python_scripts /",
         "ranks": "/",
         "mpi": "ranks /",
+        "live": "report /",
         "session": "ranks report /",
         "python/module": "session report /",
         "": "python_scripts report laboratory/output",

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import time
+import urllib.request
 
 import h5py
 import numpy as np
@@ -275,3 +276,15 @@ def test_the_examples_of_the_page_run(tagged, tmp_path, monkeypatch):
     assert (tmp_path / "compact.pdf").stat().st_size > 10_000
     for name in re.findall(r"`run\.plot\.(\w+)\(|`\.(\w+)\(", page.split("## Pictures")[1]):
         assert hasattr(known["run"].plot, name[0] or name[1]), name
+
+
+def test_a_live_view_serves_the_page_of_a_run_until_it_is_closed(compact):
+    view = pulvis.watch(compact)
+    with urllib.request.urlopen(view.address) as page:
+        assert b"Pulvis" in page.read()
+    assert f'src="{view.address}"' in view._repr_html_()
+    view.close()
+    with pytest.raises(OSError):
+        urllib.request.urlopen(view.address)
+    with pytest.raises(pulvis.PulvisError, match="no such folder"):
+        pulvis.watch(compact / "none")

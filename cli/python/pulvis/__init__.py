@@ -13,6 +13,7 @@ if TYPE_CHECKING:  # resolves the lazy names for type checkers and editors
     from pulvis.columns import Column as Column
     from pulvis.errors import (PulvisError as PulvisError, RangeError as RangeError, RunError as RunError,
                                SceneError as SceneError)
+    from pulvis.live import LiveView as LiveView, watch as watch
     from pulvis.meshes import Mesh as Mesh, SolidMesh as SolidMesh, mesh as mesh
     from pulvis.packing import Packing as Packing, SolidPacking as SolidPacking, pack as pack
     from pulvis.results import Run as Run, open as open
@@ -38,6 +39,8 @@ _HOMES = {
     "Mesh": "pulvis.meshes",
     "SolidMesh": "pulvis.meshes",
     "mesh": "pulvis.meshes",
+    "watch": "pulvis.live",
+    "LiveView": "pulvis.live",
     "PulvisError": "pulvis.errors",
     "SceneError": "pulvis.errors",
     "RunError": "pulvis.errors",

@@ -285,8 +285,9 @@ function nearZero(lines) {
 class Chart {
   // onCursor(sample): called when the pointer is at this sample.
   constructor(host, spec, {height = 300, onCursor = null} = {}) {
-    Object.assign(this, {host, spec: distinct(spec), height, onCursor, hidden: nearZero(spec.lines), view: null, marked: null});
+    Object.assign(this, {host, spec: distinct(spec), height, onCursor, hidden: nearZero(spec.lines), wanted: new Map(), view: null, marked: null});
     host.classList.add("chart");
+    host.chart = this;
     this.picture = element("div", {className: "plot", tabIndex: 0, role: "img", "aria-label": this.label()});
     this.over = element("canvas", {className: "over", "aria-hidden": "true"});
     this.legend = element("div", {className: "legend"});
@@ -306,8 +307,19 @@ class Chart {
   }
 
   show(spec) {
-    Object.assign(this, {spec: distinct(spec), view: null, hidden: nearZero(spec.lines), marked: null});
+    Object.assign(this, {spec: distinct(spec), view: null, hidden: nearZero(spec.lines), wanted: new Map(), marked: null});
     this.picture.setAttribute("aria-label", this.label());
+    this.draw();
+  }
+
+  // The same chart with more samples: zoom and chosen lines stay.
+  renew(spec, {view, wanted} = this) {
+    Object.assign(this, {spec: distinct(spec), hidden: nearZero(spec.lines), view, wanted});
+    spec.lines.forEach(({label}, i) => {
+      if (wanted.has(label)) wanted.get(label) ? this.hidden.delete(i) : this.hidden.add(i);
+    });
+    if (this.hidden.size === spec.lines.length) this.hidden.clear();
+    if (this.at >= spec.lines[0].values.length) this.at = undefined;
     this.draw();
   }
 
@@ -330,7 +342,7 @@ class Chart {
       const button = element("button", {type: "button", "aria-pressed": String(!this.hidden.has(i)),
         title: tiny ? "Below 1 % of the largest value. Show or hide" : "Show or hide"}, key, line.label);
       button.onclick = () => {
-        this.hidden.delete(i) || this.hidden.add(i);
+        this.wanted.set(line.label, this.hidden.delete(i) || !this.hidden.add(i));
         if (this.hidden.size === this.spec.lines.length) this.hidden.clear();
         this.draw();
       };

@@ -38,8 +38,7 @@ class FieldView {
       share: 1,
       raster: new Raster()
     });
-    const {low, high} = run.head;
-    this.width = Math.max(...high.map((end, k) => end - low[k])) || 1;
+    this.measure();
     this.canvas = element("canvas", {className: "picture", tabIndex: 0, role: "img"});
     this.tip = element("div", {className: "tip", hidden: true});
     this.note = element("p", {className: "note"});
@@ -49,8 +48,21 @@ class FieldView {
     host.replaceChildren(this.canvas, this.tip, this.fit, this.note);
     this.prepare();
     this.listen();
-    for (const on of [onUnits, onTheme, onMap]) on(() => this.draw());
+    for (const on of [onUnits, onTheme, onMap]) on(() => { if (this.canvas.isConnected) this.draw(); });
     onResize(host, () => { if (this.at && host.clientWidth !== this.drawnWidth) this.draw(); });
+  }
+
+  measure() {
+    const {low, high} = this.run.head;
+    this.width = Math.max(...high.map((end, k) => end - low[k])) || 1;
+  }
+
+  // The same particles in more frames: the view stays.
+  async renew(run) {
+    while (this.busy) await this.busy;  // what it loads belongs to the extent of the run as it was
+    this.run = run;
+    this.measure();
+    return this.showShare(this.share);
   }
 
   prepare() {
@@ -125,7 +137,7 @@ class FieldView {
     })();
     return this.busy;
   }
-  showShare(share) {
+  showShare(share = this.share) {
     this.share = share;
     return this.show({frame: this.run.frameAt(share * this.run.frames.at(-1).time)});
   }

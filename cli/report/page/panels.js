@@ -22,8 +22,20 @@ const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.t
 // The context of a panel: the run, the common time of the page, and the runs shown beside it.
 class Report {
   constructor(run, timeline, beside = [run]) {
-    Object.assign(this, {run, timeline, beside});
+    Object.assign(this, {timeline, beside});
+    this.setRun(run);
+  }
+
+  setRun(run) {
+    this.run = run;
     this.endTime = run.frames.length ? run.frames.at(-1).time : run.times.at(-1) || 1;
+  }
+
+  // The same run with more frames.
+  take(run) {
+    this.setRun(run);
+    this.beside = [run];
+    this.timeline.renew(run.frames.map(frame => frame.time));
   }
 
   // A chart over the samples of the run: pointing at it selects the frame, and the frame is marked in it.

@@ -17,8 +17,11 @@ function fromBase64(text) {
   return bytes;
 }
 
+// The text of a section of the data: in this page, or where live.js keeps it.
+let sectionText = id => document.getElementById(id).textContent;
+
 async function inflated(id) {
-  const stream = new Blob([fromBase64(document.getElementById(id).textContent)]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const stream = new Blob([fromBase64(sectionText(id))]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 

@@ -50,6 +50,7 @@ class Run {
   get hasEnded() { return this.outcome !== "running" && this.outcome !== "interrupted"; }
   get family() {
     if (this.summary.family) return this.summary.family;
+    if (this.head.solid) return "afm";  // without a summary: it has not ended
     return this.history.has("shear/friction") ? "shear" : "compaction";
   }
   // The programme of a lever is quasi-static: its "time" is the number of completed actions. A

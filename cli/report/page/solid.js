@@ -23,7 +23,7 @@ class SolidView {
     host.classList.add("field");
     host.replaceChildren(this.canvas, this.note);
     this.listen();
-    for (const on of [onUnits, onTheme, onMap]) on(() => this.draw());
+    for (const on of [onUnits, onTheme, onMap]) on(() => { if (this.canvas.isConnected) this.draw(); });
     onResize(host, () => { if (this.moved && host.clientWidth !== this.drawnWidth) this.draw(); });
   }
 
@@ -34,6 +34,12 @@ class SolidView {
     this.box = [0, 1, 2].map(axis);
     this.middle = this.box.map(([low, high]) => (low + high) / 2);
     this.size = Math.hypot(...this.box.map(([low, high]) => high - low)) || 1;
+  }
+
+  // The same lever in more frames: the view stays.
+  renew(run) {
+    Object.assign(this, {run, larger: 0});
+    return this.showShare(this.share ?? 1);
   }
 
   // Over all frames: the colour limits of every choice, and the largest displacement. It is magnified to an eighth of the
@@ -61,7 +67,7 @@ class SolidView {
     this.moved = moved;
     this.draw();
   }
-  showShare(share) { return this.show({frame: this.run.frameAt(share * this.run.frames.at(-1).time)}); }
+  showShare(share) { this.share = share; return this.show({frame: this.run.frameAt(share * this.run.frames.at(-1).time)}); }
 
   // Colour limits, the same in all frames.
   range() { return this.limits.get(this.shown); }

@@ -2,6 +2,9 @@
 // Times are fractions of the run, so that runs of different length can be shown together.
 "use strict";
 
+const nearestIndex = (values, wanted) =>
+  values.reduce((best, value, i) => Math.abs(value - wanted) < Math.abs(values[best] - wanted) ? i : best, 0);
+
 class Timeline {
   // times: frame times of the reference run, s
   // textOf(time): the time as text
@@ -20,6 +23,18 @@ class Timeline {
     onKey(window, event => this.key(event));
   }
 
+  // The same run with more frames: stays at the last one, or at the frame that was shown. The listeners are not called.
+  renew(times) {
+    const shown = this.times[this.frame], follows = this.frame >= this.times.length - 1;
+    Object.assign(this, {times, end: times.at(-1) || 1});
+    this.frame = follows ? times.length - 1 : nearestIndex(times, shown);
+    this.share = follows ? 1 : times[this.frame] / this.end;
+    this.slider.max = Math.max(0, times.length - 1);
+    this.slider.value = this.frame;
+    this.tell();
+  }
+  get follows() { return this.frame >= this.times.length - 1; }
+
   listen(listener) { this.listeners.push(listener); }
 
   showFrame(frame) {
@@ -32,11 +47,7 @@ class Timeline {
   seek(share) {
     if (this.timer) return;
     if (!this.times.length) return;
-    let best = 0;
-    this.times.forEach((time, i) => {
-      if (Math.abs(time / this.end - share) < Math.abs(this.times[best] / this.end - share)) best = i;
-    });
-    this.frame = best;
+    this.frame = nearestIndex(this.times, share * this.end);
     this.showShare(share);
   }
 

@@ -69,8 +69,8 @@ function element(tag, properties, ...children) {
   return made;
 }
 
-// Runs after the layout that caused the resize.
-const onResize = (host, action) => new ResizeObserver(() => requestAnimationFrame(action)).observe(host);
+// Runs after the layout that caused the resize; not for what is no longer on the page.
+const onResize = (host, action) => new ResizeObserver(() => requestAnimationFrame(() => { if (host.isConnected) action(); })).observe(host);
 // action(event): true if it uses the key. Keys pressed with Ctrl, Meta or Alt are left to the browser.
 const onKey = (host, action) => host.addEventListener("keydown", event => {
   if (event.ctrlKey || event.metaKey || event.altKey || !action(event)) return;

@@ -45,7 +45,7 @@ function leadOf(run) {
     parts.push(`Beyond ${beyond.length > 1 ? "their limits" : "its limit"}: ` +
                `${beyond.map(figure => figure.name.toLowerCase()).join(", ")}; see the card on quality for remedies.`);
   }
-  if (!beyond.length && limited.length) parts.push("Every quality value is within its limit.");
+  if (!beyond.length && limited.length && run.outcome !== "running") parts.push("Every quality value is within its limit.");
   const missed = (summary.expectations || []).filter(one => !one.met).length;
   if (summary.expectations) parts.push(missed ? `${missed} of ${counted(summary.expectations.length, "expectation")} not met.`
                                               : summary.expectations.length > 1 ? `All ${summary.expectations.length} expectations met.` : "The expectation is met.");
@@ -192,7 +192,7 @@ function fillQuality(run) {
   };
   for (const figure of figures) {
     const {name, meaning, value, limit, advice} = figure, limited = typeof limit === "number", within = !isBeyond(figure);
-    const row = add(name, meaning, [percent(value), limited ? percent(limit) : "none set"],
+    const row = add(name, meaning, [percent(value), limited ? percent(limit) : figure.judged || "none set"],
                     limited ? within ? "within" : "beyond" : "", within);
     if (advice) row.firstChild.append(element("small", {className: "advice", textContent: `What to do: ${advice}.`}));
   }

@@ -15,13 +15,19 @@ const SPACE_KEYS = "Shift and arrows turn, plus and minus zoom, x, y, z and i lo
 class SpaceView extends FieldView {
   static radiusOf({head: {low, high}}) { return Math.hypot(...high.map((end, k) => end - low[k])) / 2 || 1; }
 
-  prepare() {
-    const {low, high} = this.run.head, [, turn, tilt] = SPACE_VIEWS.isometric;
-    Object.assign(this, {turn, tilt, zoom: 1, moved: [0, 0], cut: "", cutAt: 0.5, cutNormal: [1, 0, 0], slice: false,
-                         showTools: true, edges: false, surface: SpaceSurface.of(this.run)});
+  measure() {
+    super.measure();
+    const {low, high} = this.run.head;
     this.box = high.map((end, k) => (end - low[k]) / this.width);
     this.middle = this.box.map(length => length / 2);
     this.radius = (this.whole?.radius || SpaceView.radiusOf(this.run)) / this.width;
+    if (this.gl) this.gl.run = this.run;
+  }
+
+  prepare() {
+    const [, turn, tilt] = SPACE_VIEWS.isometric;
+    Object.assign(this, {turn, tilt, zoom: 1, moved: [0, 0], cut: "", cutAt: 0.5, cutNormal: [1, 0, 0], slice: false,
+                         showTools: true, edges: false, surface: SpaceSurface.of(this.run)});
     this.gl = SpacePicture.create(this.run, this.surface);
     this.outline = [];
   }
