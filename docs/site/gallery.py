@@ -101,18 +101,18 @@ def run(picture):
 
 
 def draw(picture, folder):
-    target, all_figures = PICTURES / f"{picture.name}.png", RUNS / f"{picture.name}-figures"
-    options = ["--field", picture.field, "-o", target] if picture.field else ["-o", all_figures]
+    drawn = RUNS / f"{picture.name}-figures"
+    options = ["--field", picture.field, "-o", drawn / "field.png"] if picture.field else ["-o", drawn]
     options += ["--frame", picture.frame] if picture.frame else []
+    drawn.mkdir(exist_ok=True)
     done = subprocess.run([PROGRAM, "figure", folder, *options, "--no-title", "--width", "100mm", "--dpi", "130"],
                           capture_output=True, text=True)
-    if not done.returncode and picture.figure:
-        if not (all_figures / f"{picture.figure}.png").exists():
-            sys.exit(f"{picture.scene}: no {picture.figure} among {sorted(f.stem for f in all_figures.iterdir())}")
-        shutil.copyfile(all_figures / f"{picture.figure}.png", target)
     if done.returncode:
         sys.exit(f"{picture.scene}: no picture\n{done.stderr[-2000:]}")
-    return target
+    file = drawn / f"{picture.figure or 'field'}.png"
+    if not file.exists():
+        sys.exit(f"{picture.scene}: no {file.stem} among {sorted(f.stem for f in drawn.glob('*.png'))}")
+    shutil.copyfile(file, PICTURES / f"{picture.name}.png")
 
 
 def time_text(seconds):
