@@ -74,8 +74,7 @@ RunWatch::RunWatch(std::filesystem::path folder)
 }
 
 RunWatch::Stamp RunWatch::stamp() const {
-  Stamp stamp{.summary = written_at(folder_ / "summary.json"),
-              .report = written_at(folder_ / "report.html")};
+  Stamp stamp{.summary = written_at(folder_ / "summary.json")};
   struct stat status {};
   if (stat((folder_ / "run.h5").c_str(), &status) != 0) return stamp;
   stamp.inode = status.st_ino;

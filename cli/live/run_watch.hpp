@@ -40,7 +40,7 @@ class RunWatch {
  private:
   struct Stamp {  // what is known of the files without opening them
     std::uint64_t inode = 0, size = 0;
-    std::int64_t results = 0, summary = 0, report = 0;  // ns, when they were last written
+    std::int64_t results = 0, summary = 0;  // ns, when they were last written
     bool operator==(const Stamp&) const = default;
   };
   struct Mark {
