@@ -38,8 +38,8 @@ def make_room(axes, ends):
     for axis, share, pads in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max(), SMALL_PADS):
         axis.set_major_locator(MaxNLocator((4 if small else 5) if share > 0.5 else 1 if small or share < 0.15 else 2))
         axis.labelpad = 24 if share > 0.5 else pads[1] if small else 3
-        if small and share <= 0.5:
-            axis.set_tick_params(pad=pads[0])
+        if share <= 0.5:
+            axis.set_tick_params(pad=pads[0] if small else 0 if axis is axes.zaxis else 3)  # apart from the last one along y
     axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(1.0, 0.82 * wide / tall)))
 
 
