@@ -38,8 +38,8 @@ def make_room(axes, ends):
     for axis, share, pads in zip((axes.xaxis, axes.yaxis, axes.zaxis), sides / sides.max(), SMALL_PADS):
         axis.set_major_locator(MaxNLocator((4 if small else 5) if share > 0.5 else 1 if small or share < 0.15 else 2))
         axis.labelpad = 24 if share > 0.5 else pads[1] if small else 3
-        if small and share <= 0.5:
-            axis.set_tick_params(pad=pads[0])
+        if share <= 0.5:
+            axis.set_tick_params(pad=pads[0] if small else 0 if axis is axes.zaxis else 3)  # apart from the last one along y
     axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(1.0, 0.82 * wide / tall)))
 
 
@@ -273,11 +273,12 @@ def draw_map(figure, axis, one, options, heading):
     axis.grid(False)
     picture = axis.imshow(factor * values, origin="lower", cmap=colour_map(options, "afmhot"), extent=extent)
     named = "(trace − retrace)/2" if direction == "difference" else direction
+    in_title = options.title and is_small(options)  # the unit, in place of a label at the bar
     if options.title:
-        axis.set_title(f"{heading}{channel}, {named}", loc="left")
+        axis.set_title(over(f"{heading}{channel}, {named}", shown if in_title else ""), loc="left")
     across, up = ("$x$ / µm", "$y$ / µm") if is_small(options) else ("Along the scan / µm", "Across / µm")
     axis.set(xlabel=across if size else "Pixel", ylabel=up if size else "Line")
-    bar_beside(figure, axis, picture, over(capital(channel), shown))
+    bar_beside(figure, axis, picture, "" if in_title else over(capital(channel), shown))
 
 
 def is_small(options):
@@ -294,7 +295,7 @@ def images(run, options=None):
     beside = is_small(options)
     rows, columns = (len(CHANNELS) + 1, 2) if beside else (3, 3)
     figure, axes = subplots(rows * len(actions), columns, squeeze=False,
-                            figsize=options.size(5 * columns, 4.33 * rows * len(actions)))
+                            figsize=options.size(5 * columns, (3.8 if beside else 4.33) * rows * len(actions)))
     for axis in axes.flat:
         axis.set_visible(False)
     figure.table = []

@@ -16,6 +16,7 @@ MODELS = {"drucker_prager_cap": ("Drucker–Prager cap", "-"), "modified_cam_cla
 PLANE_MODELS = {"fleck_plane": ("Fleck, no cohesion", "-"), "fleck_plane_cohesive": ("Fleck, full cohesion", ":")}
 
 
+WIDE_LEGEND = 4.4  # inches of a figure for each axes, from which their legend has two columns
 WORDS_FROM = 6  # inches: narrower figures have symbols only, or one column
 ARROWS = 18  # of unit length fit side by side into the width of the axes
 
@@ -147,7 +148,7 @@ def models(summary, options):
                     curves += side.plot(*(factor * np.array(model["surface"]).T), line,
                                         label=f"{name}, off by {100 * model['misfit']:.1f}%")
             dash_hidden(side, curves)
-            legend_under(side, fontsize=7, ncols=1 if options.narrow else 2)
+            legend_under(side, fontsize=7, ncols=2 if figure.get_figwidth() / axes.shape[1] > WIDE_LEGEND else 1)
         row[0].set_title(f"{path}, density {state['relative_density']:.3f}", loc="left")
         row[0].set_xlabel(label(("pressure", "p"), unit))
         row[0].set_ylabel(over("$|q|$", unit))

@@ -18,6 +18,7 @@ MOST_LINES = 4  # of a label
 FEWEST = 12  # letters on a line of a title or a legend
 MOST_COLUMNS = 4  # of a legend below a figure
 UNITS = r"(?<=\d) (?=[GMkmµn]?(?:s|m|Pa|N|J|V|seeds)\b)"  # the space between a number and its unit
+PAD = 3.5  # points around axes with their labels
 APART = 2.0  # points between the labels of two ticks
 UNDER = 3.8  # heights of letters that ticks and label of an axis take
 
@@ -38,11 +39,11 @@ def wrapped(text, letters):
 
 
 def pieces_of(text):
-    """Words of a label; mathtext is one word, and its unit stays with it."""
+    """Words of a label; mathtext is one word, and so is "/ MPa"."""
     words = re.findall(r"(?:\$[^$]*\$|[^\s$])+", text)
     joined = []
     for word in words:
-        if joined and (word == "/" or joined[-1].endswith(" /")):
+        if joined and joined[-1] == "/":
             joined[-1] += f" {word}"
         else:
             joined.append(word)
@@ -156,7 +157,7 @@ class Room(ConstrainedLayoutEngine):
 
     def execute(self, figure):
         renderer, below = renderer_of(figure), legends_height(figure)
-        self.set(rect=(0, below, 1, 1 - below))
+        self.set(rect=(0, below, 1, 1 - below), w_pad=PAD / 72, h_pad=PAD / 72)
         for _ in range(3):
             super().execute(figure)
             if not self._fit(figure, renderer):
