@@ -116,7 +116,8 @@ ExitCode watch_run(const WatchOptions& options) {
     flush(stdout);
     watch.go();
   } catch (const PortTaken& error) {
-    tell(stderr, "{}\n", error.what());
+    tell(stderr, "{}{}\n", error.what(),
+         options.of_run ? "; the run goes on without a live view" : "");
     return ExitCode::usage;
   }
   return ExitCode::done;

@@ -41,7 +41,8 @@ class LiveView:
         # `--of-run`: it ends when this process does, and an interrupted cell does not interrupt it.
         self._process = subprocess.Popen([_program(), "watch", str(folder), "--of-run"], stdin=subprocess.PIPE,
                                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        told = self._process.stderr.readline()
+        errors = self._process.stderr
+        told = errors.readline() if errors else ""
         found = re.search(r"http://\S+", told)
         if found is None:
             rest = self._process.communicate()[1]

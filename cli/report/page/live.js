@@ -15,7 +15,7 @@ const PHASES = {
     "pulvis resume continues from the last checkpoint."],
   missing: () => ["bad", "The folder holds no run any more. What is shown is as far as was read."],
   ended: ({outcome}) => outcome === "done" ? ["good", "Finished. The page that stays is report.html in the folder of the run."]
-    : outcome === "interrupted" ? ["wait", "Interrupted: pulvis resume continues it."] : [/^stopped as expected/.test(outcome) ? "good" : "bad", `The run ${outcome}`],
+    : outcome === "interrupted" ? ["wait", "Interrupted: pulvis resume continues it."] : outcome.startsWith("failed") ? ["bad", "The run failed: the reason is below."] : ["good", "The run stopped as its scene expects."],
 };
 
 // The line below the title that says how the run is doing.
