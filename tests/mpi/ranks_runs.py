@@ -36,7 +36,7 @@ CASES = {
     "shear": ("scenes/shear/grooves-16.toml", 300, []),
     "cell": ("scenes/periodic/cap-isostatic.toml", 300, ["output.contacts=true"]),
     "bonds": ("scenes/bonds/crushed-particle.toml", 115, ['stage[0].duration="2 us"', "particle[0].grains.number=12"]),
-    "welds": ("scenes/bonds/green-strength.toml", 400, ['stage[0].duration="0.1 ms"', 'bond[0].threshold="1 MPa"',
+    "welds": ("scenes/bonds/green-strength.toml", 700, ['stage[0].duration="0.1 ms"', 'bond[0].threshold="1 MPa"',
                                                         "packing[0].density=0.805"]),
     "tool-bonds": ("tests/keys/scenes/bonds.toml", 400, ['stage[0].duration="1.2 us"', 'stage[1].duration="2 us"']),
     "constraints": ("scenes/bonds/pulled-blocks.toml", 130, ['stage[0].duration="1 us"']),
