@@ -144,7 +144,7 @@ def draw_zone(axis, run, frame, strain, zone, drawing):
     axis.set(xlim=(-1e6 * reach, 1e6 * reach), ylim=(-1e6 * reach, 1e6 * reach), aspect="equal",
              xlabel="$x$ / µm", ylabel="$z$ / µm")
     if options.title:
-        axis.set_title(f"frame {frame.number}: at most {strain.max():.3g}")
+        axis.set_title(f"frame {frame.number}: at most {strain.max():.3g}", loc="left")
     axis.grid(False)
     return drawn
 
@@ -163,12 +163,12 @@ def plastic_zones(run, options=None):
     if zone is None:
         return None
     top = max(strains[i].max() for i in chosen)
-    down, beside = (len(chosen), 1) if options.narrow else (1, len(chosen))
+    down, beside = (len(chosen), 1) if options.width and options.width < SMALL_ZONES else (1, len(chosen))
     figure, axes = subplots(down, beside, figsize=options.size(7 * beside, 5.5 * down), squeeze=False)
     figure.table = []
     for axis, i in zip(axes.flat, chosen):
         drawn = draw_zone(axis, run, run.frames[i], strains[i], zone, (top, options))
-        figure.colorbar(drawn, ax=axis, label=worded(run, "plastic_strain", ""), shrink=0.85)
+        bar_beside(figure, axis, drawn, worded(run, "plastic_strain", ""))
         figure.table.append((f"frame {i}: plastic strain by cell", "-", strains[i]))
     if options.title:
         figure.suptitle("Plastic zones, section through the tip along the lever")
@@ -231,6 +231,7 @@ def detector(run, options=None, axes=None):
     return friction_loop(run, options, axes, "volts")
 
 
+SMALL_ZONES = 6.5  # inches: plastic zones one above the other in a narrower figure
 SMALL_IMAGES = 11  # inches: rasters side by side in a narrower figure are too small
 CHANNELS = ["topography", "deflection", "friction"]
 LEVELS = ["none", "plane", "lines"]
