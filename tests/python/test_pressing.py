@@ -91,3 +91,9 @@ def test_the_force_of_the_bottom_punch_is_seen_through_that_of_the_top(tablet):
     with plt.rc_context(look.STYLE):
         figure = curves.forces(tablet, look.Options(width=85 / 25.4))
     assert [line.get_linestyle() for line in figure.axes[0].lines] == ["-", "--"]
+
+
+def test_the_compaction_curve_ends_when_the_top_punch_is_free(tablet):
+    _, axes = tablet.plot.compaction_curve()
+    pressure = axes.lines[0].get_ydata()
+    assert pressure[-1] == 0 and np.count_nonzero(pressure[1:] == 0) == 1 and len(pressure) < len(tablet.series("time"))

@@ -16,7 +16,7 @@ from matplotlib.text import Text
 
 import pulvis
 from pulvis.figures.animation import film
-from pulvis.figures.command import GROUPS, NAMED_FIGURES, kind_of, picture_for
+from pulvis.figures.command import DENSITY, GROUPS, NAMED_FIGURES, kind_of, picture_for
 from pulvis.figures.curves import chosen_series
 from pulvis.figures.fields import drawable
 from pulvis.figures.look import NotDrawn, Options
@@ -181,6 +181,9 @@ def test_texts_of_fields_series_and_films_have_room(folders):
             for name in drawable(run, run.frame()) if not run.is_solid else ():
                 components = int(run.frame().dataset(name).attrs["components"])
                 check(wrong, f"{kind} {name}", picture_for(run)(run, replace(options, field=f"{name}:1" if components > 1 else name)))
+            if not run.is_solid:
+                maps = picture_for(run, DENSITY)(run, replace(options, field=DENSITY, limits="frame"))
+                check(wrong, f"{kind} density maps on their own scales", maps)
             check(wrong, f"film of {kind}", film(run, options)[0])
             for name in sorted(run.names, key=lambda name: -len(run.labels[name]))[:LONG_LABELS]:
                 check(wrong, f"{kind} {name}", chosen_series(run, replace(options, series=[name])))

@@ -9,12 +9,12 @@ from pulvis.figures.colours import colour_map
 from pulvis.figures.hidden import dash_hidden
 from pulvis.figures.look import COLOURS as LINES, Options, bar_beside, legend_beside, sheet, unit_for, worded
 from pulvis.figures.names import capital, over
-from pulvis.figures.room import Room, legend_within, subplots
+from pulvis.figures.room import has_room, legend_within, subplots
 from pulvis.lever_results import vertical_moves
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 SMALL_SOLID = 5.5  # inches, of a figure
-SMALL_PADS = ((3, 3), (0, -7), (-6, -13))  # of ticks and labels along x, y, z of a small solid; matplotlib sets them far off short sides
+SMALL_PADS = ((3, 3), (0, -6), (-6, -13))  # of ticks and labels along x, y, z of a small solid; matplotlib sets them far off short sides
 SHORTEST_SIDE = 0.15  # of the box around a mesh, as drawn, over the longest
 COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
 
@@ -40,7 +40,8 @@ def make_room(axes, ends):
         axis.labelpad = 24 if share > 0.5 else pads[1] if small else 3
         if share <= 0.5:
             axis.set_tick_params(pad=pads[0] if small else 0 if axis is axes.zaxis else 3)  # apart from the last one along y
-    axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(1.0, 0.82 * wide / tall)))
+    share = 0.66 if small and has_room(axes.figure) else 0.82  # the layout of a film leaves no margin for the labels
+    axes.set_box_aspect(np.maximum(sides, SHORTEST_SIDE * sides.max()), zoom=min(1.7, max(share / 0.82, share * wide / tall)))
 
 
 def draw_solid(axis, position, faces, colours, title, ends=None):
@@ -143,7 +144,7 @@ def draw_zone(axis, run, frame, strain, zone, drawing):
     axis.set(xlim=(-1e6 * reach, 1e6 * reach), ylim=(-1e6 * reach, 1e6 * reach), aspect="equal",
              xlabel="$x$ / µm", ylabel="$z$ / µm")
     if options.title:
-        axis.set_title(f"frame {frame.number}: at most {strain.max():.3g}")
+        axis.set_title(f"frame {frame.number}: at most {strain.max():.3g}", loc="left")
     axis.grid(False)
     return drawn
 
@@ -162,12 +163,12 @@ def plastic_zones(run, options=None):
     if zone is None:
         return None
     top = max(strains[i].max() for i in chosen)
-    down, beside = (len(chosen), 1) if options.narrow else (1, len(chosen))
+    down, beside = (len(chosen), 1) if options.width and options.width < SMALL_ZONES else (1, len(chosen))
     figure, axes = subplots(down, beside, figsize=options.size(7 * beside, 5.5 * down), squeeze=False)
     figure.table = []
     for axis, i in zip(axes.flat, chosen):
         drawn = draw_zone(axis, run, run.frames[i], strains[i], zone, (top, options))
-        figure.colorbar(drawn, ax=axis, label=worded(run, "plastic_strain", ""), shrink=0.85)
+        bar_beside(figure, axis, drawn, worded(run, "plastic_strain", ""))
         figure.table.append((f"frame {i}: plastic strain by cell", "-", strains[i]))
     if options.title:
         figure.suptitle("Plastic zones, section through the tip along the lever")
@@ -230,6 +231,7 @@ def detector(run, options=None, axes=None):
     return friction_loop(run, options, axes, "volts")
 
 
+SMALL_ZONES = 6.5  # inches: plastic zones one above the other in a narrower figure
 SMALL_IMAGES = 11  # inches: rasters side by side in a narrower figure are too small
 CHANNELS = ["topography", "deflection", "friction"]
 LEVELS = ["none", "plane", "lines"]

@@ -158,7 +158,7 @@ def close_up(figure, options, axes):
         return
     figure.canvas.draw()
     legends = legends_height(figure) * figure.get_figheight()
-    figure.set_figheight(figure.get_tightbbox().height + legends + 0.08)
+    figure.set_figheight(figure.get_tightbbox().height + legends + 0.1)
 
 
 def recorded(run, options, name):

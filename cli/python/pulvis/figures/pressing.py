@@ -31,12 +31,22 @@ def while_pressed(density, pressure):
     return finite & before & (pressure > 0) & (pressure >= LEAST_SHARE * most)
 
 
+def until_unloaded(density, pressure):
+    """Samples up to the one at which the top punch no longer bears after the largest density: what follows is ejection."""
+    finite = np.isfinite(density) & np.isfinite(pressure)
+    if not finite.any():
+        return finite
+    peak = np.argmax(np.where(finite, density, -np.inf))
+    free = np.flatnonzero(pressure[peak:] <= 1e-3 * pressure[finite].max())
+    return finite & (np.arange(len(density)) <= (peak + free[0] if len(free) else len(density)))
+
+
 def compaction_curve(run, options=None, axes=None):
     """Pressure of the punches against the relative density, with unloading."""
     density = density_of(run)
     if density is None:
         return None
-    inside = np.isfinite(density)  # not once the compact has left the die
+    inside = until_unloaded(density, run.series(PUNCHES["top"]))
     lines = [(f"{punch} punch", run.series(name)[inside], "Pa") for punch, name in PUNCHES.items() if run.has(name)]
     if not inside.any() or not any(np.nanmax(values, initial=0) > 0 for _, values, _ in lines):
         return None
