@@ -14,7 +14,7 @@ from pulvis.lever_results import vertical_moves
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 SMALL_SOLID = 5.5  # inches, of a figure
-SMALL_PADS = ((3, 3), (0, -6), (-6, -13))  # of ticks and labels along x, y, z of a small solid; matplotlib sets them far off short sides
+SMALL_PADS = ((3, 3), (0, -4.5), (-6, -13))  # of ticks and labels along x, y, z of a small solid; matplotlib sets them far off short sides
 SHORTEST_SIDE = 0.15  # of the box around a mesh, as drawn, over the longest
 COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
 
