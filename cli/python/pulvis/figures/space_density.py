@@ -1,6 +1,7 @@
 """Local densities in three dimensions: one layer of cells normal to an axis."""
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.ticker import MaxNLocator
 
 from pulvis.figures.colours import colour_map
 from pulvis.figures.densities import ends_of, room_of, write_values
@@ -46,6 +47,8 @@ def density_slice(run, options=None, axes=None):
     place.add_collection(LineCollection(1e3 * walls, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
     names = ["xyz"[k] for k in others]
     set_axes(place, limits, names)
+    # The default locator depends on the height, which the layout only knows in the end.
+    place.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
     ends = " to ".join(printed(lines[axis][layer + k], "m") for k in (0, 1))
     options.head(place, f"Local relative density, ${options.across}$ from {ends}, at {moment(frame)}", run)
     bar_beside(figure, place, drawn, worded(run, "local_density", ""))
