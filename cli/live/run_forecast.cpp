@@ -1,25 +1,23 @@
 #include "cli/live/run_forecast.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <limits>
 
+#include "cli/forecast.hpp"
 #include "scenes/read.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis {
 namespace {
 
-// The time at which the inverse of the density, on a straight line through the last samples, comes to that of `density`.
-double time_at(double density, std::span<const double> times, std::span<const double> densities) {
-  constexpr std::size_t few = 3, kept = 8;
-  const std::size_t last = times.size() - 1, first = times.size() - std::min(times.size(), kept);
-  if (times.size() < few) return std::numeric_limits<double>::infinity();
-  const double slope = (1 / densities[last] - 1 / densities[first]) / (times[last] - times[first]);
-  const double left = (1 / density - 1 / densities[last]) / slope;
-  return std::isfinite(left) && left >= 0 ? times[last] + left
-                                          : std::numeric_limits<double>::infinity();
+// When the stage of these samples comes to `density`; infinity: not known.
+double time_of(double density, std::span<const double> times, std::span<const double> densities) {
+  const std::size_t count = times.size();
+  if (count < fewest_samples) return std::numeric_limits<double>::infinity();
+  const std::size_t first = count - std::min(count, samples_used), last = count - 1;
+  return time_at(1 / density, {times[first], 1 / densities[first]},
+                 {times[last], 1 / densities[last]});
 }
 
 }  // namespace
@@ -55,7 +53,7 @@ double RunForecast::end(std::span<const double> times, std::span<const double> d
           std::ranges::find_if(reached, [&](double density) { return density >= stage.density; });
       const double found = there != reached.end()
                                ? own[static_cast<std::size_t>(there - reached.begin())]
-                               : time_at(stage.density, own, reached);
+                               : time_of(stage.density, own, reached);
       end = std::clamp(found, begin, end);
     }
     begin = end;

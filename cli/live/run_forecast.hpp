@@ -16,7 +16,7 @@ class RunForecast {
   explicit RunForecast(const std::filesystem::path& scene);
 
   // The expected end in the units of the samples' times (s; of a lever: actions), NaN if it is not known. A stage that ends
-  // at a density is extrapolated as in cli/session/end_forecast.hpp; any other `until` is expected at the end of its time.
+  // at a density is extrapolated (cli/forecast.hpp); any other `until` is expected at the end of its time.
   double end(std::span<const double> times, std::span<const double> densities) const;
   // Of a powder; a lever has none.
   const std::optional<LimitSpec>& limits() const { return limits_; }

@@ -205,5 +205,6 @@ def test_running_a_finished_simulation_says_so():
     short = {"stage.press.duration": "2 us", "stage.press.move[0].displacement": ["0 mm", "-0.01 mm"]}
     sim = pulvis.Scene(SCENE, short).simulation(threads=1).run()
     for again in (sim.run, lambda: sim.run_until("1 ms"), sim.step):
-        with pytest.warns(RuntimeWarning, match="has finished"):
+        with pytest.warns(RuntimeWarning, match="has finished") as told:
             again()
+        assert told[0].filename == __file__

@@ -81,7 +81,7 @@ class Simulation:
     def _warn_if_finished(self) -> None:
         if self.finished:
             warnings.warn(f"the simulation has finished ({self.outcome}), and nothing is run: make another one with "
-                          "scene.simulation()", RuntimeWarning, stacklevel=3)
+                          "scene.simulation()", RuntimeWarning, stacklevel=4)  # checked_class adds a call
 
     def stop(self) -> None:
         """Makes `run` return after the current step. Call it from a callback or another thread."""
