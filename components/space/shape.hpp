@@ -90,11 +90,12 @@ struct Shape {
     std::array<std::int32_t, 16> number{};      // 3 * point, set by complete_points()
     std::array<Row<BoundaryNode>, 4> corner{};  // nodes at (u, v) = (0,0) (1,0) (1,1) (0,1)
     std::array<Neighbour, 4> neighbour{};
-    int element = 0;       // the element behind it
-    double size = 0;       // m: square root of its undeformed area
-    double stiffness = 0;  // 1/m: undeformed area over the volume of the element behind it
-    std::array<double, gauss_points>
-        weight{};  // m^2: undeformed area of each Gauss point
+    int element = 0;  // the element behind it
+    double size = 0;  // m: square root of its undeformed area
+    double stiffness =
+        0;  // 1/m: of its contact springs, k K times this per area (smooth_surface.cpp)
+    double thickness = 0;  // m: volume of the element behind it over the undeformed area
+    std::array<double, gauss_points> weight{};  // m^2: undeformed area of each Gauss point
   };
 
   // A surface node and the point of the smooth surface that belongs to it (systems/space/contact/node_springs.hpp).
@@ -102,7 +103,7 @@ struct Shape {
     std::int32_t point = 0;  // Bezier point
     double size = 0;         // m: of the largest face at the node
     double slack = 0;        // m: how far apart they may be
-    double stiffness = 0;    // m: area of the node times area over volume of the elements behind it
+    double stiffness = 0;    // m: area of the node over the thickness of its faces
   };
 
   std::string name;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr document::Origin of_no_file{{1, 1}, -1};
 // By the errors of unloading and loading over run time (docs/accuracy.md).
-constexpr double default_stiffness = 14, default_stiffness_in_space = 10, default_hardness = 3;
+constexpr double default_stiffness = 14, default_stiffness_in_space = 20, default_hardness = 3;
 // Stiffness of bonds over that of the springs: as stiff as the springs where these are stiff by default.
 constexpr double bonds_over_springs = 20, bonds_over_default_springs = 1;
 constexpr double hardness_above = 5;      // softer springs give way before a surface indents

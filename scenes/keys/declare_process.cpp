@@ -182,11 +182,12 @@ const TableDeclaration<ContactSpec>& contact() {
                 "and moduli are too soft. The run reports the resulting errors.",
          .fallback_doc = "14",
          .in_3d = {.doc = "Stiffness of the contact springs, as a multiple of bulk modulus times "
-                          "face area divided by the volume of the element behind the face. Soft "
-                          "springs give way as well as the particles do, so that elastic "
+                          "face area divided by the volume of the element behind the face, on "
+                          "average over the surface of a particle. Soft springs give way as well "
+                          "as the particles do, so that elastic "
                           "contacts, springback, residual stress and moduli are too soft. The "
                           "run reports the resulting errors.",
-                   .fallback_doc = "10"}},
+                   .fallback_doc = "20"}},
         to(&ContactSpec::stiffness)},
        {{.name = "tangential_stiffness",
          .kind = Kind::number,

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -163,16 +164,18 @@ Lane iterate(const ModeBody<F>& body, const ModeView<typename F::Dimension>& mod
   return quotient;
 }
 
-// 1/m, of the edges, or faces, on the outline.
-inline double softest_support(const Shape& shape) {
-  double softest = std::numeric_limits<double>::infinity();
-  for (const Shape::Edge& edge : shape.edges) softest = std::min(softest, edge.stiffness);
-  return softest;
+// m, largest ratio of drag to stiffness on the outline or surface: dashpots are in proportion to the square root of the stiffness
+// times the mass behind.
+inline double largest_drag(const Shape& shape) {
+  double largest = 0;
+  for (const Shape::Edge& edge : shape.edges) largest = std::max(largest, 1 / edge.stiffness);
+  return largest;
 }
-inline double softest_support(const space::Shape& shape) {
-  double softest = std::numeric_limits<double>::infinity();
-  for (const space::Shape::Face& face : shape.faces) softest = std::min(softest, face.stiffness);
-  return softest;
+inline double largest_drag(const space::Shape& shape) {
+  double largest = 0;
+  for (const space::Shape::Face& face : shape.faces)
+    largest = std::max(largest, std::sqrt(face.thickness / face.stiffness));
+  return largest;
 }
 
 // k K of the springs on the outline. A dashpot c lagging by half a step counts like a spring of 2 c/dt; `step` stands in for dt
@@ -188,7 +191,7 @@ Lane contact_modulus(const ContactRules& rules, double stiffening, const AnyShap
   const double of_dashpots = rings ? 4 : 2;
   if (rules.damping == 0 || (!rules.servos && rules.damping <= little_damping))
     return rules.stiffness * (stiffening + of_dashpots * rules.damping) * bulk;
-  return rules.stiffness * stiffening * bulk + (2 * dashpot_ratio(rules) / softest_support(shape)) *
+  return rules.stiffness * stiffening * bulk + (2 * dashpot_ratio(rules) * largest_drag(shape)) *
                                                    sqrt(rules.stiffness * bulk * rho) / step;
 }
 

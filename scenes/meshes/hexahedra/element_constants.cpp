@@ -202,7 +202,7 @@ void set_hourglass_bounds(Shape::Element& element, const Corners& x, const Integ
   element.overlap = std::max(0.0, overlap.eigenvalues().maxCoeff());
 }
 
-// The springs k K A/V of a face of area A on an element of volume V exert k K A/V (A/36) [4 2 1 2; ...] on its nodes,
+// The springs k K s of a face of area A on an element of volume V exert k K s (A/36) [4 2 1 2; ...] on its nodes,
 // whose largest eigenvalue is that of all four moving together, a quarter of the sum. Here 1/4 V over the smallest mass.
 double lightest_corner(const Shape& shape, const Shape::Face& face, const Integrals& integrals) {
   double least = integrals.volume;
@@ -238,8 +238,8 @@ void complete_elements(Shape& shape) {
   for (const Shape::Face& face : shape.faces) {
     Shape::Element& element = entry(shape.element, face.element);
     const double corner = lightest_corner(shape, face, entry(all, face.element));
-    element.contact_frequency += corner * face.stiffness * face.stiffness;
-    element.contact_drag += corner * face.stiffness;
+    element.contact_frequency += corner * face.stiffness / face.thickness;
+    element.contact_drag += corner * std::sqrt(face.stiffness / face.thickness);
   }
   shape.chains = inerter_chains(shape);
 }

@@ -3,7 +3,7 @@
 //
 // Source   The highest frequency of an assembly is at most that of its worst element, however the nodal masses are
 //          divided among the adjacent elements (Irons; Flanagan & Belytschko 1984). Elements:
-//          systems/space/body/time_step_kernel.hpp. One on the surface also carries contact springs of k K A/V, and
+//          systems/space/body/time_step_kernel.hpp. One on the surface also carries contact springs of k K s, and
 //          dashpots that lag by half a step: as in systems/body/time_step.cpp
 // Runs     every few steps, while the stresses of a chunk are in cache
 #include "components/run_state.hpp"

@@ -51,7 +51,7 @@ std::vector<std::int32_t> rows_before(const std::vector<std::int32_t>& before_be
   return source;
 }
 
-// kappa = k K A/V of the sampled face in series with the mean of the other surface, like two springs: a sphere touching
+// kappa = k K s of the sampled face, s its stiffness, in series with the mean of the other surface, like two springs: a sphere touching
 // its mirror image gets the same force as on a rigid plane.
 double stiffness_of_pair(const ContactStiffness& material, const ShapedBodies<ThreeD>& bodies,
                          const FaceKey& key) {
@@ -89,7 +89,7 @@ void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double ka
   rows.law(row, Law::stiffness) = kappa;
   rows.law(row, Law::friction) = friction;
   // c = 2 xi sqrt(kappa rho h): the mass per area of the element behind, on the contact spring.
-  rows.law(row, Law::damping) = 2 * share_of_critical * std::sqrt(kappa * rho / face.stiffness);
+  rows.law(row, Law::damping) = 2 * share_of_critical * std::sqrt(kappa * rho * face.thickness);
   rows.law(row, Law::inv_size) = 1 / face.size;
 }
 

@@ -114,13 +114,13 @@ TEST(NetworkInSpace, OfABodyCentredLatticeHasEightNeighboursAlongTheDiagonals) {
 }
 
 // Hertz: an elastic ball under a force F touches a circle of radius (3 F R / 4 E')^(1/3), here as wide as a face. A point of
-// a face touches or does not, and contacts of a penalty are a little wider: a third of the area is what can be told.
+// a face touches or does not, and contacts of a soft penalty are a little wider: a third of the area is what can be told.
 TEST(NetworkInSpace, KnowsTheAreaOfHertzContact) {
-  Experiment e(read_scene(
-      folder_of_scenes() + "one-sphere.toml",
-      {"output.contacts=true", "particle.ball.mesh.divisions=6", "particle.ball.mesh.rings=2",
-       "material[0].yield_stress=190 GPa", "stage.press.duration=0.2 ms",
-       "stage.press.move.top.displacement=[\"0 mm\", \"0 mm\", \"-1 mm\"]"}));
+  Experiment e(read_scene(folder_of_scenes() + "one-sphere.toml",
+                          {"output.contacts=true", "contact.stiffness=5",
+                           "particle.ball.mesh.divisions=6", "particle.ball.mesh.rings=2",
+                           "material[0].yield_stress=190 GPa", "stage.press.duration=0.2 ms",
+                           "stage.press.move.top.displacement=[\"0 mm\", \"0 mm\", \"-1 mm\"]"}));
   e.simulation.run_until(0.2e-3);
   e.simulation.observe();
   ASSERT_EQ(network_in(e).tools.size(), 2U);

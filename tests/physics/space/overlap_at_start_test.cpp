@@ -9,7 +9,8 @@ namespace pulvis {
 namespace {
 
 Scene cylinder_in_its_die(const char* safety) {
-  return own_scene(R"(family = "compaction"
+  return own_scene(
+      R"(family = "compaction"
 dimension = 3
 
 [[material]]
@@ -37,13 +38,13 @@ shape = "die"
 point = ["0 mm", "0 mm", "0 mm"]
 diameter = "1 mm"
 )" + plates("1 mm") +
-                       R"(
+          R"(
 [[stage]]
 name = "rest"
 kind = "settle"
 duration = "2 us"
 )",
-                   {std::string("time.safety=") + safety, "time.estimate=element"});
+      {std::string("time.safety=") + safety, "time.estimate=element", "contact.stiffness=10"});
 }
 
 // -, of the energy of the overlap: at most, and at the end.
