@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scenes/meshes/hexahedra/thinnest.hpp"
@@ -164,6 +165,36 @@ TEST(SpaceMesh, IsTheSameInMicrometresAndInMetres) {
     EXPECT_LT((1e6 * node_of(small, i) - node_of(large, i)).norm(), 1e-6);
 }
 
+// Frequency of each boundary node on its contact springs, squared, the highest over the lowest; `stiffness` of a face.
+template <class Stiffness>
+double range_of_contact_frequencies(const Shape& shape, const Stiffness& stiffness) {
+  std::vector<double> spring(static_cast<std::size_t>(shape.boundary_nodes), 0);
+  for (const Shape::Face& face : shape.faces)
+    for (const auto corner : face.corner)
+      entry(spring, corner) += 0.25 * face.size * face.size * stiffness(face);
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0;
+  for (int i = 0; i < shape.boundary_nodes; ++i) {
+    const double square = entry(spring, i) / entry(shape.nodal_volume, i);
+    lowest = std::min(lowest, square);
+    highest = std::max(highest, square);
+  }
+  return highest / lowest;
+}
+
+// No node of a sphere is much faster on its contact springs than the others, and these are as stiff on average as those of
+// the elements behind.
+TEST(SpaceMesh, HasContactSpringsInProportionToTheMassOfItsNodes) {
+  const Shape shape = shape_of(SphereShape{2}, 7, 1);
+  const auto of_element = [](const Shape::Face& face) { return 1 / face.thickness; };
+  EXPECT_GT(range_of_contact_frequencies(shape, of_element), 3);
+  EXPECT_LT(range_of_contact_frequencies(shape, [](const auto& face) { return face.stiffness; }),
+            1.8);
+  double stiffness = 0;
+  for (const Shape::Face& face : shape.faces)
+    stiffness += face.size * face.size * of_element(face) / shape.area;
+  EXPECT_NEAR(shape.mean_face_stiffness / stiffness, 1, 1e-12);
+}
+
 TEST(SpaceMesh, KnowsItsMeasures) {
   const Shape shape = shape_of(SphereShape{2}, 5, 2);
   EXPECT_NEAR(shape.area, 4 * std::numbers::pi, 2e-3 * shape.area);
@@ -174,7 +205,7 @@ TEST(SpaceMesh, KnowsItsMeasures) {
     double area = 0;
     for (const double weight : face.weight) area += weight;
     EXPECT_NEAR(face.size * face.size, area, 1e-14);
-    EXPECT_NEAR(face.stiffness * entry(shape.element, face.element).volume, area, 1e-14);
+    EXPECT_NEAR(face.thickness * area, entry(shape.element, face.element).volume, 1e-14);
     faces += area;
     stiffness += area * face.stiffness;
   }

@@ -56,8 +56,8 @@ TEST(SpaceScene, ContactsIndentWhereAMaterialYields) {
   const auto hardness = [&](const std::vector<std::string>& overrides) {
     return load_scene_text(elastic, "elastic.toml", overrides).scene.contact.hardness;
   };
-  EXPECT_EQ(stiffness({}), 10);
-  EXPECT_EQ(stiffness({"contact.friction=0.2"}), 10);
+  EXPECT_EQ(stiffness({}), 20);
+  EXPECT_EQ(stiffness({"contact.friction=0.2"}), 20);
   EXPECT_EQ(stiffness({"contact.stiffness=2"}), 2);
   EXPECT_EQ(hardness({}), std::nullopt);
   EXPECT_EQ(hardness({"material.steel.yield_stress=300 MPa"}), 3);
