@@ -49,7 +49,7 @@ def dense(bench):
     for divisions, rings, stiffness, more in [
             (d, r, k, neither) for d, r, k in ((4, 4, 0.5), (4, 4, 2), (4, 4, 10), (7, 1, 0.5), (7, 1, 2), (7, 1, 10), (8, 2, 0.5),
                                                (8, 2, 10), (12, 2, 10))] + [
-            (d, r, 10, "") for d, r in ((4, 4), (7, 1), (8, 2), (12, 2))]:
+            (d, r, 20, "") for d, r in ((4, 4), (7, 1), (8, 2), (12, 2))]:
         name = f"dense-{divisions}-{rings}-{stiffness}" + ("" if more else "-indenting")
         text = packed(bench, name, count, ball(0.01, divisions, rings, 'phase = "random"\n'), side, start)
         text = text.replace("[[stage.move]]", "[stage.until]\nrelative_density = 0.945\n[[stage.move]]", 1)
