@@ -89,17 +89,18 @@ class DieFiller {
 
   void refuse_two_shapes() {
     if (!is_round() || !(spec_.width || spec_.depth)) return;
-    problems_.add(origin_, "die.diameter",
-                  "has no effect together with width or depth, allowed: a round die, or a box");
+    problems_.add(
+        origin_, "die.diameter",
+        "has no effect together with width or depth, allowed: a cylindrical die, or a box");
     wrong_ = true;
   }
 
   // The rest of the scene is still read, with walls that its stages can refer to: what the packing gets wrong is the
   // mistake, and the missing width its consequence.
   void stand_somewhere() {
-    missing_ = {origin_,
-                fmt::format("required key is missing, allowed: a quantity in m{}; {}",
-                            in_space() ? ", or the diameter of a round die" : "", why_no_width())};
+    missing_ = {origin_, fmt::format("required key is missing, allowed: a quantity in m{}; {}",
+                                     in_space() ? ", or the diameter of a cylindrical die" : "",
+                                     why_no_width())};
     lengths_[0] = 1;
   }
 

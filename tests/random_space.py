@@ -3,7 +3,7 @@
   /usr/bin/python3 tests/random_space.py PROGRAM [--scenes N] [--seed S] [--first I] [--keep DIR]
 
 Particles of one or two shapes and materials, elastic or plastic, from micrometres to decimetres, lie at random or in a lattice
-in a box or a round die. A punch presses them to a density that was drawn, holds a force, or is hit by them; they are unloaded
+in a box or a cylindrical die. A punch presses them to a density that was drawn, holds a force, or is hit by them; they are unloaded
 and pushed out. Meshes, sizes, friction, adhesion, welds, damping, contact stiffness, formulation and speed are drawn too. All that is asked of a
 run is in `faults` of random_scenes.py. A scene that is refused, or that stops in a health check that names what went wrong, is
 reported and counted apart.

@@ -111,7 +111,8 @@ const TableDeclaration<DieSpec>& declared_die() {
       {{{.name = "shape",
          .kind = Kind::choice,
          .choices = words_of<DieSpec::Shape>(
-             {{"round", "a cylinder"}, {"slot", "two walls, as in a plane strain model"}}),
+             {{"round", "a cylindrical die"},
+              {"slot", "a rectangular die of two walls, as in a plane-strain model"}}),
          .fallback = value_of("round"),
          .doc = "Cross-section."},
         word_to(&DieSpec::shape)},

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/preview/estimate.hpp"
+#include "cli/preview/stage_forecast.hpp"
 #include "cli/setup_progress.hpp"
 #include "cli/tell.hpp"
 #include "engine/machine_memory.hpp"
@@ -24,10 +25,11 @@ namespace pulvis {
 namespace {
 
 // A run that fails in its first steps has no estimate; `run` reports why.
-std::string estimate_line(Simulation* simulation) {
+std::string estimate_line(Simulation* simulation, const Scene& scene, std::size_t count,
+                          const std::vector<StageForecast>& stages) {
   if (simulation == nullptr) return "warning: this machine does not have enough memory for the run";
   try {
-    return estimate_text(estimate_run(*simulation));
+    return estimate_text(estimate_run(*simulation, scene, count, stages));
   } catch (const RunFailure& failure) {
     return fmt::format("warning: the run fails in its first steps: {}", failure.what());
   }
@@ -48,7 +50,9 @@ SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodie
   findings.warnings =
       all_warnings(scene, bodies, simulation == nullptr ? nullptr : &simulation->world());
   findings.memory = memory_line(need);
-  findings.run = estimate_line(simulation);
+  const std::vector<StageForecast> stages = stage_forecast(scene, bodies);
+  findings.stages = stages_text(scene, stages);
+  findings.run = estimate_line(simulation, scene, bodies.size(), stages);
   findings.verdict =
       fmt::format("{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
                   counted(scene.tools.size(), "tool"), counted(scene.stages.size(), "stage"));
@@ -91,7 +95,7 @@ SceneFindings findings_of(const Scene& scene, const AfmModel& model) {
 void tell_findings(const SceneFindings& findings) {
   tell("{}", findings.sizes);
   for (const std::string& line : findings.warnings) tell("warning: {}\n", line);
-  for (const std::string& line : {findings.memory, findings.run, findings.verdict})
+  for (const std::string& line : {findings.memory, findings.stages, findings.run, findings.verdict})
     if (!line.empty()) tell("{}\n", line);
 }
 

@@ -3,84 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <map>
 
+#include "scenes/checks/enclosed.hpp"
 #include "scenes/checks/faces.hpp"
 #include "scenes/language/problem.hpp"
-#include "scenes/packing/particle_size.hpp"
-#include "scenes/tools/die_room.hpp"
-#include "scenes/tools/die_sides.hpp"
 
 namespace pulvis {
 namespace {
 
 constexpr double too_dense =
     1.5;  // -, denser scenes are refused; soft elastic solids withstand less
-
-using Places = std::vector<Vec3>;  // m, of the tools
-// m^2 or m^3 that the tools enclose; 0 if nothing is left.
-using Enclosed = std::function<double(const Places&)>;
-
-std::optional<Enclosed> enclosed_area(const Scene& scene) {
-  if (scene.cell) return std::nullopt;
-  for (const ToolSpec& tool : scene.tools)
-    if (tool.shape != ToolSpec::Shape::plane && tool.shape != ToolSpec::Shape::constraint)
-      return std::nullopt;
-  const auto sides = die_sides(scene);
-  if (!sides) return std::nullopt;
-  return [sides](const Places& places) {
-    const auto at = [&](std::size_t side) {
-      return places[static_cast<std::size_t>((*sides)[side])];
-    };
-    const double width = at(1).x() - at(0).x(), height = at(3).y() - at(2).y();
-    return width > 0 && height > 0 ? width * height : 0.0;
-  };
-}
-
-std::optional<Enclosed> enclosed_volume(const Scene& scene) {
-  const auto room = die_room(scene);
-  if (!room) return std::nullopt;
-  return [room](const Places& places) {
-    const auto at = [&](int tool, int k) { return places[static_cast<std::size_t>(tool)][k]; };
-    const bool box = room->kind == DieRoom::Kind::box;
-    if (!(room->height(at) > 0) || (box && !(room->width(at) > 0 && room->depth(at) > 0)))
-      return 0.0;
-    return std::max(room->volume(at), 0.0);
-  };
-}
-
-// None if something else than flat walls, or another run, decides what is enclosed.
-std::optional<Enclosed> enclosed(const Scene& scene) {
-  if (scene.initial_state) return std::nullopt;
-  if (auto volume = enclosed_volume(scene)) return volume;
-  return enclosed_area(scene);
-}
-
-// m^2 or m^3, of all particles.
-double content_of_powder(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  std::map<int, double> contents;  // of the classes
-  double content = 0;
-  for (const BodySpec& body : bodies) {
-    const auto [of_class, fresh] = contents.try_emplace(body.particle, 0);
-    if (fresh) of_class->second = content_of(scene, body);
-    content += of_class->second;
-  }
-  return content;
-}
-
-Places start_of_tools(const Scene& scene) {
-  Places places;
-  for (const ToolSpec& tool : scene.tools) places.push_back(tool.point);
-  return places;
-}
-
-Places moved(Places places, const std::vector<MoveSpec>& moves, double share) {
-  for (const MoveSpec& move : moves)
-    places[static_cast<std::size_t>(move.tool)] += share * move.displacement;
-  return places;
-}
 
 bool is_prescribed(const StageSpec& stage) {
   return stage.servos.empty() && !stage.cell && !stage.until &&
@@ -94,7 +27,7 @@ double share_until_full(double powder, const Enclosed& left, const Places& place
   double low = 0, high = 1;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
-    (left(moved(places, moves, middle)) > powder ? low : high) = middle;
+    (left(tools_moved(places, moves, middle)) > powder ? low : high) = middle;
   }
   return high;
 }
@@ -113,7 +46,7 @@ FullDensity reached_in(const Scene& scene, int stage, const Enclosed& enclosed,
     full.travel = inwards;
   }
   full.until_full = share_until_full(powder, enclosed, places, moves) * full.travel;
-  const double left = enclosed(moved(places, moves, 1));
+  const double left = enclosed(tools_moved(places, moves, 1));
   full.density = left > 0 ? powder / left : std::numeric_limits<double>::infinity();
   return full;
 }
@@ -176,7 +109,7 @@ bool is_to_stop(const Scene& scene) {
 
 std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies) {
   const auto left = enclosed(scene);
-  const double content = left ? (*left)(start_of_tools(scene)) : 0;
+  const double content = left ? (*left)(tools_at_start(scene)) : 0;
   return content > 0 ? std::optional(content_of_powder(scene, bodies) / content) : std::nullopt;
 }
 
@@ -184,10 +117,10 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
   const auto left = enclosed(scene);
   if (!left) return std::nullopt;
   const double powder = content_of_powder(scene, bodies);
-  Places places = start_of_tools(scene);
+  Places places = tools_at_start(scene);
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     if (!is_prescribed(scene.stages[s])) return std::nullopt;
-    const Places end = moved(places, scene.stages[s].moves, 1);
+    const Places end = tools_moved(places, scene.stages[s].moves, 1);
     const double content = (*left)(end);
     if (content < powder && content < (*left)(places))
       return reached_in(scene, static_cast<int>(s), *left, places, powder);

@@ -12,7 +12,8 @@ const TableDeclaration<DieSpec>& die() {
        "`bottom` and `top` unless the scene defines them; `top` rests on the packing "
        "if there is one. Values that contradict it are refused. A saved scene holds "
        "the resulting packings and tools. An empty `[die]` puts the tools around the "
-       "only packing. In three dimensions a box also has the tools `front` and `back`; a round die "
+       "only packing. In three dimensions a box also has the tools `front` and `back`; a "
+       "cylindrical die "
        "has the tools `die`, `bottom` and `top`.",
        compaction_only, true},
       {{{.name = "width",
@@ -35,7 +36,7 @@ const TableDeclaration<DieSpec>& die() {
          .kind = Kind::quantity,
          .unit = "m",
          .range = within(smallest_size, largest_size),
-         .doc = "Diameter of a round die along z, instead of a box.",
+         .doc = "Diameter of a cylindrical die along z, instead of a box.",
          .fallback_doc = "that of the only packing, or a box",
          .dimension = Dimension::three},
         to(&DieSpec::diameter)},
@@ -45,8 +46,9 @@ const TableDeclaration<DieSpec>& die() {
          .range = within(-largest_size, largest_size),
          .doc = "Lower left corner.",
          .fallback_doc = "that of the only packing, or the origin",
-         .in_3d = {.doc = "Corner with the smallest x, y and z; of a round die, the centre of its "
-                          "floor."}},
+         .in_3d =
+             {.doc = "Corner with the smallest x, y and z; of a cylindrical die, the centre of its "
+                     "floor."}},
         [](DieSpec& spec, const Decoded& value) { spec.corner = value.vector3; }}}};
   return declaration;
 }

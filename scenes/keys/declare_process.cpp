@@ -315,10 +315,11 @@ const TableDeclaration<OutputSpec>& output() {
        {{.name = "density_cells",
          .kind = Kind::counts,
          .range = within(1, 200),
-         .doc = "Number of cells along x, y and z of a grid between the tools in which local "
-                "relative densities are recorded: in every frame, and their minimum, maximum "
-                "and standard deviation over time. Requires an enclosed region: six planes "
-                "along the axes, or a round die along one axis between two planes or punches.",
+         .doc =
+             "Number of cells along x, y and z of a grid between the tools in which local "
+             "relative densities are recorded: in every frame, and their minimum, maximum "
+             "and standard deviation over time. Requires an enclosed region: six planes "
+             "along the axes, or a cylindrical die along one axis between two planes or punches.",
          .fallback_doc = "no local densities",
          .dimension = Dimension::three},
         [](OutputSpec& spec, const Decoded& value) { spec.density_cells3 = value.counts3; }},

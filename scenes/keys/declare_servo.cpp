@@ -126,8 +126,9 @@ const TableDeclaration<UntilSpec>& until() {
          .doc = "Relative density of the powder in a die of four planes, or in a periodic cell, "
                 "after its tools or strains have come to rest.",
          .fallback_doc = "none",
-         .in_3d = {.doc = "Relative density of the powder between six planes, or in a round die "
-                          "between two planes or punches, after they have come to rest."}},
+         .in_3d = {.doc =
+                       "Relative density of the powder between six planes, or in a cylindrical die "
+                       "between two planes or punches, after they have come to rest."}},
         to(&UntilSpec::relative_density)}}};
   return declaration;
 }

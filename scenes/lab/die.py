@@ -3,8 +3,8 @@
 
 usage: die.py [--out FOLDER] [--seed N] [--noise FACTOR]
 
-Two compressions of 316L on a rigid press: a round die of 15 mm with a gauge in its wall 3 mm above the bottom punch,
-and a slot of 12 mm x 20 mm whose wall measures its mean stress. Friction and stress ratio change linearly with the
+Two compressions of 316L on a rigid press: a cylindrical die of 15 mm with a gauge in its wall 3 mm above the bottom punch,
+and a rectangular die of 12 mm x 20 mm whose wall measures its mean stress. Friction and stress ratio change linearly with the
 relative density (die-truth.json: reference for the tests of the reduction); the top pressure follows Kawakita's law.
 Noise: 20 N on both punches, 0.2 MPa on the wall, 1 um of displacement; one standard deviation each.
 """

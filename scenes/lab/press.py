@@ -4,7 +4,7 @@
 usage: press.py [--out FOLDER] [--seed N] [--noise FACTOR]
 
 A press whose deflection is a cubic polynomial of its force is run once with its punches in contact and three times
-with powder in a round die of 15 mm. The three powders follow the law of Heckel (above 100 MPa), that of Kawakita and
+with powder in a cylindrical die of 15 mm. The three powders follow the law of Heckel (above 100 MPa), that of Kawakita and
 that of Cooper and Eaton. Also writes press-truth.json, the reference for the tests of the reduction. Noise: 10 N
 and 1 um, one standard deviation each.
 """

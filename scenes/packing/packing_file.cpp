@@ -140,7 +140,7 @@ std::string container_text(const Scene& scene, const PackingSpec& packing, int d
   if (!scene.in_space())
     return fmt::format("die {:.{}g} m x {:.{}g} m", in.width, digits, height, digits);
   if (in.kind == ContainerSpec::Kind::cylinder)
-    return fmt::format("round die {:.{}g} m, height {:.{}g} m", in.diameter, digits, height,
+    return fmt::format("cylindrical die {:.{}g} m, height {:.{}g} m", in.diameter, digits, height,
                        digits);
   return fmt::format("box {:.{}g} m x {:.{}g} m x {:.{}g} m", in.width, digits, in.depth, digits,
                      height, digits);

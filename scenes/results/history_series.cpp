@@ -81,7 +81,9 @@ void add_contact_series(const Scene& scene, Observables& all) {
         space ? "volume in which surfaces overlap / volume of the particles"
               : "area in which outlines overlap / area of the particles",
         overlap_of_particles},
-       {"narrow_contacts", "-", "share of force on narrow contacts",
+       {"narrow_contacts", "-",
+        space ? "share of force on contacts narrower than two faces"
+              : "share of force on contacts narrower than two edges",
         space ? "share of the contact force carried by contacts narrower than two faces"
               : "share of the contact force carried by contacts narrower than two boundary "
                 "edges",

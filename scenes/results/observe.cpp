@@ -57,7 +57,8 @@ void check_output(const Scene& scene, const schema::Origins& origins, Problems& 
     refuse("density_cells",
            scene.in_space()
                ? "the tools do not enclose a space for the grid, allowed: with six planes whose "
-                 "normals are along the axes, or a round die along one axis between two planes or "
+                 "normals are along the axes, or a cylindrical die along one axis between two "
+                 "planes or "
                  "punches"
                : "the tools do not enclose a grid, allowed: with one tool on each of the four "
                  "sides, planes with normals along an axis, or polylines");

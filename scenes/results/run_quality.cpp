@@ -129,7 +129,7 @@ void add_release(Figures& figures, const Scene& scene, const Results& results,
 
 void add_lost_force(Figures& figures, const Scene& scene, const ContactFindings& contacts) {
   if (!contacts.force_error) return;
-  figures.add("Force lost to penetration",
+  figures.add("Force error due to penalty penetration",
               "error of the largest force, too low because surfaces penetrate each other",
               std::max(0.0, -*contacts.force_error), ContactFindings::max_force_error,
               stiffer(scene, contacts));
@@ -138,10 +138,11 @@ void add_lost_force(Figures& figures, const Scene& scene, const ContactFindings&
 void add_contacts(Figures& figures, const Scene& scene, const ContactFindings& contacts) {
   add_lost_force(figures, scene, contacts);
   if (!contacts.narrow_share) return;
-  figures.add("Narrow contacts",
+  const bool space = scene.in_space();
+  figures.add(space ? "Contacts narrower than two faces" : "Contacts narrower than two edges",
               fmt::format("share of the largest contact force carried by contacts narrower than "
                           "two {}",
-                          scene.in_space() ? "faces" : "boundary edges"),
+                          space ? "faces" : "boundary edges"),
               *contacts.narrow_share, contacts.narrow_limit(), finer(scene, contacts));
 }
 

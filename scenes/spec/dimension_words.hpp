@@ -33,18 +33,18 @@ inline const DimensionWords& words_of(const Scene& scene) {
       "and -y",
       ", a [stage.cell]",
       "xy"};
-  static constexpr DimensionWords three{
-      "three",
-      "hexahedra",
-      "faces",
-      "faces",
-      "wide",
-      "smaller faces",
-      "spheres",
-      "with six planes with normals along +x, -x, +y, -y, +z and -z, or a round die and a plane or "
-      "punch at either end",
-      "",
-      "xyz"};
+  static constexpr DimensionWords three{"three",
+                                        "hexahedra",
+                                        "faces",
+                                        "faces",
+                                        "wide",
+                                        "smaller faces",
+                                        "spheres",
+                                        "with six planes with normals along +x, -x, +y, -y, +z and "
+                                        "-z, or a cylindrical die and a plane or "
+                                        "punch at either end",
+                                        "",
+                                        "xyz"};
   return scene.in_space() ? three : two;
 }
 

@@ -103,8 +103,18 @@ TEST_F(ProbeCommand, FindsVonMisesCylinderInASolid) {
       ++sheared;
     }
   EXPECT_GE(sheared, 4);
-  for (const char* file : {"probe.toml", "yield_points.csv", "moduli.csv", "caps.csv"})
+  for (const char* file :
+       {"probe.toml", "yield_points.csv", "moduli.csv", "caps.csv", "report.html"})
     EXPECT_TRUE(fs::exists(place / "probed" / file)) << file;
+
+  // The report links to the runs that the results come from.
+  const auto has_report = [&](const nlohmann::json& from) {
+    return fs::exists(place / "probed" / from.at("run").get<std::string>() / "report.html");
+  };
+  EXPECT_TRUE(has_report(state.at("states").at(0)));
+  for (const char* criterion : {"offset_strain", "dissipation"})
+    for (const auto& point : state.at("yield").at(criterion).at("points"))
+      EXPECT_TRUE(has_report(point)) << point.at("run");
 
   // What is finished is kept, and says the same.
   const std::string before = text_of(place / "probed/yield_points.csv");

@@ -27,7 +27,7 @@ from pathlib import Path
 import h5py
 import numpy
 
-# Scene, steps, and what is set in it. Together they have every kind of contact, control and observer there is. In the round die
+# Scene, steps, and what is set in it. Together they have every kind of contact, control and observer there is. In the cylindrical die
 # the powder bears on the wall from step 630 on.
 CASES = {
     "die": ("scenes/compaction/regular-25.toml", 300, ["output.contacts=true", "output.density_cells=[4, 4]"]),

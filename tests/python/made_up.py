@@ -213,7 +213,7 @@ def round_die(heights, radius, parts=16):
 
 
 def tablet(folder, title="A tablet of microcrystalline cellulose and lactose, pressed from both sides"):
-    """A run in three dimensions in a round die, flat so that pictures are low: local densities, contacts, bonds that break."""
+    """A run in three dimensions in a cylindrical die, flat so that pictures are low: local densities, contacts, bonds that break."""
     folder.mkdir(parents=True)
     mesh = blocks((2, 2, 2), (4, 4, 1))
     nodes, cells, of_node, _ = mesh

@@ -191,7 +191,7 @@ def test_a_servo_takes_forces_that_a_scene_may_ask_for(scenes):
     for force in (1e300, 1.1e12, -1, math.nan, "1e300 N"):
         with pytest.raises(pulvis.RangeError, match="tool top: force: .*allowed: a quantity in N, >= 0 and <= 1e[+]12"):
             servo.drive(force)
-    assert servo.asked < 500 and sim.driven == set()
+    assert servo.target < 500 and sim.driven == set()
     for wrong in (None, [1.0], True):
         with pytest.raises(TypeError, match="Servo.drive: force = "):
             servo.drive(wrong)

@@ -22,19 +22,19 @@ def test_a_servo_tells_what_it_asks_for(held):
     assert list(sim.servos) == ["top"]
     servo, seen = sim.servos["top"], []
     assert servo.holds and tuple(servo.direction) == (0, -1)
-    sim.on_sample(lambda sim: seen.append((servo.asked, servo.bears)))
+    sim.on_sample(lambda sim: seen.append((servo.target, servo.measured)))
     sim.run()
-    asked, bears = zip(*seen)
-    assert list(asked) == list(sim.history["tool/top/force_asked"])
-    assert list(bears) == list(sim.history["tool/top/force_y"])
-    assert asked[-1] == 500 and sim.driven == set()
+    target, measured = zip(*seen)
+    assert list(target) == list(sim.history["tool/top/force_asked"])
+    assert list(measured) == list(sim.history["tool/top/force_y"])
+    assert target[-1] == 500 and sim.driven == set()
 
 
 def test_it_asks_for_nothing_once_its_stage_is_over(scenes):
     sim = scene_with(scenes, {"name": "rest", "kind": "hold", "duration": "0.1 ms"}).simulation().run()
-    time, asked = sim.history["time"], sim.history["tool/top/force_asked"]
-    assert set(asked[time > 0.401e-3]) == {0} and asked[time < 0.399e-3][-1] == 500
-    assert sim.servos["top"].asked == 0 and not sim.servos["top"].holds
+    time, target = sim.history["time"], sim.history["tool/top/force_asked"]
+    assert set(target[time > 0.401e-3]) == {0} and target[time < 0.399e-3][-1] == 500
+    assert sim.servos["top"].target == 0 and not sim.servos["top"].holds
 
 
 def test_the_force_is_what_it_is_driven_to(held):
@@ -42,7 +42,7 @@ def test_the_force_is_what_it_is_driven_to(held):
     sim = held.simulation().run_until("0.2 ms")
     sim.servos["top"].drive("800 N")
     sim.step(1)
-    assert sim.servos["top"].asked == 800
+    assert sim.servos["top"].target == 800
     sim.run()
     assert sim.history["tool/top/force_asked"][-1] == 800
     assert sim.history["tool/top/force_y"][-1] == pytest.approx(800, rel=0.05)
@@ -54,7 +54,7 @@ def test_driven_to_what_it_asks_for_the_run_keeps_its_bits(held):
     """The scene's force, driven when its ramp is over, changes nothing."""
     whole = held.simulation().run()
     sim = held.simulation().run_until("0.2 ms")
-    assert sim.servos["top"].asked == 500
+    assert sim.servos["top"].target == 500
     sim.servos["top"].drive(500)
     assert sim.run().hash == whole.hash
 
@@ -69,7 +69,7 @@ def test_a_driven_servo_is_resumed_by_python_alone(held, program, tmp_path):
     whole = held.simulation().step(100)
     whole.servos["top"].drive("200 N")
     resumed = pulvis.resume(tmp_path / "run").step(100)
-    assert resumed.servos["top"].asked == 200
+    assert resumed.servos["top"].target == 200
     assert whole.step(200).hash == resumed.hash
 
 

@@ -154,7 +154,7 @@ def test_the_recorded_profile_is_drawn_if_there_is_one(blocks, tmp_path):
 
 @pytest.fixture(scope="module")
 def ejected(blocks, tmp_path_factory):
-    """The same blocks in a round die that ends between them, below a wider face; in the last frame they are above it."""
+    """The same blocks in a cylindrical die that ends between them, below a wider face; in the last frame they are above it."""
     folder = tmp_path_factory.mktemp("ejected") / "run"
     shutil.copytree(blocks, folder)
     angles, count = np.arange(8) * np.pi / 4, 8

@@ -33,8 +33,8 @@ namespace fs = std::filesystem;
 constexpr const char* scenes_folder = "scenes";
 
 void require_own_probe(const fs::path& folder, const Probe& probe) {
-  std::vector<std::string> names{"probe.toml", "yield_points.csv", "moduli.csv", "caps.csv",
-                                 "summary.json"};
+  std::vector<std::string> names{"probe.toml", "yield_points.csv", "moduli.csv",
+                                 "caps.csv",   "summary.json",     "report.html"};
   for (const ProbePath& path : probe.spec.paths)
     for (const char* ending : {".inp", ".comm"}) names.push_back(path.name + ending);
   for (const std::string& name : names) {
@@ -80,16 +80,15 @@ StateRuns add_probes(const fs::path& folder, const Probe& probe, const ProbeLoad
   const ProbeStart start{fmt::format("../{}/state-{}.h5", loading.name, density_name(state.asked)),
                          {state.stress[0], state.stress[1]},
                          state.pressure};
-  const std::string name = fmt::format("{},density={}", loading.name, density_name(state.asked));
   for (int k = 0; k < probe.spec.directions; ++k) {
     const double share = static_cast<double>(k) / probe.spec.directions;
     mine.angles.emplace_back(2 * std::numbers::pi * share);
     runs.push_back(
-        written_run(folder, fmt::format("{},direction={:g}", name, std::round(3600 * share) / 10),
+        written_run(folder, name_of_run(state, mine.angles.back()),
                     probing_scene(loading.scene, probe.spec, start, mine.angles.back())));
   }
   mine.angles.emplace_back(std::nullopt);
-  runs.push_back(written_run(folder, name + ",shear",
+  runs.push_back(written_run(folder, name_of_run(state, std::nullopt),
                              probing_scene(loading.scene, probe.spec, start, std::nullopt)));
   return mine;
 }
@@ -166,7 +165,8 @@ class Probing {
     const std::size_t missing =
         probe_.loadings.size() * probe_.spec.densities.size() - states_.size();
     if (missing > 0) tell(stderr, "pulvis: not reached: {}\n", counted(missing, "state"));
-    tell("results in {}; pictures: pulvis figure {}\n", folder_.string(), folder_.string());
+    tell("results in {}, to look at: report.html; pictures: pulvis figure {}\n", folder_.string(),
+         folder_.string());
     return bad > 0 || missing > 0 ? ExitCode::run_failed : ExitCode::done;
   }
 

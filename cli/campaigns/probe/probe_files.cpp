@@ -9,6 +9,7 @@
 
 #include "cli/campaigns/probe/keyword_blocks.hpp"
 #include "cli/csv_cell.hpp"
+#include "cli/report/report_page.hpp"
 #include "cli/summary.hpp"
 #include "engine/files/own_files.hpp"
 
@@ -157,8 +158,9 @@ Json model_json(const FittedModel& model) {
   return json;
 }
 
-Json point_json(const YieldPoint& point) {
-  Json json{{"direction", point.angle},
+Json point_json(const YieldPoint& point, const ProbeState& state) {
+  Json json{{"run", name_of_run(state, point.angle)},
+            {"direction", point.angle},
             {"stress", point.stress},
             {"p", point.pressure()},
             {"q", point.deviatoric()},
@@ -192,7 +194,8 @@ Json group_json(const Group& group) {
   Json json{{"path", group.path}, {"asked", group.asked}, {"relative_density", group.density()}};
   for (const ProbeSurface* surface : group.surfaces) {
     const PowderModuli& m = surface->moduli;
-    json["states"].push_back({{"seed", surface->state->seed},
+    json["states"].push_back({{"run", surface->state->loading},
+                              {"seed", surface->state->seed},
                               {"relative_density", surface->state->density},
                               {"stress", surface->state->stress},
                               {"pressure", surface->state->pressure},
@@ -208,12 +211,13 @@ Json group_json(const Group& group) {
   for (const Criterion& criterion : criteria) {
     Json& mine =
         json["yield"][criterion.name] = {{"points", Json::array()}, {"models", Json::array()}};
-    const std::vector<YieldPoint> points = group.pooled(criterion);
-    const std::vector<bool> fitted = usable(points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      mine["points"].push_back(point_json(points[i]));
-      mine["points"].back()["fitted"] = static_cast<bool>(fitted[i]);
-    }
+    const std::vector<bool> fitted = usable(group.pooled(criterion));
+    for (const ProbeSurface* surface : group.surfaces)
+      for (const YieldPoint& point : surface->*criterion.points) {
+        const bool is_fitted = fitted[mine["points"].size()];
+        mine["points"].push_back(point_json(point, *surface->state));
+        mine["points"].back()["fitted"] = is_fitted;
+      }
     for (const FittedModel& model : group.fits(criterion)) {
       mine["models"].push_back(model_json(model));
       mine["models"].back()["scatter"] = scatter_json(group, criterion, model);
@@ -264,6 +268,11 @@ void write_probe(const std::filesystem::path& folder, const Probe& probe,
             {"states", Json::array()}};
   for (const Group& group : groups) json["states"].push_back(group_json(group));
   write_own(folder / "summary.json", role::probe, json.dump(1) + "\n");
+  write_page(folder / "report.html", "probe.html",
+             {"units.js", "names.js", "payload.js", "save.js", "chart.js", "maps.js", "settings.js",
+              "tables.js", "probe.js"},
+             {probe.spec.title, json.dump(-1, ' ', false, Json::error_handler_t::replace), {}},
+             role::probe);
 }
 
 std::string caps_text(const Probe& probe, const std::vector<ProbeSurface>& surfaces) {

@@ -3,6 +3,7 @@
 //   moduli.csv        one row per state: c11, c12, c22, shear modulus, E, nu
 //   caps.csv          one row per surface and model: parameters and misfit; `all` in place of a seed: over all seeds
 //   summary.json      the same, with the surfaces of the models as drawn
+//   report.html       the same, to look at in a browser (cli/report/page/probe.js)
 //   <path>.inp        Abaqus, by the dissipated-energy criterion
 //   <path>.comm       code_aster, the same
 #pragma once

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cli/campaigns/probe/probe_scenes.hpp"
 #include "engine/files/hdf5.hpp"
@@ -73,6 +74,14 @@ ProbeCurve curve_of(const StudyResult& result, const ProbeSpec& spec) {
 }
 
 }  // namespace
+
+std::string name_of_run(const ProbeState& state, std::optional<double> angle) {
+  const std::string name = fmt::format("{},density={}", state.loading, density_name(state.asked));
+  if (!angle) return name + ",shear";
+  constexpr double half = 0.5 + 1e-6;  // ties are rounded up, whatever the round-off of the angle
+  const double tenths = std::floor(1800 / std::numbers::pi * *angle + half);
+  return fmt::format("{},direction={:g}", name, tenths / 10);
+}
 
 std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& spec,
                                   const StudyResult& result, std::vector<std::string>& passed) {

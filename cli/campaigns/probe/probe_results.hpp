@@ -36,6 +36,9 @@ struct ProbeSurface {
   std::vector<FittedModel> offset_models, dissipation_models;
 };
 
+// Of the run from this state in the direction `angle`, rad; none: the shear run.
+std::string name_of_run(const ProbeState& state, std::optional<double> angle);
+
 // `angle` of each run from this state; none: the shear run.
 struct ProbeRun {
   std::optional<double> angle;

@@ -128,7 +128,7 @@ void bind_servos(RunClass& run) {
       .def("servo",
            [](PythonRun& r, const std::string& name) {
              const ServoView servo = servo_view(r.session().simulation(), name);
-             return py::make_tuple(servo.asked, servo.direction, servo.holds);
+             return py::make_tuple(servo.target, servo.direction, servo.holds);
            })
       .def_property_readonly("servos",
                              [](PythonRun& r) { return servo_names(r.session().simulation()); });

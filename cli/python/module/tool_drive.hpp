@@ -20,7 +20,7 @@ void drive_tool(Simulation& simulation, const Scene& scene, const std::string& n
 // Tools with a force servo in at least one stage.
 std::vector<std::string> servo_names(Simulation& simulation);
 struct ServoView {
-  double asked = 0;    // N, 0 in stages without it: series force_asked
+  double target = 0;   // N, 0 in stages without it: series force_asked
   Point3 direction{};  // pushing direction: of the current stage, else of its first one
   bool holds = false;  // in the current stage
 };

@@ -305,8 +305,8 @@ class Servo:
         self._run, self.tool = run, tool
 
     @property
-    def asked(self) -> float:
-        """Current target force in N: from its ramp or from `drive`; 0 in stages without this servo."""
+    def target(self) -> float:
+        """Target force in N at this time: from its ramp or from `drive`; 0 in stages without this servo."""
         return self._run.servo(self.tool)[0]
 
     @property
@@ -320,8 +320,8 @@ class Servo:
         return self._run.servo(self.tool)[2]
 
     @property
-    def bears(self) -> float:
-        """Force in N on the tool, opposite to the servo's direction."""
+    def measured(self) -> float:
+        """Force in N that the powder exerts on the tool, opposite to the servo's direction."""
         row = self._run.tools.index(self.tool)
         return -float(self._run.column_rows("tool.force")[row][:self._run.dimension] @ self.direction)
 
@@ -335,7 +335,7 @@ class Servo:
         self._run.drive_servo(self.tool, in_si("Servo.drive: force", force, "N"))
 
     def __repr__(self) -> str:
-        return f"<pulvis.Servo of {self.tool!r}, asks for {self.asked:.6g} N>"
+        return f"<pulvis.Servo of {self.tool!r}, target {self.target:.6g} N>"
 
 
 class History(Mapping[str, np.ndarray]):

@@ -77,7 +77,6 @@ function fillRuns(runs, names) {
   const rows = new Map();
   runs.forEach((run, i) => {
     const told = [...figuresOf(run).map(([label, value]) => [label, value]),
-                  ...qualityFigures(run).map(({name, value}) => [name.toLowerCase(), percent(value)]),
                   ...knownRows(run).filter(([, text]) => text)];
     for (const [label, text] of told) {
       if (!rows.has(label)) rows.set(label, Array(runs.length).fill("–"));
@@ -92,6 +91,46 @@ function fillRuns(runs, names) {
     table.tBodies[0].insertRow().append(element("th", {scope: "row", textContent: label}),
       ...texts.map(textContent => element("td", {textContent})));
   }
+}
+
+const showSection = (id, rows) => { document.getElementById(`${id}-section`).hidden = !rows.length; };
+
+// Quality values with their limits, expectations and warnings: one row per value, one column per run.
+function fillQualities(runs, names) {
+  const rows = new Map(), put = (name, i, cell) => {
+    if (!rows.has(name)) rows.set(name, Array(runs.length).fill("–"));
+    rows.get(name)[i] = cell;
+  };
+  const verdict = (good, text) => element("span", {className: good ? "within" : "beyond", textContent: text});
+  runs.forEach((run, i) => {
+    for (const figure of qualityFigures(run)) {
+      const limited = typeof figure.limit === "number";
+      put(figure.name, i, limited ? verdict(!isBeyond(figure), `${percent(figure.value)} (${percent(figure.limit)})`) : percent(figure.value));
+    }
+    for (const one of run.summary.expectations || [])
+      put(toldExpectation(one.what), i, verdict(one.met, `${one.measured} (${one.met ? "met" : `NOT met: ${one.expected}`})`));
+    const warnings = (run.summary.warnings || []).length;
+    if (warnings) put("Warnings", i, verdict(false, counted(warnings, "warning")));
+  });
+  showSection("quality", [...rows]);
+  if (!rows.size) return;
+  fillColumns(document.getElementById("quality"), [{title: "quantity", cells: [...rows.keys()].map(titled)},
+    ...names.map((title, i) => ({title, cells: [...rows.values()].map(row => row[i])}))]);
+}
+
+// The tables of a compaction, with the run in the first column.
+function fillCompactions(runs, names) {
+  const laws = runs.flatMap(({summary: {fits}}, i) => Array.isArray(fits?.laws) ? lawRows(names[i], fits) : []);
+  const shares = runs.flatMap(({summary: {transmission}}, i) =>
+    (transmission?.shares || []).map(share => ({name: names[i], wall_friction: transmission.wall_friction, ...share})));
+  showSection("laws", laws);
+  showSection("transmission", shares);
+  if (laws.length) fillTexts("laws", LAW_TITLES, laws);
+  if (!shares.length) return;
+  const columns = [["wall_friction", "wall µ"], ...TRANSMISSION].filter(([key]) => shares.some(share => key in share));
+  fillTexts("transmission", ["run", ...columns.map(([, title]) => title)],
+            shares.map(share => [share.name, ...columns.map(([key]) => digits(share[key]))]));
+  document.getElementById("transmission-note").textContent = `${TRANSMISSION_NOTE}.`;
 }
 
 // The cards of the individual reports, runs side by side, one row per kind of card.
@@ -169,8 +208,9 @@ async function main() {
   document.getElementById("timeline").hidden = !pace || pace.frames.length < 2;
   placeCurves(runs, names);
   placePanels(runs, names, timeline);
-  fillRuns(runs, names);
-  onUnits(() => fillRuns(runs, names));
+  const fillTables = () => [fillRuns, fillQualities, fillCompactions].forEach(fill => fill(runs, names));
+  fillTables();
+  onUnits(fillTables);
   const fields = views.filter(view => view instanceof FieldView), solids = views.filter(view => view instanceof SolidView);
   fields.forEach(view => {
     view.allNames = tag => [...new Set(runs.flatMap(run => (run.tags || []).filter(({name}) => name === tag).flatMap(({names}) => names)))];

@@ -80,6 +80,16 @@ addCurves(run => {
           group("Detector, whole programme", "y", "signal", whole(["detector/lateral", "detector/normal"]))];
 });
 
+// The stiffnesses of a calibration over those of each closed form: 1 where they agree.
+addCurves(({summary: {calibration}}) => {
+  const forms = (calibration?.closed_forms || []).filter(({does_not_apply: why}) => !why), at = forms.map((_, i) => i);
+  const ratios = forms.map(({difference}) => 1 + difference);
+  return [{title: "Stiffness over closed forms", first: true, isStill: true, y: "finite elements / closed form",
+           xs: [{label: "closed form", unit: "-", values: at, names: forms.map(({quantity, name}) => `${quantity}: ${name}`)}],
+           lines: forms.length ? [{label: "finite elements / closed form", unit: "-", values: ratios, low: ratios, high: ratios, isMarks: true},
+                                  {label: "1: they agree", unit: "-", values: at.map(() => 1), dash: [5, 4]}] : []}];
+});
+
 // A table that scrolls inside its card and is redrawn when the user changes a unit.
 function placeColumns(host, columns) {
   const table = element("table", {className: "figures"});

@@ -8,7 +8,7 @@ const PANELS = [], CURVES = [], FIGURES = [];
 const addPanel = panel => { PANELS.push({order: 50, ...panel}); };
 const panelsInOrder = () => PANELS.slice().sort((a, b) => a.order - b.order);
 // run => [{title, xs: [x, ...], y, lines}]: choices for the large chart; x and lines as in a Chart. Those marked
-// `first` show the main results of the run.
+// `first` show the main results of the run; those marked `isStill` have points that are not samples of the run.
 const addCurves = make => { CURVES.push(make); };
 // run => [[label, value, note], ...]: key figures at the top of the page; null values are omitted.
 const addFigures = make => { FIGURES.push(make); };
@@ -40,9 +40,9 @@ class Report {
 
   // A chart over the samples of the run: pointing at it selects the frame, and the frame is marked in it.
   chart(host, spec, options) {
-    const onCursor = sample => this.timeline.seek(this.run.times[sample] / this.endTime);
+    const onCursor = sample => { if (!chart.spec.isStill) this.timeline.seek(this.run.times[sample] / this.endTime); };
     const chart = drawChart(host, spec, {...options, onCursor});
-    const mark = share => chart.mark(this.run.sampleAt(share * this.endTime));
+    const mark = share => chart.mark(chart.spec.isStill ? null : this.run.sampleAt(share * this.endTime));
     this.timeline.listen(mark);
     mark(this.timeline.share);
     return chart;

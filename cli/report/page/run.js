@@ -17,6 +17,7 @@ class Run {
     run.history = new Map(head.series.map((series, k) =>
       [series.name, {...series, label: series.name, values: all.subarray(k * count, (k + 1) * count)}]));
     run.times = run.values("time");
+    run.hideLightLoads();
     run.frames = head.frames || [];
     run.images = await Promise.all((head.images || []).map(async (image, i) =>
       ({...image, values: await floats(`${prefix}image-${i}`)})));
@@ -28,6 +29,15 @@ class Run {
     }
     if (run.inSpace && run.frames.length) await run.loadSpace();
     return run;
+  }
+
+  // The ratio of the forces on two punches says nothing while they hardly touch the powder.
+  hideLightLoads() {
+    const LEAST_LOAD = 0.05;  // of the largest
+    const ratio = this.history.get("stress/transmission"), load = this.values("stress/axial_top"), least = LEAST_LOAD * largest(load);
+    if (!ratio || !load.length) return;
+    ratio.values = ratio.values.map((value, i) => load[i] > least ? value : NaN);
+    this.head.series.find(({name}) => name === ratio.name).meaning += `; only above ${percent(LEAST_LOAD)} of the largest load on the top`;
   }
 
   // Particles in 3D: the outer faces of cells, and the quads of the tool surfaces.

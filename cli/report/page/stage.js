@@ -61,7 +61,7 @@ class CurvePane {
     if (!this.chart) this.chart = report.chart(this.plot, spec, {height: 400});
     else if (isSame) this.chart.renew(spec);
     else this.chart.show(spec);
-    this.chart.mark(report.run.sampleAt(report.timeline.share * report.endTime));
+    this.chart.mark(spec.isStill ? null : report.run.sampleAt(report.timeline.share * report.endTime));
   }
 }
 

@@ -29,10 +29,6 @@ function fillExpectations(list) {
   }
 }
 
-// rows: [[cell, ...]], each cell a text.
-const fillTexts = (id, titles, rows) =>
-  fillTable(id, titles.map((title, k) => ({title, cells: rows.map(row => row[k])})));
-
 // Only runs that reached their end can be compared.
 const completeRuns = ({runs}) => runs.filter(run => run.complete);
 
@@ -45,13 +41,7 @@ function fillLaws(head) {
   const runs = completeRuns(head).filter(run => run.fits && Array.isArray(run.fits.laws));
   document.getElementById("laws-left-out").textContent = leftOutNote(head);
   document.getElementById("laws-section").hidden = !runs.length;
-  const told = law => law.not_fitted ? `not fitted: ${law.not_fitted}`
-                                     : law.parameters.map(parameterText).join(", ");
-  const rows = runs.flatMap(run => run.fits.laws.map(law => [
-    run.name, (LAWS[law.law] || [law.law])[0], told(law),
-    law.not_fitted ? "–" : digits(law.r_squared, 5),
-    law.not_fitted ? "–" : digits(law.rms_density, 3)]));
-  fillTexts("laws", ["run", "law", "parameters", "R²", "rms of D"], rows);
+  fillTexts("laws", LAW_TITLES, runs.flatMap(run => lawRows(run.name, run.fits)));
 }
 
 function fillBelow(head) {

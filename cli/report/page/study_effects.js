@@ -18,6 +18,21 @@ function effectValues(effects) {
     .map(([name, unit]) => ({name, unit}));
 }
 
+// -, of the means at the levels, over the largest of them.
+function variationOf(effects, name) {
+  return Math.max(...effects.map(({levels}) => {
+    const means = levels.map(level => sampleAt(level, name)?.mean).filter(Number.isFinite), [low, high] = bounds([means]);
+    return means.length > 1 ? (high - low) / (largest(means) || 1) : 0;
+  }));
+}
+
+// The page opens on the first result of the table that varies: runs that end at a density all have the same one.
+const COSTS = ["particles", "steps", "wall_seconds", "elements", "increments"];
+function firstThatVaries(effects, values) {
+  const CLEAR = 0.02, of = values.map(({name}) => COSTS.includes(name) ? 0 : variationOf(effects, name)), first = of.findIndex(variation => variation >= CLEAR);
+  return first >= 0 ? first : of.indexOf(Math.max(...of));
+}
+
 function effectsRange(effects, name) {
   const ends = effects.flatMap(({levels}) => levels.map(level => sampleAt(level, name)).filter(Boolean)
     .flatMap(({mean, standard_deviation: s = 0}) => [mean - s, mean + s]));
@@ -83,6 +98,7 @@ function drawEffects({effects = []}) {
   if (!values.length) return 0;
   const choice = element("select", {});
   values.forEach(({name}, i) => choice.add(new Option(titleOf(name), i)));
+  choice.value = firstThatVaries(effects, values);
   const title = "Main effects", host = card(title, element("div", {className: "controls"}, element("label", {}, "value ", choice)));
   const plot = element("div", {className: "effects", role: "img"}), chosen = () => values[Number(choice.value)];
   const unbalanced = effects.some(({balanced}) => !balanced);

@@ -67,6 +67,10 @@ function fillColumns(table, columns, isBad = () => false) {
   }
 }
 
+// rows: [[cell, ...]], each cell a text; into the table of this id.
+const fillTexts = (id, titles, rows) =>
+  fillColumns(document.getElementById(id), titles.map((title, k) => ({title, cells: rows.map(row => row[k])})));
+
 const isSample = cell => cell !== null && typeof cell === "object" && "mean" in cell;
 const numberOf = cell => isSample(cell) ? cell.mean : cell;
 

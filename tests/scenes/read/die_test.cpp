@@ -241,7 +241,7 @@ TEST(WrongDieInSpace, IsRefusedAtItsPlace) {
               HasSubstr("die.diameter: has no effect together with width or depth"));
   EXPECT_THAT(problem_in_space_with("[die]\n"),
               HasSubstr("die.width: required key is missing, allowed: a quantity in m, or the "
-                        "diameter of a round die"));
+                        "diameter of a cylindrical die"));
   EXPECT_THAT(
       problem_in_space_with(
           lattice_in_space("cubic") +

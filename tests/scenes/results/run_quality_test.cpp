@@ -46,10 +46,11 @@ TEST(RunQuality, TellsWhatToDoBeyondALimitAndNothingWithin) {
     beyond += one.beyond();
   }
   EXPECT_GE(beyond, 2);
-  const QualityFigure lost = figure(figures, "Force lost to penetration");
-  EXPECT_THAT(lost.line(), StartsWith("force lost to penetration "));
+  const QualityFigure lost = figure(figures, "Force error due to penalty penetration");
+  EXPECT_THAT(lost.line(), StartsWith("force error due to penalty penetration "));
   EXPECT_THAT(lost.line(), HasSubstr("% (limit 5%): use contact.stiffness = 10"));
-  EXPECT_THAT(figure(figures, "Narrow contacts").line(), HasSubstr("edges of at most "));
+  EXPECT_THAT(figure(figures, "Contacts narrower than two edges").line(),
+              HasSubstr("edges of at most "));
   EXPECT_THAT(figure(figures, "Energy balance error").advice, IsEmpty());
 }
 
@@ -96,11 +97,13 @@ TEST(RunQuality, AsksForSmallerFacesWhereContactsInSpaceAreNarrow) {
       figure(judged("compaction-3d/one-sphere.toml",
                     {"contact.hardness=1000", "stage.press.duration=20 us",
                      "stage.press.move.top.displacement=[\"0 mm\", \"0 mm\", \"-0.2 mm\"]"}),
-             "Narrow contacts");
+             "Contacts narrower than two faces");
   EXPECT_GT(first.value, 0.99);
   EXPECT_THAT(first.advice, HasSubstr("faces wide on average: use faces of "));
   EXPECT_THAT(first.advice, HasSubstr(" um (particle.mesh.divisions)"));
-  EXPECT_EQ(figure(judged("extreme/space-box-rd-97.toml", {}), "Narrow contacts").value, 0);
+  EXPECT_EQ(
+      figure(judged("extreme/space-box-rd-97.toml", {}), "Contacts narrower than two faces").value,
+      0);
 }
 
 // With 32% of the force on contacts of one to two edges that of 25 discs is 3% off where they indent, as good as without
@@ -111,7 +114,8 @@ TEST(RunQuality, DoesNotAskForFinerMeshesOfContactsThatIndent) {
     Changes changes{"stage.press.duration=0.3 ms",
                     "stage.press.move.top.displacement=[\"0 mm\", \"-0.5 mm\"]"};
     changes.insert(changes.end(), more.begin(), more.end());
-    return figure(judged("compaction/regular-25.toml", changes), "Narrow contacts");
+    return figure(judged("compaction/regular-25.toml", changes),
+                  "Contacts narrower than two edges");
   };
   const QualityFigure indents = narrow({}), hard = narrow({"contact.hardness=1000"});
   EXPECT_GT(indents.value, ContactFindings::most_narrow);
@@ -123,7 +127,7 @@ TEST(RunQuality, DoesNotAskForFinerMeshesOfContactsThatIndent) {
 // Of a powder in three dimensions stiffness alone is no help: coarse faces bear too much.
 TEST(RunQuality, AsksForSmallerFacesWithStifferContactsOfAPowder) {
   const auto figures = judged("extreme/space-box-rd-97.toml", {"contact.stiffness=0.5"});
-  EXPECT_THAT(figure(figures, "Force lost to penetration").advice,
+  EXPECT_THAT(figure(figures, "Force error due to penalty penetration").advice,
               StartsWith("use contact.stiffness = 10, with smaller faces "));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/results/results.hpp"
@@ -13,7 +14,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double min_force_share = 0.01;
+constexpr double min_force_share = 0.05;
 
 struct Face {  // of a tool of the die
   std::string along;
@@ -66,15 +67,21 @@ std::vector<double> pressure(const Scene& scene, int tool, const History& histor
   return values;
 }
 
+// The ratio of the forces on two punches says nothing while they hardly touch the powder.
+std::vector<double> above_light_loads(std::vector<double> values, const std::vector<double>& load) {
+  const double maximum = load.empty() ? 0 : std::ranges::max(load);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(load[i] > min_force_share * maximum))
+      values[i] = std::numeric_limits<double>::quiet_NaN();
+  return values;
+}
+
 std::vector<double> share_below(const Scene& scene, const History& history) {
   const DieCell cell = *die_cell(scene);
   std::vector<double> values = history(tool_series(scene, cell.bottom, "force_y"));
   const std::vector<double> top = history(tool_series(scene, cell.top, "force_y"));
-  const double maximum = top.empty() ? 0 : std::ranges::max(top);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = top[i] > min_force_share * maximum ? -values[i] / top[i]
-                                                   : std::numeric_limits<double>::quiet_NaN();
-  return values;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] /= -top[i];
+  return above_light_loads(std::move(values), top);
 }
 
 }  // namespace
@@ -117,6 +124,8 @@ std::vector<double> study_values(const Scene& scene, const std::string& name,
   if (const std::string tool = after("pressure/"); !tool.empty())
     return pressure(scene, tool_called(scene, tool), history);
   if (name == "transmission") return share_below(scene, history);
+  if (name == "stress/transmission")
+    return above_light_loads(history(name), history("stress/axial_top"));
   return history(name);
 }
 

@@ -13,7 +13,7 @@ namespace pulvis {
 // `time`, the history, and if the scene has them:
 //   travel/<tool>        m, displacement of the tool since the first sample
 //   pressure/<tool>      Pa, for the four tools of a die: force towards the tool over its face
-//   transmission         -, F_bottom / F_top; NaN while F_top is below 1% of its maximum
+//   transmission         -, F_bottom / F_top; NaN while F_top is below 5% of its maximum
 // For levers: `actions` (how many are done) and the history of a programme, and values of the whole run, which are a
 // single number instead of a time series: k_n, loop/friction ... (scenes/lever/afm_figures.hpp).
 std::vector<SeriesInfo> study_series(const Scene& scene);

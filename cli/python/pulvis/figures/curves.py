@@ -9,6 +9,9 @@ from pulvis.figures.names import capital, joined, name_of
 from pulvis.figures.room import legend_within
 
 
+LEAST_LOAD = 0.05  # of the largest
+
+
 def matching(run, pattern):
     """Series whose names match and that are not all zero: [(match, values, unit)]."""
     found = [(re.fullmatch(pattern, name), name) for name in sorted(run.names)]
@@ -70,6 +73,15 @@ def energies(run, options=None, axes=None):
     return draw_lines(run, time_axis(run), lines, ("energy", "E"), "Energies", options, axes) if lines else None
 
 
+def drawn_values(run, name):
+    """A series as it is drawn: the ratio of the forces on two punches says nothing while they hardly touch the powder."""
+    values = run.series(name)
+    if name != "stress/transmission" or not run.has("stress/axial_top"):
+        return values
+    load = run.series("stress/axial_top")
+    return np.where(load > LEAST_LOAD * np.nanmax(load), values, np.nan)
+
+
 def chosen_series(run, options=None, axes=None):
     """The series requested by name, against another one or over time."""
     options = options or Options()
@@ -80,7 +92,7 @@ def chosen_series(run, options=None, axes=None):
     if len(units) > 1:
         raise PulvisError(f"series of different units in one figure: {', '.join(sorted(units))}")
     names = {name: name_of(name, run.labels) for name in options.series}
-    lines = [(capital(joined(*name)), run.series(key), run.unit(key)) for key, name in names.items()]
+    lines = [(capital(joined(*name)), drawn_values(run, key), run.unit(key)) for key, name in names.items()]
     symbols = {name.symbol for name in names.values()}
     shared = symbols.pop() if len(symbols) == 1 else ""
     word = {"N": "force", "Pa": "stress", "m": "length", "J": "energy", "V": "signal"}.get(next(iter(units)), "value")
