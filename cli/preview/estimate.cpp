@@ -47,7 +47,7 @@ bool welds(const Scene& scene) {
 Growth growth_of(const Scene& scene, std::size_t particles) {
   if (particles == 1) return {1.2, 1.05, 0.2, 0.04, 0};
   // Particles that do not yield are squeezed until their elements are thin.
-  if (!any_material_yields(scene)) return {1.3, 1, 0, 1, 45, 11};
+  if (!any_material_yields(scene)) return {1.1, 1, 0, 1, 45, 11};
   if (scene.in_space()) return {2, 1.15, 0.6, 0.02, 8.5};  // the area in contact grows on and on
   if (welds(scene)) return {2, 1.1, 1.8, 0.04, 0};
   return {1.45, 1.03, 1, 0.04, 0};
@@ -115,7 +115,7 @@ RunEstimate estimate_run(Simulation& simulation, const Scene& scene, std::size_t
   if (stages.empty()) steps = end, cost = end * growth.usual;
   estimate.steps = growth.more_steps * steps / estimate.dt;
   constexpr double beside =
-      1.4;  // contact searches, samples, frames and report, which first steps do not have
+      1.35;  // contact searches, samples, frames and report, which first steps do not have
   estimate.seconds = beside * growth.more_steps * cost / estimate.dt * of_a_step;
   return estimate;
 }
