@@ -115,6 +115,11 @@ class PairPass {
   void fetch(Row<FaceContact> row, unsigned active) const {
     for (unsigned left = active; left != 0; left &= left - 1)
       prefetch(&s_.columns.points.numbers(row, ContactPoint::numbers * std::countr_zero(left)));
+    if (hardness_ == nullptr || active == 0) return;
+    const int first = std::countr_zero(active), last = std::bit_width(active) - 1;
+    prefetch(&(*s_.columns.points.indentation)(row, first));
+    prefetch(&(*s_.columns.points.indentation)(row, last));
+    prefetch(number_of_hardness(own_faces_, s_.columns.pair(row, 1)));
   }
 
   static int next_active(const std::array<unsigned, rows_at_once>& active, int from, int rows) {
@@ -165,7 +170,10 @@ class PairPass {
       const int place = static_cast<int>(g);
       double* kept = &s_.columns.points.numbers(row, ContactPoint::numbers * place);
       const int its = static_cast<int>(kept[ContactPoint::face_u]);
-      if (its != fetched_) fetch_face(*its_, its_surface_, its);
+      if (its != fetched_) {
+        fetch_face(*its_, its_surface_, its);
+        if (hardness_ != nullptr) prefetch(number_of_hardness(its_faces_, its));
+      }
       fetched_ = its;
       PairPoint& p = points_.add(its, (bonded >> g & 1) != 0);
       p.motion = {x[g],
@@ -178,8 +186,7 @@ class PairPass {
                   inv_size};
       p.kappa = kappa;
       p.damping = damping;
-      p.hardness = softer(own_hardness, hardness_of(its_faces_, its));
-      if ((bonded >> g & 1) != 0) p.hardness = {pulvis::kernels::no_hardness, 1};
+      p.hardness = own_hardness;
       p.indentation =
           s_.columns.points.indentation ? &(*s_.columns.points.indentation)(row, place) : nullptr;
       p.kept = kept;
@@ -193,19 +200,26 @@ class PairPass {
   }
 
   // Of a face; `faces`: the particle's first row.
+  const double* number_of_hardness(std::ptrdiff_t faces, int face) const {
+    return hardness_ + SurfaceHardness<ThreeD>::count * (faces + face);
+  }
   pulvis::kernels::Hardness<double> hardness_of(std::ptrdiff_t faces, int face) const {
     if (hardness_ == nullptr) return {pulvis::kernels::no_hardness, 1};
     using Number = SurfaceHardness<ThreeD>;
-    const double* number = hardness_ + Number::count * (faces + face);
+    const double* number = number_of_hardness(faces, face);
     return {number[Number::pressure], number[Number::left]};
   }
-  static pulvis::kernels::Hardness<double> softer(const pulvis::kernels::Hardness<double>& a,
-                                                  const pulvis::kernels::Hardness<double>& b) {
-    return {std::min(a.pressure, b.pressure), std::min(a.left, b.left)};
-  }
+  // Of the softer surface. Only here: the other surface has arrived in the cache by now.
   pulvis::kernels::Hardness<Lane> hardness_of(const PointLanes& eight) const {
-    return {Lane::from([&](int l) { return entry(eight.point, l)->hardness.pressure; }),
-            Lane::from([&](int l) { return entry(eight.point, l)->hardness.left; })};
+    if (eight.bonded) return {pulvis::kernels::no_hardness, 1.0};
+    alignas(64) std::array<double, lane_count> pressure, left;
+    for (int l = 0; l < lane_count; ++l) {
+      const auto& own = entry(eight.point, l)->hardness;
+      const auto its = hardness_of(its_faces_, entry(eight.face, l));
+      entry(pressure, l) = std::min(own.pressure, its.pressure);
+      entry(left, l) = std::min(own.left, its.left);
+    }
+    return {Lane::load(pressure.data()), Lane::load(left.data())};
   }
 
   void work() {

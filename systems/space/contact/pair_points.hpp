@@ -17,7 +17,7 @@ namespace pulvis::space {
 struct alignas(64) PairPoint {
   std::array<double, 8> motion;                // position, velocity, weight, 1/size of the face
   double kappa, damping;                       // as in contact_law.hpp
-  pulvis::kernels::Hardness<double> hardness;  // only where surfaces indent
+  pulvis::kernels::Hardness<double> hardness;  // of the sampled face, only where surfaces indent
   double* indentation;                         // in the column: PointIndentation, or null
   double* kept;                                // ContactPoint numbers in the columns
   float* activation;                           // in the column: when it becomes active again
