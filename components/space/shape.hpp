@@ -93,8 +93,7 @@ struct Shape {
     int element = 0;       // the element behind it
     double size = 0;       // m: square root of its undeformed area
     double stiffness = 0;  // 1/m: undeformed area over the volume of the element behind it
-    std::array<double, gauss_points>
-        weight{};  // m^2: undeformed area of each Gauss point
+    std::array<double, gauss_points> weight{};  // m^2: undeformed area of each Gauss point
   };
 
   // A surface node and the point of the smooth surface that belongs to it (systems/space/contact/node_springs.hpp).
@@ -115,6 +114,7 @@ struct Shape {
   std::vector<double> nodal_volume;              // m^3, lumped: times density gives the nodal mass
   std::vector<Face> faces;
   std::vector<SurfaceNode> surface_node;  // [surface nodes]
+  std::vector<std::int32_t> node_at;      // [Bezier points]: the surface node of this point, or -1
   Terms net;                              // [surface nodes], in terms of surface nodes
   // [Bezier points], in terms of the net; in face order, padded to a multiple of eight by complete_points().
   Terms points;
@@ -156,6 +156,7 @@ struct Shape {
       points.all.insert(points.all.end(), last.begin(), last.end());
       points.close();
     } while (surface_points() % lane_count != 0);
+    node_at.assign(static_cast<std::size_t>(surface_points()), -1);
   }
 };
 
