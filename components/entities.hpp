@@ -49,6 +49,10 @@ struct ParticleSurface {  // the same points, stored by particle
   static constexpr const char* name = "particle_surface";
   static constexpr bool laned = false, by_chunk = true;
 };
+struct WholeSurface {  // of a particle, stored by particle
+  static constexpr const char* name = "whole_surface";
+  static constexpr bool laned = false, by_chunk = true;
+};
 struct SurfaceFace {  // four-sided patches of these surfaces, stored by particle
   static constexpr const char* name = "surface_face";
   static constexpr bool laned = false, by_chunk = true;

@@ -125,8 +125,8 @@ std::uint64_t hexahedron_bytes(const Needs& needs) {
 std::uint64_t face_row_bytes(const Scene& scene, const Needs& needs) {
   using At = FaceContact;
   std::uint64_t bytes =
-      bytes_of<ContactPair<At>, ContactTouches<At>, space::ReactivationDistance<At>, ContactLaw<At>,
-               space::ContactPoint>() +
+      bytes_of<ContactPair<At>, ContactTouches<At>, space::ReactivationDistance<At>,
+               space::RowTravel, ContactLaw<At>, space::ContactPoint>() +
       sizeof(space::PairLoads::Load);
   bytes += bytes_if<SlipWeakening<At>>(needs.weakening);
   bytes += bytes_if<PointIndentation<At>>(needs.indentation);

@@ -123,16 +123,18 @@ void add_surfaces(World& world, const Needs& needs) {
       of_chunks(world, [](const Shape& s) { return lane_count * s.surface_points(); }));
   world.add_table<SurfaceFace>(of_chunks(
       world, [](const Shape& s) { return lane_count * static_cast<int>(s.faces.size()); }));
+  world.add_table<WholeSurface>(of_chunks(world, [](const Shape&) { return lane_count; }));
   number_surfaces(world);
   world.add<ContactForce<ThreeD>>();
   world.add<NetPosition>();
+  world.add<NetVelocity>();
   world.add<NetLoad>();
-  world.add<PointPosition>();
   world.add<PointLoad>();
   world.add<SurfacePosition>();
   world.add<SurfaceBefore>();
   world.add<FaceForce>();
   world.add<MaximumSpeed>();
+  world.add<SurfaceMotion>();
   world.add<Roughness>();
   world.add<NodeDistance>();
   if (needs.friction || needs.damping) world.add<SurfaceVelocity>();
@@ -150,6 +152,7 @@ void add_rows(World& world) {
 
 void add_pairs(World& world, const Needs& needs) {
   add_rows<FaceContact>(world);
+  world.add<RowTravel>();
   world.add<ContactPoint>();
   if (needs.indentation) world.add<PointIndentation<FaceContact>>();
   if (needs.weakening) world.add<SlipWeakening<FaceContact>>();

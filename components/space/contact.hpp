@@ -37,6 +37,12 @@ struct SurfaceVelocity : Component<ParticleSurface, double, 3> {
 struct SurfaceBefore : Component<ParticleSurface, double, 3> {
   static constexpr ComponentInfo info{"before", "m", "where it was when the candidates were made"};
 };
+// Every point of a particle's surface moves with this velocity, give or take the difference.
+struct SurfaceMotion : Component<WholeSurface, double, 4> {
+  static constexpr ComponentInfo info{"motion", "m/s",
+                                      "mean velocity x y z, largest difference of any point"};
+  enum Number { mean, difference = 3 };
+};
 // Whether any surface node of a particle is farther from the smooth surface than its slack.
 struct Roughness : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"roughness", "m^2",
@@ -57,13 +63,13 @@ struct NetPosition : Component<BoundaryNode, double, 3> {
   static constexpr ComponentInfo info{"net_position", "m", "of a point of the control net"};
   static constexpr bool scratch = true;
 };
+struct NetVelocity : Component<BoundaryNode, double, 3> {
+  static constexpr ComponentInfo info{"net_velocity", "m/s", "of a point of the control net"};
+  static constexpr bool scratch = true;
+};
 struct NetLoad : Component<BoundaryNode, double, 3> {
   static constexpr ComponentInfo info{"net_load", "N",
                                       "of all contacts, on a point of the control net"};
-  static constexpr bool scratch = true;
-};
-struct PointPosition : Component<SurfacePoint, double, 3> {
-  static constexpr ComponentInfo info{"position", "m", "of a Bezier point"};
   static constexpr bool scratch = true;
 };
 struct PointLoad : Component<SurfacePoint, double, 3> {
@@ -81,6 +87,12 @@ struct ReactivationDistance
   static constexpr ComponentInfo info{
       "activation", "m",
       "travel of the surfaces from which on what rests is active again; 0 of a point that touches"};
+};
+// Clock::relative_motion is the same for any two surfaces: where all move together, it is far more than any two of them
+// move against each other.
+struct RowTravel : Component<FaceContact, double, 1> {
+  static constexpr ComponentInfo info{
+      "travel", "m", "of both surfaces against each other since the row was made, at most"};
 };
 // Data per point of a row against another particle, contiguous: a touching point takes one or two cache lines.
 struct ContactPoint : Component<FaceContact, double, 5 * face_points> {

@@ -90,10 +90,9 @@ struct Shape {
     std::array<std::int32_t, 16> number{};      // 3 * point, set by complete_points()
     std::array<Row<BoundaryNode>, 4> corner{};  // nodes at (u, v) = (0,0) (1,0) (1,1) (0,1)
     std::array<Neighbour, 4> neighbour{};
-    int element = 0;  // the element behind it
-    double size = 0;  // m: square root of its undeformed area
-    double stiffness =
-        0;  // 1/m: of its contact springs, k K times this per area (smooth_surface.cpp)
+    int element = 0;       // the element behind it
+    double size = 0;       // m: square root of its undeformed area
+    double stiffness = 0;  // 1/m: of its contact springs, k K times this per area
     double thickness = 0;  // m: volume of the element behind it over the undeformed area
     std::array<double, gauss_points> weight{};  // m^2: undeformed area of each Gauss point
   };
@@ -116,6 +115,7 @@ struct Shape {
   std::vector<double> nodal_volume;              // m^3, lumped: times density gives the nodal mass
   std::vector<Face> faces;
   std::vector<SurfaceNode> surface_node;  // [surface nodes]
+  std::vector<std::int32_t> node_at;      // [Bezier points]: the surface node of this point, or -1
   Terms net;                              // [surface nodes], in terms of surface nodes
   // [Bezier points], in terms of the net; in face order, padded to a multiple of eight by complete_points().
   Terms points;
@@ -157,6 +157,7 @@ struct Shape {
       points.all.insert(points.all.end(), last.begin(), last.end());
       points.close();
     } while (surface_points() % lane_count != 0);
+    node_at.assign(static_cast<std::size_t>(surface_points()), -1);
   }
 };
 

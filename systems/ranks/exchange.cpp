@@ -14,14 +14,6 @@
 namespace pulvis {
 namespace {
 
-template <class System>
-std::vector<Outlines> columns_of(const System& s) {
-  std::vector<Outlines> columns{s.position};
-  if (s.velocity) columns.emplace_back(*s.velocity);
-  if (s.hardness) columns.emplace_back(*s.hardness);
-  return columns;
-}
-
 std::vector<int> ranks_that_send(const std::vector<RankLink::Neighbour>& all) {
   std::vector<int> ranks;
   for (const RankLink::Neighbour& near : all)
@@ -62,7 +54,7 @@ class Reader {
 // ---- outlines ---------------------------------------------------------------------------------------
 template <class D>
 void send_outlines<D>::operator()() const {
-  const std::vector<Outlines> columns = columns_of(*this);
+  const std::vector<Outlines> columns = outlines.all();
   std::vector<Ranks::Message> messages;
   for (const RankLink::Neighbour& near : link->outlines)
     if (!near.send.empty()) messages.push_back({near.rank, packed(near.send, columns)});
@@ -74,7 +66,7 @@ template <class D>
 void receive_outlines<D>::operator()(SmallTasks) const {
   if (!link->outlines_sent) return;
   link->outlines_sent = false;
-  const std::vector<Outlines> columns = columns_of(*this);
+  const std::vector<Outlines> columns = outlines.all();
   const std::vector<int> from = ranks_that_send(link->outlines);
   const std::vector<Ranks::Message> messages = link->ranks->receive(Ranks::Kind::outlines, from);
   auto message = messages.begin();

@@ -102,11 +102,11 @@ template <class D>
 void find_border<D>::operator()() const {
   if (!index->due) return;
   const PeriodicCell* periodic = cell ? &**cell : nullptr;
-  const Outlines outlines(position);
+  const Outlines positions(outlines.position);
   std::vector<Extent> extent;
   Extent own;
   for (const int slot : bodies->own_slots) {
-    extent.push_back(extent_of(D{}, outlines.of(slot)));
+    extent.push_back(extent_of(D{}, positions.of(slot)));
     own.take(extent.back());
   }
   const std::vector<Extent> of_rank = extents_of_ranks(*link, own);
@@ -130,12 +130,9 @@ void find_border<D>::operator()() const {
     border.insert(border.end(), received.begin(), received.end());
   }
   bodies->set_border(border);
-  std::vector<Outlines> columns{outlines};
-  if (velocity) columns.emplace_back(*velocity);
-  if (hardness) columns.emplace_back(*hardness);
-  tell_border(*link, columns);
+  tell_border(*link, outlines.all());
   const Outlines old(before);
-  for (const int slot : border) std::ranges::copy(outlines.of(slot), old.of(slot).begin());
+  for (const int slot : border) std::ranges::copy(positions.of(slot), old.of(slot).begin());
 }
 
 template struct find_border<TwoD>;

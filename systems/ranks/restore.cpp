@@ -36,19 +36,16 @@ std::map<int, std::vector<int>> needed_of(const World& share) {
   return needed;
 }
 
-template <class D>
-void tell_all(World& share) {
-  std::vector<Outlines> columns{Write<typename D::OutlinePosition>(share),
-                                Write<typename D::OutlineBefore>(share)};
-  if (share.has<typename D::OutlineVelocity>())
-    columns.emplace_back(Write<typename D::OutlineVelocity>(share));
-  if (share.has<SurfaceHardness<D>>()) columns.emplace_back(Write<SurfaceHardness<D>>(share));
-  tell_border(share.resource<RankLink>(), columns);
-}
-
 template <class System>
 System opened(World& world) {
   return detail::Opener{world}.open<System>();
+}
+
+template <class D>
+void tell_all(World& share) {
+  std::vector<Outlines> columns = opened<OutlineColumns<D>>(share).all();
+  columns.emplace_back(Write<typename D::OutlineBefore>(share));
+  tell_border(share.resource<RankLink>(), columns);
 }
 
 }  // namespace

@@ -6,9 +6,27 @@
 #include "components/bundles.hpp"
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
+#include "systems/ranks/border.hpp"
 #include "systems/ranks/reduce.hpp"
 
 namespace pulvis {
+
+// What other ranks know of the outlines.
+template <class D>
+struct OutlineColumns {
+  Write<typename D::OutlinePosition> position;
+  Optional<Write<typename D::OutlineVelocity>> velocity;
+  Optional<Write<SurfaceHardness<D>>> hardness;
+  Optional<Write<space::SurfaceMotion>> motion;  // in three dimensions
+
+  std::vector<Outlines> all() const {
+    std::vector<Outlines> columns{position};
+    if (velocity) columns.emplace_back(*velocity);
+    if (hardness) columns.emplace_back(*hardness);
+    if (motion) columns.emplace_back(*motion);
+    return columns;
+  }
+};
 
 // ---- when the rows are rebuilt --------------------------------------------------------------------
 template <class D>
@@ -16,9 +34,7 @@ struct find_border {
   Read<ContactIndex> index;
   Optional<Read<PeriodicCell>> cell;
   Write<Bodies> bodies;
-  Write<typename D::OutlinePosition> position;
-  Optional<Write<typename D::OutlineVelocity>> velocity;
-  Optional<Write<SurfaceHardness<D>>> hardness;
+  OutlineColumns<D> outlines;
   Write<typename D::OutlineBefore> before;
   Write<RankLink> link;
   void operator()() const;
@@ -59,9 +75,7 @@ struct list_border_pairs {
 template <class D>
 struct send_outlines {
   Read<Bodies> bodies;
-  Write<typename D::OutlinePosition> position;
-  Optional<Write<typename D::OutlineVelocity>> velocity;
-  Optional<Write<SurfaceHardness<D>>> hardness;
+  OutlineColumns<D> outlines;
   Write<RankLink> link;
   void operator()() const;
 };
@@ -69,9 +83,7 @@ struct send_outlines {
 template <class D>
 struct receive_outlines {
   Read<Bodies> bodies;
-  Write<typename D::OutlinePosition> position;
-  Optional<Write<typename D::OutlineVelocity>> velocity;
-  Optional<Write<SurfaceHardness<D>>> hardness;
+  OutlineColumns<D> outlines;
   Write<RankLink> link;
   void operator()(SmallTasks) const;
 };

@@ -353,6 +353,8 @@ void measure_nodes(Shape& shape, const std::vector<Vec3>& points, const Fit& fit
       node.slack = std::max({node.slack, node_growth * off.norm(), slack * face.size});
       node.stiffness += 0.25 * face.size * face.size / face.thickness;
     }
+  for (int i = 0; i < shape.boundary_nodes; ++i)
+    entry(shape.node_at, entry(shape.surface_node, i).point) = i;
 }
 
 // Contact springs, on average k K over the thickness of the elements behind. They are in proportion to the mass that they

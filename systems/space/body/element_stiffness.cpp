@@ -26,8 +26,8 @@ Lane distortion_at(const View& stress, Row<Element> e, int g, const Lane& theta,
 }  // namespace
 
 // A corner that may be inverting raises the stiffness as in the element bound.
-void subtract_stiffness(const ModeBody<OnePoint>& body, Row<Element> e,
-                        const ModeView<ThreeD>& mode) {
+[[gnu::flatten]] void subtract_stiffness(const ModeBody<OnePoint>& body, Row<Element> e,
+                                         const ModeView<ThreeD>& mode) {
   const Shape::Element& element = entry(body.shape.element, e);
   const Hexahedron& nodes = entry(body.shape.hexahedra, e);
   const auto now = element_modes(body.x, nodes), rate = element_modes(mode, nodes);
@@ -44,8 +44,8 @@ void subtract_stiffness(const ModeBody<OnePoint>& body, Row<Element> e,
   add_to_nodes(mode, nodes, forces, closing_factor(now, f, element, entry(body.shape.gauss, e)));
 }
 
-void subtract_stiffness(const ModeBody<EightPoint>& body, Row<Element> e,
-                        const ModeView<ThreeD>& mode) {
+[[gnu::flatten]] void subtract_stiffness(const ModeBody<EightPoint>& body, Row<Element> e,
+                                         const ModeView<ThreeD>& mode) {
   const Hexahedron& nodes = entry(body.shape.hexahedra, e);
   const auto& points = entry(body.shape.gauss, e);
   const auto now = element_modes(body.x, nodes), rate = element_modes(mode, nodes);

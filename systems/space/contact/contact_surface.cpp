@@ -14,85 +14,113 @@
 namespace pulvis::space {
 namespace {
 
-template <class From, class To>
-void combine(const Shape::Terms& terms, const From& from, const To& to) {
-  const int count = terms.points();
-  for (int p = 0; p < count; ++p) {
-    Lane x{}, y{}, z{};
-    for (const Shape::Term& term : terms.of(p)) {
-      const Lane weight(term.weight);
-      x = fma(weight, from(term.row, 0), x);
-      y = fma(weight, from(term.row, 1), y);
-      z = fma(weight, from(term.row, 2), z);
+using VectorLanes = kernels::Vector<Lane>;
+
+// Of any number of fields at once, since reading the terms takes as long as adding them up.
+template <class... Fields>
+std::array<VectorLanes, sizeof...(Fields)> combined(std::span<const Shape::Term> terms,
+                                                    const Fields&... fields) {
+  std::array<VectorLanes, sizeof...(Fields)> sum{};
+  for (const Shape::Term& term : terms) {
+    const Lane weight(term.weight);
+    std::size_t i = 0;
+    ((sum[i] = {fma(weight, fields(term.row, 0), sum[i].x),
+                fma(weight, fields(term.row, 1), sum[i].y),
+                fma(weight, fields(term.row, 2), sum[i].z)},
+      ++i),
+     ...);
+  }
+  return sum;
+}
+
+template <class View>
+void store(const VectorLanes& x, Row<BoundaryNode> row, const View& to) {
+  to(row, 0) = x.x;
+  to(row, 1) = x.y;
+  to(row, 2) = x.z;
+}
+
+template <class View>
+void store(const VectorLanes& mean, const Lane& difference, const View& motion) {
+  for (int l = 0; l < lane_count; ++l) {
+    const Row<WholeSurface> row(l);
+    motion(row, SurfaceMotion::mean) = mean.x[l];
+    motion(row, SurfaceMotion::mean + 1) = mean.y[l];
+    motion(row, SurfaceMotion::mean + 2) = mean.z[l];
+    motion(row, SurfaceMotion::difference) = difference[l];
+  }
+}
+
+// Eight points of eight particles. From there to the plain list, particle by particle.
+struct EightPoints {
+  alignas(64) std::array<std::array<Lane, 3>, lane_count> x;
+
+  void set(int i, const VectorLanes& of) { entry(x, i) = {of.x, of.y, of.z}; }
+  // `first`: of the first particle; `numbers` of a particle.
+  void put(double* first, std::ptrdiff_t numbers) const {
+    const double* lanes = reinterpret_cast<const double*>(x.data());
+    for (int k = 0; k < 3; ++k, lanes += lane_count * lane_count) {
+      std::array<const double*, lane_count> rows;
+      for (int i = 0; i < lane_count; ++i) entry(rows, i) = lanes + lane_count * i;
+      const std::array<Lane, lane_count> of_particle = columns_of(rows);
+      for (int l = 0; l < lane_count; ++l)
+        entry(of_particle, l).store(first + l * numbers + lane_count * k);
     }
-    to(p, 0) = x;
-    to(p, 1) = y;
-    to(p, 2) = z;
   }
-}
+};
 
-// Evaluates a nodal field at all Bezier points. Surface nodes come first.
-template <class Nodes, class Net, class Points>
-void set_points(const Shape& shape, const Nodes& nodes, const Net& net, const Points& points) {
-  combine(
-      shape.net, [&](auto row, int k) -> const Lane& { return nodes(Row<Node>(row.value), k); },
-      [&](int p, int k) -> Lane& { return net(Row<BoundaryNode>(p), k); });
-  combine(shape.points, net,
-          [&](int p, int k) -> Lane& { return points(Row<SurfacePoint>(p), k); });
-}
-
-// From lanes to the plain list, particle by particle. Points are in eights (Shape::complete_points).
-template <class Points, class Surface>
-void set_surfaces(const Shape& shape, const Points& points, const Surface& surface) {
-  const std::ptrdiff_t numbers = 3 * std::ptrdiff_t{shape.surface_points()};
-  const double* lanes = reinterpret_cast<const double*>(&points(Row<SurfacePoint>(0), 0));
-  double* first = &surface(Row<ParticleSurface>(0));
-  for (std::ptrdiff_t n = 0; n < numbers; n += lane_count, lanes += lane_count * lane_count) {
-    std::array<const double*, lane_count> rows;
-    for (int i = 0; i < lane_count; ++i) entry(rows, i) = lanes + lane_count * i;
-    const std::array<Lane, lane_count> of_particle = columns_of(rows);
-    for (int l = 0; l < lane_count; ++l) entry(of_particle, l).store(first + l * numbers + n);
-  }
-}
-
-template <class Points>
-Lane fastest(const Shape& shape, const Points& velocity) {
-  Lane maximum{};
-  for (int p = 0; p < shape.surface_points(); ++p) {
-    const Row<SurfacePoint> row(p);
-    const Lane x = velocity(row, 0), y = velocity(row, 1), z = velocity(row, 2);
-    maximum = max(maximum, fma(x, x, fma(y, y, z * z)));
-  }
-  return sqrt(maximum);
-}
-
-// See Roughness.
-template <class Nodes, class Points>
-Lane roughest(const Shape& shape, const Nodes& nodes, const Points& points) {
-  Lane maximum = -1e300;
-  for (int i = 0; i < static_cast<int>(shape.surface_node.size()); ++i) {
-    const Shape::SurfaceNode& node = entry(shape.surface_node, i);
-    const Row<Node> at(i);
-    const Row<SurfacePoint> point(node.point);
-    const Lane x = nodes(at, 0) - points(point, 0), y = nodes(at, 1) - points(point, 1),
-               z = nodes(at, 2) - points(point, 2);
-    maximum = max(maximum, fma(x, x, fma(y, y, z * z)) - node.slack * node.slack);
-  }
-  return maximum;
+// See Roughness. `at`: of its point.
+template <class Nodes>
+Lane roughness_at(const Shape& shape, int number, const Nodes& nodes, const VectorLanes& at) {
+  const double slack = entry(shape.surface_node, number).slack;
+  const Row<Node> n(number);
+  const VectorLanes away = VectorLanes{nodes(n, 0), nodes(n, 1), nodes(n, 2)} - at;
+  return dot(away, away) - slack * slack;
 }
 
 }  // namespace
 
+// Points are in eights (Shape::complete_points).
 [[gnu::flatten]] void contact_surface::operator()(Chunk chunk) const {
   const Shape& shape = bodies.shape_of(chunk);
-  const auto scratch = points.chunk(chunk);
-  const auto of_net = net.chunk(chunk);
-  set_points(shape, motion.velocity.chunk(chunk), of_net, scratch);
-  speed.chunk(chunk)(Row<Particle>()) = fastest(shape, scratch);
-  if (velocity) set_surfaces(shape, scratch, velocity->chunk(chunk));
-  set_points(shape, motion.position.chunk(chunk), of_net, scratch);
-  set_surfaces(shape, scratch, position.chunk(chunk));
-  roughness.chunk(chunk)(Row<Particle>()) = roughest(shape, motion.position.chunk(chunk), scratch);
+  const auto x = motion.position.chunk(chunk);
+  const auto v = motion.velocity.chunk(chunk);
+  const auto net = nets.position.chunk(chunk);
+  const auto net_rate = nets.velocity.chunk(chunk);
+  // Surface nodes come first.
+  const auto at_node = [](const auto& of) {
+    return [&of](auto row, int k) -> const Lane& { return of(Row<Node>(row.value), k); };
+  };
+  VectorLanes mean{Lane{}, Lane{}, Lane{}};
+  for (int i = 0; i < shape.boundary_nodes; ++i) {
+    const auto [at, rate] = combined(shape.net.of(i), at_node(x), at_node(v));
+    store(at, Row<BoundaryNode>(i), net);
+    store(rate, Row<BoundaryNode>(i), net_rate);
+    mean = mean + rate;
+  }
+  mean = Lane(1.0 / shape.boundary_nodes) * mean;
+  const std::ptrdiff_t numbers = 3 * std::ptrdiff_t{shape.surface_points()};
+  double* positions = &position.chunk(chunk)(Row<ParticleSurface>(0));
+  double* rates = velocity ? &velocity->chunk(chunk)(Row<ParticleSurface>(0)) : nullptr;
+  Lane fastest{}, difference{}, roughest = -1e300;
+  EightPoints points, their_rates;
+  for (int first = 0; first < shape.surface_points(); first += lane_count) {
+    for (int i = 0; i < lane_count; ++i) {
+      const auto [at, rate] = combined(shape.points.of(first + i), net, net_rate);
+      points.set(i, at);
+      their_rates.set(i, rate);
+      fastest = max(fastest, dot(rate, rate));
+      const VectorLanes relative = rate - mean;
+      difference = max(difference, dot(relative, relative));
+      if (const int node = entry(shape.node_at, first + i); node >= 0)
+        roughest = max(roughest, roughness_at(shape, node, x, at));
+    }
+    points.put(positions + 3 * std::ptrdiff_t{first}, numbers);
+    if (rates != nullptr) their_rates.put(rates + 3 * std::ptrdiff_t{first}, numbers);
+  }
+  speed.chunk(chunk)(Row<Particle>()) = sqrt(fastest);
+  store(mean, sqrt(difference), surface_motion.chunk(chunk));
+  roughness.chunk(chunk)(Row<Particle>()) = roughest;
 }
 
 void node_spring_energy::operator()(Chunk chunk) const {

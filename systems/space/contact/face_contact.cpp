@@ -18,8 +18,10 @@
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/contact/other_loads.hpp"
 #include "systems/space/contact/other_motion.hpp"
+#include "systems/space/contact/pair_hardness.hpp"
 #include "systems/space/contact/pair_points.hpp"
 #include "systems/space/contact/projection.hpp"
+#include "systems/space/contact/surface_motion.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
@@ -47,9 +49,8 @@ class PairPass {
     its_ = &s_.bodies.shape_of(other);
     own_surface_ = s_.bodies.outline_begin(slot);
     its_surface_ = s_.bodies.outline_begin(other);
-    if (!s_.faces.hardness) return;
-    own_faces_ = first_row(s_.faces.hardness->table(), slot);
-    its_faces_ = first_row(s_.faces.hardness->table(), other);
+    hardness_ = PairHardness(s_.faces.hardness, slot, other);
+    approached_ = s_.clock->dt_before * relative_speed(s_.columns.travel.of_surfaces, slot, other);
   }
 
   void run() {
@@ -107,14 +108,22 @@ class PairPass {
   static constexpr double share = 0.5;  // of the stiffness: the other particle samples back
   static constexpr std::int32_t rows_at_once = 32;
 
+  // Both have moved since the last step.
   unsigned active_points(Row<FaceContact> row) const {
-    return at_most(&s_.columns.activation(row), travel_);
+    double& travel = s_.columns.travel.of_row(row);
+    travel += approached_;
+    return at_most(&s_.columns.activation(row), static_cast<float>(travel));
   }
 
   // The touching points are scattered among many: their cache lines are prefetched.
   void fetch(Row<FaceContact> row, unsigned active) const {
     for (unsigned left = active; left != 0; left &= left - 1)
       prefetch(&s_.columns.points.numbers(row, ContactPoint::numbers * std::countr_zero(left)));
+    if (!hardness_ || active == 0) return;
+    const int first = std::countr_zero(active), last = std::bit_width(active) - 1;
+    prefetch(&(*s_.columns.points.indentation)(row, first));
+    prefetch(&(*s_.columns.points.indentation)(row, last));
+    hardness_.fetch_own(s_.columns.pair(row, 1));
   }
 
   static int next_active(const std::array<unsigned, rows_at_once>& active, int from, int rows) {
@@ -155,17 +164,27 @@ class PairPass {
       sample(rates_, face, active, velocity.data());
     else
       velocity.fill(0);
-    const pulvis::kernels::Hardness<double> own_hardness = hardness_of(own_faces_, number);
+    const pulvis::kernels::Hardness<double> hardness = hardness_.of_own(number);
     const double kappa = share * s_.columns.law(row, Law::stiffness),
                  damping = share * s_.columns.law(row, Law::damping),
-                 inv_size = s_.columns.law(row, Law::inv_size);
+                 inv_size = s_.columns.law(row, Law::inv_size),
+                 travel = s_.columns.travel.of_row(row);
+    // Of the row, whose points come one after the other.
+    const face_contact::Columns::Points& columns = s_.columns.points;
+    double* const numbers = &columns.numbers(row);
+    float* const activation = &s_.columns.activation(row);
+    double* const indentation = columns.indentation ? &(*columns.indentation)(row) : nullptr;
+    double* const lost = weakening_ != nullptr ? &(*columns.lost)(row) : nullptr;
+    double* const force = columns.force ? &(*columns.force)(row) : nullptr;
     const unsigned bonded = bonds_ ? bonds_->bonded(row) : 0;
     for (unsigned left = active; left != 0; left &= left - 1) {
       const auto g = static_cast<std::size_t>(std::countr_zero(left));
-      const int place = static_cast<int>(g);
-      double* kept = &s_.columns.points.numbers(row, ContactPoint::numbers * place);
+      double* kept = numbers + ContactPoint::numbers * g;
       const int its = static_cast<int>(kept[ContactPoint::face_u]);
-      if (its != fetched_) fetch_face(*its_, its_surface_, its);
+      if (its != fetched_) {
+        fetch_face(*its_, its_surface_, its);
+        hardness_.fetch_other(its);
+      }
       fetched_ = its;
       PairPoint& p = points_.add(its, (bonded >> g & 1) != 0);
       p.motion = {x[g],
@@ -176,36 +195,23 @@ class PairPass {
                   velocity[2 * face_points + g],
                   face.weight[g],
                   inv_size};
-      p.kappa = kappa;
-      p.damping = damping;
-      p.hardness = softer(own_hardness, hardness_of(its_faces_, its));
-      if ((bonded >> g & 1) != 0) p.hardness = {pulvis::kernels::no_hardness, 1};
-      p.indentation =
-          s_.columns.points.indentation ? &(*s_.columns.points.indentation)(row, place) : nullptr;
+      p.state = {kappa,
+                 damping,
+                 travel,
+                 hardness.pressure,
+                 hardness.left,
+                 indentation != nullptr ? indentation[g] : 0,
+                 kept[ContactPoint::spring + 2],
+                 0};
+      p.indentation = indentation != nullptr ? indentation + g : nullptr;
       p.kept = kept;
-      p.activation = &s_.columns.activation(row, place);
-      p.lost = weakening_ != nullptr ? &(*s_.columns.points.lost)(row, place) : nullptr;
-      p.force = s_.columns.points.force ? &(*s_.columns.points.force)(row, 3 * place) : nullptr;
+      p.activation = activation + g;
+      p.lost = lost != nullptr ? lost + g : nullptr;
+      p.force = force != nullptr ? force + 3 * g : nullptr;
       p.row = static_cast<std::int32_t>(row.value);
-      p.place = static_cast<std::int16_t>(place);
+      p.place = static_cast<std::int16_t>(g);
     }
     s_.columns.touches(row) = 0;
-  }
-
-  // Of a face; `faces`: the particle's first row.
-  pulvis::kernels::Hardness<double> hardness_of(std::ptrdiff_t faces, int face) const {
-    if (hardness_ == nullptr) return {pulvis::kernels::no_hardness, 1};
-    using Number = SurfaceHardness<ThreeD>;
-    const double* number = hardness_ + Number::count * (faces + face);
-    return {number[Number::pressure], number[Number::left]};
-  }
-  static pulvis::kernels::Hardness<double> softer(const pulvis::kernels::Hardness<double>& a,
-                                                  const pulvis::kernels::Hardness<double>& b) {
-    return {std::min(a.pressure, b.pressure), std::min(a.left, b.left)};
-  }
-  pulvis::kernels::Hardness<Lane> hardness_of(const PointLanes& eight) const {
-    return {Lane::from([&](int l) { return entry(eight.point, l)->hardness.pressure; }),
-            Lane::from([&](int l) { return entry(eight.point, l)->hardness.left; })};
   }
 
   void work() {
@@ -217,6 +223,7 @@ class PairPass {
 
   void act(const PointLanes& eight) {
     const auto motion = numbers_of<8>(eight, [](const PairPoint& p) { return p.motion.data(); });
+    const auto state = numbers_of<8>(eight, [](const PairPoint& p) { return p.state.data(); });
     const auto kept = numbers_of<4>(eight, [](const PairPoint& p) { return p.kept; });
     const VectorLanes points{motion[0], motion[1], motion[2]};
     const ProjectionStart start{eight.face,
@@ -225,7 +232,6 @@ class PairPass {
     Projection p(*its_, positions_ + its_surface_, points, start);
     const SurfaceGap nearest = eight.bonded ? p.stay() : closest(eight, start, motion[7], p);
     const Lane overlap = bonds_ ? overlap_of(eight, nearest.gap) : Lane{};
-    const Lane indentation = indentation_of(eight);
     const Lane within = nearest.gap + overlap + adhesion_.range;
     // A NaN gap counts as touching, and so does what is bonded.
     const LaneMask real = LaneMask::of(eight.real);
@@ -241,18 +247,18 @@ class PairPass {
       along = fma(m.gap, m.normal, p.offset);
       m = held_motion(m, along);
     }
-    const PointLaw law = law_of(eight, motion[7], motion[6]);
+    const PointLaw law = law_of(state, motion[7], motion[6]);
     Lane pressure, indenting{};
-    if (hardness_ != nullptr) {
-      indenting = indent(law, indentation, hardness_of(eight), share, m);
+    if (hardness_) {
+      indenting = indent(law, state[PairPoint::indented], hardness_.softer(state, eight), share, m);
       // Inside an indentation nothing acts but adhesion.
       if (!eight.bonded && adhesion_.range == 0) touching = touching & ~(m.pressing() <= 0.0);
     }
     PointForces f = normal_forces(law, m, s_.clock->dt_before, pressure);
     f.indentation_work = select(real, indenting * law.weight, Lane{});
     if (rubs_) {
-      const Lane spring_z = Lane::from([&](int l) { return entry(eight.point, l)->kept[4]; });
-      const VectorLanes spring = select(real, {kept[2], kept[3], spring_z}, no_vector);
+      const VectorLanes spring =
+          select(real, {kept[2], kept[3], state[PairPoint::spring_z]}, no_vector);
       if (weakening_ == nullptr) {
         pulvis::kernels::Coulomb<Lane> coulomb{friction_};
         add_friction(law, m, s_.clock->dt_before, pressure, spring, coulomb, f);
@@ -264,8 +270,8 @@ class PairPass {
     if (adhesion_.range > 0) attract(law, m, adhesion_, select(touching, Lane(share), Lane{}), f);
     if (bonds_)
       touching = touching | LaneMask::of(bond(eight, {p, points, along}, law, m, pressure, f));
-    keep(eight, p, within, touching.bits(), f);
-    if (hardness_ != nullptr) keep_indentation(eight, m.indentation);
+    keep(eight, p, state[PairPoint::travel] - within, touching.bits(), f);
+    if (hardness_) keep_indentation(eight, m.indentation);
     sums_.add(f);  // of released springs, too
     if (!any(touching)) return;
     record_depth(eight, m.pressing() * law.inv_size);
@@ -276,9 +282,10 @@ class PairPass {
       act_back(p, m, f, to, touching.bits());
   }
 
-  PointLaw law_of(const PointLanes& eight, const Lane& inv_size, const Lane& weight) const {
-    const Lane kappa = Lane::from([&](int l) { return entry(eight.point, l)->kappa; });
-    return {kappa,    friction_, Lane::from([&](int l) { return entry(eight.point, l)->damping; }),
+  PointLaw law_of(const std::array<Lane, 8>& state, const Lane& inv_size,
+                  const Lane& weight) const {
+    const Lane& kappa = state[PairPoint::kappa];
+    return {kappa,    friction_, state[PairPoint::damping],
             inv_size, weight,    s_.rules->tangential * kappa};
   }
 
@@ -342,8 +349,8 @@ class PairPass {
   }
 
   // ---- columns and sums --------------------------------------------------------------------------------
-  // `within`: m, < 0 out of the reach of forces.
-  void keep(const PointLanes& eight, const Projection& p, const Lane& within, unsigned touching,
+  // `resting`: m, RowTravel up to which what does not touch is inactive.
+  void keep(const PointLanes& eight, const Projection& p, const Lane& resting, unsigned touching,
             const PointForces& f) const {
     static constexpr double last = 1 - 1e-12;  // an end belongs to its own face
     const Lane faces = Lane::from([&](int l) { return static_cast<double>(entry(p.face, l)); });
@@ -351,11 +358,10 @@ class PairPass {
     by_point({faces + min(max(p.u, Lane{}), last), min(max(p.v, Lane{}), 1.0), f.elastic_slip.x,
               f.elastic_slip.y, f.elastic_slip.z, f.force.x, f.force.y, f.force.z},
              kept);
-    // A separated point stays inactive until it can touch; zero marks a touching point.
+    // Zero marks a touching point.
     alignas(64) std::array<double, lane_count> activation;
     constexpr double never_zero = std::numeric_limits<float>::min(), early = 1 - 0x1p-22;
-    select(LaneMask::of(touching), Lane{},
-           max(early * (s_.clock->relative_motion - within), never_zero))
+    select(LaneMask::of(touching), Lane{}, max(early * resting, never_zero))
         .store(activation.data());
     for (std::size_t l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l) {
       PairPoint& point = *eight.point[l];
@@ -373,11 +379,6 @@ class PairPass {
     std::uint8_t& touches = s_.columns.touches(Row<FaceContact>(point.row));
     sums_.block.touching += touches == 0 ? 1 : 0;
     touches = 1;
-  }
-  // m, before the step.
-  Lane indentation_of(const PointLanes& eight) const {
-    if (hardness_ == nullptr) return {};
-    return Lane::from([&](int l) { return *entry(eight.point, l)->indentation; });
   }
   static void keep_indentation(const PointLanes& eight, const Lane& indentation) {
     for (int l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l)
@@ -409,8 +410,6 @@ class PairPass {
   const int pair_;
   const double* positions_ = s_.faces.position.values().data();
   const double* rates_ = s_.faces.velocity ? s_.faces.velocity->values().data() : nullptr;
-  // Of all particles, or null: surfaces do not indent.
-  const double* hardness_ = s_.faces.hardness ? s_.faces.hardness->values().data() : nullptr;
   FaceSums& sums_;
   Lane friction_;
   bool rubs_;
@@ -420,12 +419,12 @@ class PairPass {
   BondSumsOfBlock bond_sums_;
   PairLoads::Pair& loads_;
   OtherFaces faces_;  // of loads_
+  PairHardness hardness_;
   PairPoints points_;
-  float travel_ = static_cast<float>(s_.clock->relative_motion);
+  double approached_;  // m, by both surfaces since the last step, at most
   std::int32_t first_, end_;
   const Shape *own_, *its_;
   std::ptrdiff_t own_surface_, its_surface_;
-  std::ptrdiff_t own_faces_ = 0, its_faces_ = 0;
   int fetched_ = -1;  // face of the other particle
 };
 

@@ -15,17 +15,25 @@ namespace pulvis::space {
 
 // A point while its pair is processed: rows of eight numbers, which become lanes by transposing.
 struct alignas(64) PairPoint {
-  std::array<double, 8> motion;                // position, velocity, weight, 1/size of the face
-  double kappa, damping;                       // as in contact_law.hpp
-  pulvis::kernels::Hardness<double> hardness;  // only where surfaces indent
-  double* indentation;                         // in the column: PointIndentation, or null
-  double* kept;                                // ContactPoint numbers in the columns
-  float* activation;                           // in the column: when it becomes active again
-  double* lost;                                // in the column: SlipWeakening, or null
-  double* force;                               // in the column: ContactPointForce, or null
-  std::int32_t row;                            // of FaceContact
-  std::int16_t place;                          // Gauss point of that row
-  bool touches;  // valid once processed: `motion` then starts with the force
+  std::array<double, 8> motion;  // position, velocity, weight, 1/size of the face
+  std::array<double, 8> state;
+  enum State {
+    kappa,  // as in contact_law.hpp
+    damping,
+    travel,    // m, RowTravel
+    pressure,  // Hardness of the sampled face, where surfaces indent
+    left,
+    indented,  // m
+    spring_z   // m, with the others in `kept`
+  };
+  double* indentation;  // in the column: PointIndentation, or null
+  double* kept;         // ContactPoint numbers in the columns
+  float* activation;    // in the column: when it becomes active again
+  double* lost;         // in the column: SlipWeakening, or null
+  double* force;        // in the column: ContactPointForce, or null
+  std::int32_t row;     // of FaceContact
+  std::int16_t place;   // Gauss point of that row
+  bool touches;         // valid once processed: `motion` then starts with the force
 };
 
 // Eight points, all bonded or none; unused lanes repeat the last one.

@@ -15,11 +15,15 @@ namespace pulvis::space {
 struct contact_surface {
   ShapedBodies<ThreeD> bodies;
   Motion<ThreeD> motion;
-  Write<NetPosition> net;
-  Write<PointPosition> points;
+  struct Nets {
+    Write<NetPosition> position;
+    Write<NetVelocity> velocity;
+  };
+  Nets nets;
   Write<SurfacePosition> position;
   Optional<Write<SurfaceVelocity>> velocity;
   Write<MaximumSpeed> speed;
+  Write<SurfaceMotion> surface_motion;
   Write<Roughness> roughness;
   void operator()(Chunk chunk) const;
 };
@@ -149,6 +153,10 @@ struct face_contact {
   struct Columns {
     Read<ContactPair<FaceContact>> pair;
     Write<ContactTouches<FaceContact>> touches;
+    struct Travel {
+      Read<SurfaceMotion> of_surfaces;
+      Write<RowTravel> of_row;
+    } travel;
     Write<ReactivationDistance<FaceContact>> activation;
     Read<ContactLaw<FaceContact>> law;
     struct Points {

@@ -55,6 +55,79 @@ TEST(SpaceContact, KeepsMomentumAndMoment) {
   }
 }
 
+// Points that rest wake up in time, and not before: fast common motion, and surfaces that approach each other turning, against
+// the same bodies with all points awake.
+TEST(SpaceContact, PointsRestUntilTheirSurfacesCouldMeet) {
+  constexpr double dt = 5e-7, gap = 0.2e-3;
+  const Vec3 together(300, 200, -250), approach(0, 0, -20), spin(600, -400, 200);
+  const std::vector<BodySpec> placed{body_at(Vec3::Zero()), body_at(Vec3(0, 0, diameter + gap))};
+  TouchingBodies resting({ball()}, placed), awake({ball()}, placed);
+  for (TouchingBodies* w : {&resting, &awake}) {
+    w->update();
+    w->set_velocity(0, [&](const Vec3&) { return together; });
+  }
+  int step = 0, first_looked_at = 0;
+  for (; awake.force_on(0).norm() == 0 || step < 40; ++step) {
+    ASSERT_LT(step, 60);
+    for (TouchingBodies* w : {&resting, &awake}) {
+      const Vec3 middle = placed[1].position + step * dt * (together + approach);
+      w->set_velocity(
+          1, [&](const Vec3& x) { return Vec3(together + approach + spin.cross(x - middle)); });
+    }
+    resting.fly(dt);
+    awake.fly(dt);
+    awake.update(false);
+    if (resting.projections() > 0 && first_looked_at == 0) first_looked_at = step;
+    EXPECT_LE((resting.force_on(0) - awake.force_on(0)).norm(), 1e-9 * awake.force_on(0).norm())
+        << "step " << step;
+  }
+  EXPECT_GT(awake.force_on(0).norm(), 0);
+  EXPECT_GE(first_looked_at, 3);  // the common motion alone is farther than the gap in every step
+  EXPECT_LT(resting.projections(), awake.projections() / 2);
+}
+
+// RowTravel bounds how far any two points of both surfaces move against each other.
+TEST(SpaceContact, TravelOfARowBoundsTheMotionOfItsSurfaces) {
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> normal;
+  TwoBalls w(50e-6, 4);
+  w.update();
+  const auto& surface = w.world.column<SurfacePosition>();
+  const std::vector<double> before(surface.values(), surface.values() + 3 * surface.table.rows);
+  for (int body = 0; body < 2; ++body) {
+    Eigen::Matrix3d gradient;
+    for (double& x : gradient.reshaped()) x = 3000 * normal(random);
+    const Vec3 mean = 10 * any_direction(random);
+    w.set_velocity(body, [&](const Vec3& x) { return Vec3(mean + gradient * x); });
+  }
+  w.run<contact_surface>("contact_surface");
+  w.fly(1e-7);
+  const auto motion_of = [&](int body) {
+    std::vector<Vec3> all;
+    const int points = w.shape(body).surface_points();
+    const std::int32_t first =
+        w.world.resource<Bodies>()
+            .slots[static_cast<std::size_t>(
+                w.world.resource<Bodies>().slot_of_number[static_cast<std::size_t>(body)])]
+            .first_control;
+    for (int p = first; p < first + points; ++p) {
+      const auto at = static_cast<std::size_t>(3 * p);
+      all.emplace_back(surface.values()[at] - before[at], surface.values()[at + 1] - before[at + 1],
+                       surface.values()[at + 2] - before[at + 2]);
+    }
+    return all;
+  };
+  double farthest = 0;
+  for (const Vec3& a : motion_of(0))
+    for (const Vec3& b : motion_of(1)) farthest = std::max(farthest, (a - b).norm());
+  const auto& travel = w.world.column<RowTravel>();
+  ASSERT_GT(travel.table.rows, 0U);
+  for (std::size_t r = 0; r < travel.table.rows; ++r) {
+    EXPECT_GE(travel.values()[r], farthest * (1 - 1e-12));
+    EXPECT_LT(travel.values()[r], 2 * farthest);
+  }
+}
+
 // A node that is pulled out of the surface, or pushed into it, by more than a face: the smooth surface follows it only in part.
 TEST(SpaceContact, NodesFarFromTheSurfaceAreHeld) {
   for (const double way : {2.5e-3, -2.5e-3}) {
