@@ -1,13 +1,13 @@
 // Interrupting long computations. A signal sets a stop request; long computations check it where they can stop.
 #pragma once
 
-#include <xmmintrin.h>
-
 #include <chrono>
 #include <exception>
 #include <future>
 #include <thread>
 #include <utility>
+
+#include "engine/instruction_set.hpp"
 
 namespace pulvis {
 
@@ -29,8 +29,8 @@ void withdraw_wish_to_stop() noexcept;
 template <class Work>
 auto interruptible(Work work) {
   std::packaged_task<decltype(work())()> task(
-      [work = std::move(work), mode = _mm_getcsr()]() mutable {
-        _mm_setcsr(mode);
+      [work = std::move(work), mode = floating_mode()]() mutable {
+        set_floating_mode(mode);
         return work();
       });
   auto result = task.get_future();

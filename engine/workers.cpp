@@ -3,7 +3,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_scheduler_observer.h>
-#include <xmmintrin.h>
+
+#include "engine/instruction_set.hpp"
 
 namespace pulvis {
 namespace {
@@ -15,7 +16,7 @@ class DenormalsToZero : public tbb::task_scheduler_observer {
     observe(true);
   }
   ~DenormalsToZero() override { observe(false); }
-  void on_scheduler_entry(bool) override { _mm_setcsr(_mm_getcsr() | 0x8040); }
+  void on_scheduler_entry(bool) override { set_floating_mode(floating_mode() | denormals_to_zero); }
 };
 
 }  // namespace
@@ -35,9 +36,9 @@ Workers::Workers(int threads) : arena_(std::make_unique<Arena>(threads)) {}
 Workers::~Workers() = default;
 
 void Workers::run(const std::function<void()>& body) {
-  const unsigned before = _mm_getcsr();
+  const FloatingMode before = floating_mode();
   arena_->arena.execute(body);
-  _mm_setcsr(before);
+  set_floating_mode(before);
 }
 
 }  // namespace pulvis

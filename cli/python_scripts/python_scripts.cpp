@@ -56,7 +56,9 @@ int run_python(const std::vector<std::string>& words) {
   std::vector<char*> argv;
   for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  const char* python = access("/usr/bin/python3", X_OK) == 0 ? "/usr/bin/python3" : "python3";
+  const char* python = std::getenv("PULVIS_PYTHON");  // set by the command of an installed package
+  if (python == nullptr || *python == 0)
+    python = access("/usr/bin/python3", X_OK) == 0 ? "/usr/bin/python3" : "python3";
   pid_t child = 0;
   if (const int error = posix_spawnp(&child, python, nullptr, nullptr, argv.data(), environ))
     throw OutputError(python, "start", std::strerror(error));

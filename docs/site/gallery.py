@@ -56,7 +56,7 @@ CHAPTERS = {
         Picture("compaction-3d/random-30-316L", "Thirty spheres at random, pressed to a relative density of 0.9 and released.",
                 "effective_stress", frame="52"),
         Picture("compaction-3d/superquadrics", "Rounded cubes and octahedra.", "effective_stress"),
-        Picture("compaction-3d/tablet", "A tablet in a round die: pressed, unloaded, ejected.", "effective_stress"),
+        Picture("compaction-3d/tablet", "A tablet in a cylindrical die: pressed, unloaded, ejected.", "effective_stress"),
     ),
     "Shear and friction": (
         Picture("shear/grooves-16", "A compact drawn over a grooved plate.", "effective_stress"),

@@ -2,7 +2,6 @@
 #include "engine/ranks/exact_sum.hpp"
 
 #include <gmock/gmock.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +11,8 @@
 #include <numbers>
 #include <random>
 #include <vector>
+
+#include "engine/instruction_set.hpp"
 
 namespace pulvis {
 namespace {
@@ -197,11 +198,11 @@ TEST(ExactSum, InfinityAndNan) {
 
 // Threads of a run take the smallest doubles for zero in their own arithmetic: not here.
 TEST(ExactSum, FlushingToZeroChangesNothing) {
-  const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | 0x8040);
+  const FloatingMode before = floating_mode();
+  set_floating_mode(before | denormals_to_zero);
   const double one = summed({5e-324}), some = summed({3e-310, -Limits::min(), 5e-324}),
                normal = summed({Limits::min(), 5e-324}), large = summed({1, 5e-324, 0x1p-53});
-  _mm_setcsr(before);
+  set_floating_mode(before);
   EXPECT_THAT(one, same_bits(5e-324));
   EXPECT_THAT(some, same_bits(reference({3e-310, -Limits::min(), 5e-324})));
   EXPECT_THAT(normal, same_bits(Limits::min() + 5e-324));

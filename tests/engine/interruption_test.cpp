@@ -17,12 +17,13 @@ TEST(Interruption, WorkGivesItsResultAndItsException) {
 
 // Denormals are flushed or not as where the work was asked for: the same bits with the thread as without.
 TEST(Interruption, WorkHasTheCallersFloatingPointMode) {
-  const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | 0x8040U);
-  const unsigned inside = interruptible([] { return _mm_getcsr(); });
-  _mm_setcsr(before);
-  EXPECT_EQ(inside & 0x8040U, 0x8040U);
-  EXPECT_EQ(interruptible([] { return _mm_getcsr(); }) & 0x8040U, before & 0x8040U);
+  const FloatingMode before = floating_mode();
+  set_floating_mode(before | denormals_to_zero);
+  const FloatingMode inside = interruptible([] { return floating_mode(); });
+  set_floating_mode(before);
+  EXPECT_EQ(inside & denormals_to_zero, denormals_to_zero);
+  EXPECT_EQ(interruptible([] { return floating_mode(); }) & denormals_to_zero,
+            before & denormals_to_zero);
 }
 
 TEST(Interruption, EndlessWorkIsLeft) {

@@ -30,3 +30,8 @@ def test_the_error_without_the_compiled_module_says_how_to_build_it():
 def test_its_module_is_found_where_it_is_built():
     from pulvis import _core
     assert _core.__name__ == "pulvis._core"
+
+
+def test_it_tells_its_version(program):
+    import pulvis
+    assert pulvis.__version__ in program("--version").stdout and "__version__" in dir(pulvis)

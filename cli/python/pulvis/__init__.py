@@ -21,6 +21,8 @@ if TYPE_CHECKING:  # resolves the lazy names for type checkers and editors
     from pulvis.simulation import Simulation as Simulation, resume as resume
     from pulvis.study import Study as Study, open_study as open_study
 
+__version__: str  # read on first use
+
 # The module of each public name. A name is imported on first use: reading and plotting results need no compiled
 # module, and no pandas unless a table is requested.
 _HOMES = {
@@ -64,9 +66,23 @@ def _compiled():
             "this pip. Results are read and plotted without it.", name="pulvis._core") from None
 
 
+def _version():
+    """Of the compiled module; without it, of the installed package."""
+    try:
+        return _compiled().version
+    except ImportError:
+        from importlib import metadata
+        try:
+            return metadata.version("pulvis")
+        except metadata.PackageNotFoundError:
+            raise AttributeError("pulvis.__version__ is that of the compiled module, which is not built") from None
+
+
 def __getattr__(name):
     if name == "_core":  # `from pulvis import _core`, before it is imported
         return _compiled()
+    if name == "__version__":
+        return _version()
     if name not in _HOMES:
         raise AttributeError(f"module 'pulvis' has no attribute '{name}'")
     value = getattr(importlib.import_module(_HOMES[name]), name)
@@ -75,4 +91,4 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *__all__, "__version__"})
