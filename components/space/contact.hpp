@@ -88,8 +88,8 @@ struct ReactivationDistance
       "activation", "m",
       "travel of the surfaces from which on what rests is active again; 0 of a point that touches"};
 };
-// Clock::relative_motion is the same for any two surfaces: where all move together, it is far more than any two of them
-// move against each other.
+// Clock::relative_motion, by which rows of two dimensions and those with tools rest, is the same for any two surfaces: where all
+// move together, it is far more than two neighbours move against each other.
 struct RowTravel : Component<FaceContact, double, 1> {
   static constexpr ComponentInfo info{
       "travel", "m", "of both surfaces against each other since the row was made, at most"};
