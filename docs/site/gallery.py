@@ -3,6 +3,7 @@
 
   /usr/bin/python3 docs/site/gallery.py             all of them; runs that the same program has made before are kept
   /usr/bin/python3 docs/site/gallery.py ring salt   only those whose scene has one of these in its name
+  /usr/bin/python3 docs/site/gallery.py --kept      the page of what has been run so far, by any version of the program; nothing is run
   /usr/bin/python3 docs/site/gallery.py --list
 
 Results are in build/gallery, pictures in docs/pictures/gallery. Run times are processor times of this machine.
@@ -14,9 +15,10 @@ import json
 import pathlib
 import re
 import resource
-import shutil
 import subprocess
 import sys
+
+from PIL import Image
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "build/release/cli/pulvis"
@@ -44,7 +46,7 @@ class Picture:
 CHAPTERS = {
     "Compaction in two dimensions": (
         Picture("compaction/regular-25", "Twenty-five discs of steel in a die; the dies of the thesis.", "effective_stress"),
-        Picture("compaction/random-100", "A hundred discs of two sizes at random, with friction.", "plastic_strain"),
+        Picture("compaction/random-100", "A hundred discs at random: chains of particles carry the load.", "plastic_strain"),
         Picture("compaction/ejection-25", "Pressed, unloaded and pushed out of the die.", "pressure"),
         Picture("compaction/drawn-punch", "A punch with a profile from an SVG drawing.", "effective_stress"),
         Picture("basic/traced-grain", "A grain whose outline was traced from an image.", "effective_stress"),
@@ -70,7 +72,6 @@ CHAPTERS = {
     "Atomic force microscope": (
         Picture("afm/calibration-v", "A V-shaped cantilever, calibrated with unit forces.", figure="solid"),
         Picture("afm/jkr-force-curve", "A force curve of a sticky sphere, with snap-in and pull-off.", figure="force_curve"),
-        Picture("afm/bump", "A tip drawn over a bump: height, and friction in both directions.", figure="solid"),
     ),
 }
 
@@ -112,7 +113,8 @@ def draw(picture, folder):
     file = drawn / f"{picture.figure or 'field'}.png"
     if not file.exists():
         sys.exit(f"{picture.scene}: no {file.stem} among {sorted(f.stem for f in drawn.glob('*.png'))}")
-    shutil.copyfile(file, PICTURES / f"{picture.name}.png")
+    with Image.open(file) as image:  # 256 colours: a third of the bytes
+        image.convert("RGB").quantize(256).save(PICTURES / f"{picture.name}.png", optimize=True)
 
 
 def time_text(seconds):
@@ -127,7 +129,7 @@ def page(rows):
              f"{'this machine' if not cpu else 'an ' + cpu[1]}.", ""]
     for chapter, pictures in CHAPTERS.items():
         lines += [f"## {chapter}", ""]
-        for picture in pictures:
+        for picture in [p for p in pictures if p.name in rows]:
             lines += [f"### {rows[picture.name][0]}", "",
                       f"![{rows[picture.name][0]}](pictures/gallery/{picture.name}.png)", "",
                       f"{picture.sentence} Processor time {rows[picture.name][1]}.", "", "```",
@@ -142,6 +144,7 @@ def title(folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("name", nargs="*", help="only scenes with one of these in their name")
+    parser.add_argument("--kept", action="store_true", help="write the page of what has been run, and run nothing")
     parser.add_argument("--list", action="store_true", help="name the scenes and stop")
     options = parser.parse_args()
     pictures = [p for chapter in CHAPTERS.values() for p in chapter]
@@ -150,11 +153,16 @@ def main():
         return
     PICTURES.mkdir(parents=True, exist_ok=True)
     RUNS.mkdir(parents=True, exist_ok=True)
+    if options.kept:
+        pictures = [p for p in pictures if (RUNS / f"{p.name}.json").exists()]
     chosen = [p for p in pictures if not options.name or any(n in p.name for n in options.name)]
     rows = {}
     for picture in chosen:
-        folder, seconds = run(picture)
-        draw(picture, folder)
+        if options.kept:
+            folder, seconds = RUNS / picture.name, json.loads((RUNS / f"{picture.name}.json").read_text())["seconds"]
+        else:
+            folder, seconds = run(picture)
+            draw(picture, folder)
         rows[picture.name] = (title(folder), time_text(seconds))
         print(f"{picture.scene}: {rows[picture.name][1]}", flush=True)
     if len(chosen) == len(pictures):

@@ -12,7 +12,7 @@ cp -u /usr/include/xxhash.h /usr/include/xxh3.h "$place/include"
 google=/usr/src/googletest
 compile=(aarch64-linux-gnu-g++ -std=c++20 -O1 -ffp-contract=off -fno-math-errno -fno-trapping-math -DXXH_STATIC_LINKING_ONLY -DXXH_IMPLEMENTATION -DFMT_HEADER_ONLY
          -DEIGEN_DONT_VECTORIZE -I"$source" -isystem /usr/include/eigen3 -isystem "$place/include"
-         -isystem $google/googletest/include -isystem $google/googlemock/include -I$google/googletest -I$google/googlemock)
+         -isystem "$google/googletest/include" -isystem "$google/googlemock/include" -I"$google/googletest" -I"$google/googlemock")
 
 cd -- "$source"
 files=(tests/engine/{lane,portable_math,interruption}_test.cpp
@@ -22,7 +22,7 @@ files=(tests/engine/{lane,portable_math,interruption}_test.cpp
        tests/systems/space/observe/cell_volume_kernel_test.cpp
        tests/systems/tools/{servo,surface,tool}_kernel_test.cpp
        engine/{portable_math,interruption}.cpp engine/files/xxh3.cpp systems/contact/surface_search.cpp scenes/tools/surface.cpp
-       $google/googletest/src/gtest-all.cc $google/googlemock/src/{gmock-all,gmock_main}.cc)
+       "$google"/googletest/src/gtest-all.cc "$google"/googlemock/src/{gmock-all,gmock_main}.cc)
 objects=()
 for file in "${files[@]}"; do
   objects+=("$place/$(basename -- "$file").o")
