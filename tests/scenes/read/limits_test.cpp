@@ -83,7 +83,7 @@ TEST_F(Limits, SignalsEndALargeFactorisation) {
   const pid_t child = start({"run", scene("afm/tipless-beam.toml"), "-o", "run", "--set",
                              "lever.elements_along=120", "--set", "lever.elements_across=90",
                              "--set", "lever.layers=2"});
-  std::this_thread::sleep_for(4s);
+  std::this_thread::sleep_for(2s);
   kill(child, SIGTERM);
   const Outcome end = end_or_hang(child);
   EXPECT_EQ(end.code, 130) << end.err;
