@@ -14,53 +14,8 @@ probed=${2:-$work}/probed
 
 source "$(dirname "$0")/browser.sh"
 
-cat >"$work/dense.toml" <<'TOML'
-family = "compaction"
-[[material]]
-name = "steel"
-density = "7990 kg/m^3"
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-yield_stress = "240 MPa"
-hardening_modulus = "0 MPa"
-[[particle]]
-name = "block"
-material = "steel"
-outline = "rectangle"
-width = "10 mm"
-height = "10 mm"
-[particle.mesh]
-size = "2.5 mm"
-[contact]
-stiffness = 20
-friction = 1
-damping = 0.1
-[cell]
-width = "10 mm"
-height = "10 mm"
-[[body]]
-particle = "block"
-position = ["5 mm", "5 mm"]
-[[stage]]
-name = "press"
-kind = "compact"
-duration = "0.1 ms"
-[stage.cell]
-strain_xx = -0.01
-strain_yy = -0.01
-TOML
-cat >"$work/probe.toml" <<'TOML'
-densities = [1.006]
-[[path]]
-name = "isotropic"
-scene = "dense.toml"
-[probe]
-directions = 8
-size = 0.01
-duration = "0.2 ms"
-release = 0.9
-TOML
-"$pulvis" probe "$work/probe.toml" -o "$probed" --jobs 2 >"$work/log.txt" 2>&1 || fail "the probe: $(tail -3 "$work/log.txt")"
+"$pulvis" probe "$(dirname "$0")/helpers/solid-probe/probe.toml" -o "$probed" --jobs 2 --set 'particle.block.mesh.size="2.5 mm"' \
+  >"$work/log.txt" 2>&1 || fail "the probe: $(tail -3 "$work/log.txt")"
 
 body=$(body_of probe "$probed/report.html" 1200,2400 ready)
 [[ $body == *'data-ready="1"'* && $body =~ data-points=\"([0-9]+)\" && ${BASH_REMATCH[1]} -ge 4 ]] || fail "too few yield points: $body"

@@ -14,52 +14,10 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// A block that fills its cell: a powder without pores.
-constexpr const char* dense = R"(family = "compaction"
-[[material]]
-name = "steel"
-density = "7990 kg/m^3"
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-yield_stress = "240 MPa"
-hardening_modulus = "0 MPa"
-[[particle]]
-name = "block"
-material = "steel"
-outline = "rectangle"
-width = "10 mm"
-height = "10 mm"
-[particle.mesh]
-size = "1.25 mm"
-[contact]
-stiffness = 20
-friction = 1
-damping = 0.1
-[cell]
-width = "10 mm"
-height = "10 mm"
-[[body]]
-particle = "block"
-position = ["5 mm", "5 mm"]
-[[stage]]
-name = "press"
-kind = "compact"
-duration = "0.1 ms"
-[stage.cell]
-strain_xx = -0.01
-strain_yy = -0.01
-)";
-
-constexpr const char* probes = R"(densities = [1.006]
-[[path]]
-name = "isotropic"
-scene = "dense.toml"
-[probe]
-directions = 8
-size = 0.01
-duration = "0.4 ms"
-release = 0.9
-)";
+std::string shared(const char* file) {
+  return text_of(paths::source_dir() + "/tests/helpers/solid-probe/" + file);
+}
+const std::string dense = shared("dense.toml"), probes = shared("probe.toml");
 
 class ProbeCommand : public ProgramTest {
  protected:
@@ -137,7 +95,7 @@ TEST_F(ProbeCommand, RefusesWhatCannotBeProbed) {
     EXPECT_THAT(outcome.err, HasSubstr(says));
     EXPECT_FALSE(fs::exists(place / "probed")) << text;
   };
-  const std::string good = probes;
+  const std::string& good = probes;
   const auto with = [&](const std::string& what, const std::string& instead) {
     std::string text = good;
     return text.replace(text.find(what), what.size(), instead);
@@ -149,14 +107,14 @@ TEST_F(ProbeCommand, RefusesWhatCannotBeProbed) {
   refused(with("directions = 8", "direction = 8"), "did you mean");
   refused(with("dense.toml", "none.toml"), "none.toml");
   refused(good.substr(0, good.find("[[path]]")) + good.substr(good.find("[probe]")), "path");
-  std::string held = std::string(dense).substr(0, std::string(dense).find("[stage.cell]"));
+  std::string held = dense.substr(0, dense.find("[stage.cell]"));
   held.replace(held.find("\"compact\""), 9, "\"hold\"");
   std::ofstream(place / "dense.toml") << held;
   refused(good, "does not deform a periodic cell");
 }
 
 TEST_F(ProbeCommand, TellsOfADensityThatIsNotReached) {
-  write(std::string(probes).replace(std::string(probes).find("1.006"), 5, "1.2"));
+  write(std::string(probes).replace(probes.find("1.006"), 5, "1.2"));
   const Outcome outcome = probe();
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.err, HasSubstr("relative density is"));
