@@ -26,9 +26,9 @@ PATIENCE = 60  # s, on a busy machine
 
 
 def run_of(folder, *options):
-    """A run that takes long enough to be watched."""
-    command = [PROGRAM, "run", SCENE, "-o", folder, "--threads", "1", "--quiet", "--set", "output.frames=400",
-               "--set", "output.samples=800", *options]
+    """A run that takes minutes, also on a fast machine: it is killed. A frame comes several times a second."""
+    command = [PROGRAM, "run", SCENE, "-o", folder, "--threads", "1", "--quiet", "--set", "stage.press.duration=150 ms",
+               "--set", "output.frames=8000", "--set", "output.samples=16000", *options]
     return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
@@ -228,7 +228,7 @@ def check_watch(work):
 def check_run_live(work):
     """The run ends with its own exit code once the page knows its end."""
     run = run_of(work / "live", "--live", "--set", "stage.press.duration=20 us",
-                 "--set", 'stage.press.move[0].displacement=["0 mm", "-0.4 mm"]', "--set", "output.frames=8")
+                 "--set", 'stage.press.move[0].displacement=["0 mm", "-0.4 mm"]', "--set", "output.frames=8", "--set", "output.samples=16")
     try:
         address = until(lambda: re.search(r"http://\S+/", run.stderr.readline()), "the address")[0]
         report_with(address, 1)
