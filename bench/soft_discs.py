@@ -1,5 +1,5 @@
 """Coordination number of soft particles against density: fits Z = Z0 + xi (phi - phi0)^beta to every run of the study
-scenes/studies/soft-discs.toml and prints the table in docs/results.md.
+scenes/studies/soft-discs.toml and prints the table in bench/results/soft-discs.md.
 
   build/release/cli/pulvis study scenes/studies/soft-discs.toml -o runs/soft-discs
   /usr/bin/python3 bench/soft_discs.py runs/soft-discs

@@ -1,5 +1,20 @@
 // Hexagonal lattices in a periodic cell against laws: mirror planes, the closed form of elastic discs that touch, and the bulk
-// stiffness of the solid that is left when the pores are gone. docs/theory.md, section 8, has the derivations.
+// stiffness of the solid that is left when the pores are gone.
+//
+// Elastic discs, forces per thickness. Six neighbours each press with F; E' = E/(1 - nu^2), nu' = nu/(1 - nu). The half-width
+// of Hertz is that against a rigid plane, a^2 = 4 F R/(pi E'). A pair of opposite forces shortens its own diameter by
+// 2 F/(pi E') (2 ln(4R/a) - 1) (Johnson 1985, 5.57). At the angle alpha from it the rim moves outward by
+//     F/(pi E') g(alpha),   g = 2 cos alpha ln tan(alpha/2) + 2 - (1 - nu') (pi/2) sin alpha
+// which is the sum of two Flamant solutions and the uniform tension F/(pi R) that makes the rim traction-free (Timoshenko &
+// Goodier 1970, secs. 36 and 41). With the other two pairs at 60 degrees, the approach of two centres and the stress at
+// centre distance d are
+//     delta = F/(pi E') [4 ln(4R/a) - 2 - 4 g(60 deg)],   -sigma = sqrt(3) F/d 1
+// In shear the changes of the three forces sum to zero. A contact has the stiffness k = 1/(d delta_i/dF_i - d delta_i/dF_j).
+// Without friction
+//     k = pi E'/[4 ln(4R/a) - 4 + 2 g(60 deg)],   sigma = -sum F r x r/(|r| A),   so that G = sqrt(3)/4 (k - 3 F/d)
+// with r from centre to centre and A = sqrt(3)/2 d^2 the cell area of a disc.
+//
+// The solid without pores: docs/theory.md, section 8.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
