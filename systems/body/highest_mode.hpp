@@ -236,7 +236,8 @@ template <class F>
   const auto known = estimate.gain.chunk(chunk);
   const Row<Particle> particle;
   Lane& step = estimate.stable.chunk(chunk)(particle);
-  if (clock->step > 0 && known(particle, 1)[0] < looks_between_iterations) {
+  const bool first = known(particle, 1)[0] == 0;
+  if (!first && known(particle, 1)[0] < looks_between_iterations) {
     known(particle, 1) += 1.0;
     step *= known(particle, 0);
     return;
@@ -258,7 +259,7 @@ template <class F>
   Lane& gain = known(particle, 0);
   // Dashpots are less stiff in longer steps: from the bound of the elements on, the estimates approach the stable step from below.
   const bool refined = body.inertance && springs && springs->rules->damping > 0;
-  if (clock->step == 0) {
+  if (first) {
     gain = longer_than_bound(quotient(first_iterations, Lane(1.0)));
     for (int i = 0; i < (refined ? rounds_with_dashpots : 0); ++i)
       gain = longer_than_bound(quotient(iterations_of_round, gain));

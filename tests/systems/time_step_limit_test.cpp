@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "components/highest_mode.hpp"
 #include "components/run_state.hpp"
 #include "scenes/simulation.hpp"
 
@@ -115,6 +116,18 @@ TEST_P(TimeStepLimits, TellTheShareOfContactInTheHighestMode) {
     three.scene.time.estimate = TimeSpec::Estimate::element;
     EXPECT_NEAR(limit.stable / three.limit().stable, limit.gain, 1e-12);
   }
+}
+
+// It takes hundreds of iterations, and nothing has changed since the start when the first step begins.
+TEST_P(TimeStepLimits, KeepTheEstimateOfTheStartInTheFirstStep) {
+  ThreeParticles three(GetParam());
+  three.scene.time.estimate = TimeSpec::Estimate::highest_mode;
+  Simulation simulation(three.scene);
+  const double* gain = simulation.world().column<ModeGain>().values();  // of the first particle
+  const double at_start = *gain;
+  simulation.run_steps(1);
+  EXPECT_EQ(*gain, at_start);
+  EXPECT_GT(at_start, 1);
 }
 
 TEST_P(TimeStepLimits, SayWhyAStepIsShorter) {
