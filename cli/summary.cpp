@@ -245,6 +245,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
     json["thickness"] = scene.thickness;
   add_figures(json, results);
   add_quality(json, world, quality);
+  if (const Json steps = quality.steps.json(scene); !steps.empty()) json["time_step"] = steps;
   json["limits"] = limits_json(scene.limits);
   json["tools"] = tools_json(scene, world);
   json["materials"] = materials_json(scene);

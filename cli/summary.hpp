@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/identity.hpp"
+#include "cli/step_limits.hpp"
 #include "engine/task_graph.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/ranks/balance.hpp"
@@ -35,9 +36,9 @@ struct RunQuality {
   ContactFindings contacts;
   std::vector<QualityFigure> figures;
   std::vector<std::string> warnings;  // one line each
+  StepLimits steps = {};
 
-  std::vector<std::string> lines()
-      const;  // warnings, and advice for figures beyond their limits
+  std::vector<std::string> lines() const;  // warnings, and advice for figures beyond their limits
 };
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,

@@ -16,7 +16,8 @@ struct HighestMode : Component<Node, double, 2 * D::axes> {
 };
 struct ModeGain : Component<Particle, double, 2> {
   static constexpr ComponentInfo info{
-      "mode_gain", "-", "stable step over its elements' bound; looks since that was determined"};
+      "mode_gain", "-",
+      "stable step over its elements' bound; looks since that was determined, 0: not yet"};
 };
 struct ContactSupport : Component<BoundaryNode, double, 1> {
   static constexpr ComponentInfo info{

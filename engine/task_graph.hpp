@@ -24,7 +24,7 @@ struct StagePlan {
       taken_before;  // for small tasks: stages with all chunks taken before this one begins
 };
 
-// Time spent in a system, summed over all workers. Only every 64th run is timed: this keeps the cost of the clock
+// Time spent in a system, summed over all workers. Only every 61st run is timed: this keeps the cost of the clock
 // low, and is accurate enough for runs of thousands of steps.
 struct SystemCost {
   std::string system;
@@ -69,8 +69,9 @@ class TaskGraph {
   // `systems` in the order of the step list; `chunks`: the chunks to compute, or their number, from 0. Must be built and run in the arena it will use; where
   // transients are dropped, the graph uses the transient columns for which the world has a per-worker chunk buffer
   // (World::allocate_transient). `world`: its columns are prefetched by compute-bound systems; null: no prefetching.
-  TaskGraph(std::vector<System> systems, std::vector<int> chunks, Passes passes = Passes::concurrent,
-            Transients transients = Transients::kept, const World* world = nullptr);
+  TaskGraph(std::vector<System> systems, std::vector<int> chunks,
+            Passes passes = Passes::concurrent, Transients transients = Transients::kept,
+            const World* world = nullptr);
   TaskGraph(std::vector<System> systems, int chunks, Passes passes = Passes::concurrent,
             Transients transients = Transients::kept, const World* world = nullptr);
   ~TaskGraph();

@@ -6,6 +6,7 @@
 
 #include "components/bond.hpp"
 #include "components/cell.hpp"
+#include "components/highest_mode.hpp"
 #include "components/ranks.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
@@ -65,6 +66,13 @@ void start_cell(PeriodicCell& cell) {
   control.cut = std::numeric_limits<double>::infinity();
 }
 
+// The mode is that of the state, but its estimate is for the contact of a scene that may have other servos.
+void estimate_anew(World& world) {
+  if (!world.has<ModeGain>()) return;
+  auto& gain = world.column<ModeGain>();
+  std::fill_n(gain.values(), gain.bytes() / sizeof(double), 0.0);
+}
+
 }  // namespace
 
 void begin_with_state(World& world, const Scene& scene) {
@@ -84,6 +92,7 @@ void begin_with_state(World& world, const Scene& scene) {
   clock.time = 0;
   clock.end = end;
   clock.next_look = 0;
+  estimate_anew(world);
   start_tools(world);
   start_constraints<TwoD>(world);
   start_constraints<ThreeD>(world);

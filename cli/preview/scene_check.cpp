@@ -8,6 +8,7 @@
 #include "cli/preview/estimate.hpp"
 #include "cli/preview/stage_forecast.hpp"
 #include "cli/setup_progress.hpp"
+#include "cli/step_limits.hpp"
 #include "cli/tell.hpp"
 #include "engine/machine_memory.hpp"
 #include "engine/run_failure.hpp"
@@ -35,6 +36,20 @@ std::string estimate_line(Simulation* simulation, const Scene& scene, std::size_
   }
 }
 
+// What sets the first step, and what the slowest elements cost. A run that fails in it has no such lines.
+std::string time_step_lines(Simulation& simulation, const Scene& scene) {
+  try {
+    simulation.observe();
+    const TimeStepLimit limit = time_step_limit(simulation.world());
+    simulation.move();
+    return fmt::format("time step: {}\nelements: {}",
+                       time_step_text(limit, scene.time.safety, scene.in_space() ? 3 : 2),
+                       slowest_elements_text(limit));
+  } catch (const RunFailure&) {
+    return {};
+  }
+}
+
 std::string memory_line(const MemoryNeed& need) {
   return fmt::format("memory: about {}: particles {}, contacts {}, results {}, program {}",
                      bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
@@ -52,6 +67,7 @@ SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodie
   findings.memory = memory_line(need);
   const std::vector<StageForecast> stages = stage_forecast(scene, bodies);
   findings.stages = stages_text(scene, stages);
+  if (simulation != nullptr) findings.time_step = time_step_lines(*simulation, scene);
   findings.run = estimate_line(simulation, scene, bodies.size(), stages);
   findings.verdict =
       fmt::format("{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
@@ -95,7 +111,8 @@ SceneFindings findings_of(const Scene& scene, const AfmModel& model) {
 void tell_findings(const SceneFindings& findings) {
   tell("{}", findings.sizes);
   for (const std::string& line : findings.warnings) tell("warning: {}\n", line);
-  for (const std::string& line : {findings.memory, findings.stages, findings.run, findings.verdict})
+  for (const std::string& line :
+       {findings.memory, findings.stages, findings.time_step, findings.run, findings.verdict})
     if (!line.empty()) tell("{}\n", line);
 }
 

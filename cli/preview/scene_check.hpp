@@ -17,6 +17,7 @@ struct SceneFindings {
   std::string sizes;                  // of packings and meshes: complete lines
   std::vector<std::string> warnings;  // one line each
   std::string memory, stages, run;    // one line each, or empty
+  std::string time_step;              // two lines, or empty
   std::string verdict;                // one line
 };
 // Advances the simulation. `simulation`: at its start; null if memory is too small.

@@ -102,8 +102,8 @@ void Session::record_into(std::unique_ptr<Recorder> recorder) {
 // The part of the run's state that is not in the world.
 template <class Bytes>
 void Session::state(Bytes& bytes, RecorderPosition& position, Spent& spent) {
-  bytes(position, spent, results_, expectations_, compaction_, contacts_, samples_, frames_, ended_,
-        stages_over_, judged_stages_);
+  bytes(position, spent, results_, expectations_, compaction_, contacts_, steps_, samples_, frames_,
+        ended_, stages_over_, judged_stages_);
 }
 
 void Session::go_on_from(const Checkpoint& checkpoint) {
@@ -161,6 +161,7 @@ void Session::record() {
   expectations_.sample(clock().time, results_);
   compaction_.sample(results_);
   contacts_.sample(results_, simulation_->whole());
+  steps_.sample(simulation_->world(), simulation_->finished());
   samples_.pass(clock().time);
   const char* const density = "relative_density";
   progress_->expect_end(forecast_.sample(
@@ -293,7 +294,7 @@ void Session::reopen() {
 RunQuality Session::quality() const {
   const ContactFindings found = contacts_.findings();
   RunQuality quality{found, run_quality(loaded_.scene, simulation_->whole(), results_, found),
-                     bending_warnings(loaded_.scene)};
+                     bending_warnings(loaded_.scene), steps_};
   quality.warnings.insert(quality.warnings.end(), bond_warnings_.begin(), bond_warnings_.end());
   if (!driven_.empty())
     quality.warnings.push_back(

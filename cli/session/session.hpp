@@ -21,6 +21,7 @@
 #include "cli/session/end_forecast.hpp"
 #include "cli/session/ranks.hpp"
 #include "cli/session/session_hooks.hpp"
+#include "cli/step_limits.hpp"
 #include "cli/summary.hpp"
 #include "engine/files/recorder.hpp"
 #include "scenes/expectations.hpp"
@@ -131,6 +132,7 @@ class Session {
   Expectations expectations_;
   CompactionCurve compaction_;
   ContactLoading contacts_;
+  StepLimits steps_;
   std::vector<std::string> bond_warnings_;  // for bonds created at the start
   std::vector<Verdict> verdicts_;
   Timetable samples_, frames_;

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/entry.hpp"
@@ -32,9 +33,6 @@ inline constexpr int first_iterations = 300;
 inline constexpr int rounds_with_dashpots = 3, iterations_of_round = 60;
 inline constexpr double looks_between_iterations = 4;
 inline constexpr double mode_margin = 0.98;  // 300 iterations leave an error of half a percent
-// Over the element bound: undeformed discs reach 1.2. It counts the contact springs as if there were no inerters, which
-// make up for stiff ones.
-inline constexpr double longest_gain = 1.3, longest_with_inerters = 3;
 
 template <class D>
 using ModeView = ChunkView<HighestMode<D>, Lane*>;
@@ -89,9 +87,9 @@ std::vector<std::array<Lane, 3>> boundary_normals(const space::Shape& shape, con
   return normal;
 }
 
-// -K v, after v in the columns of the mode; in two dimensions for unit slice depth.
+// -K v of the contact springs, after v in the columns of the mode; in two dimensions for unit slice depth.
 template <class F>
-void elastic_forces(const ModeBody<F>& body, const ModeView<typename F::Dimension>& mode) {
+void spring_forces(const ModeBody<F>& body, const ModeView<typename F::Dimension>& mode) {
   constexpr int axes = F::Dimension::axes;
   for (int i = 0; i < static_cast<int>(body.shape.nodes.size()); ++i)
     for (int k = 0; k < axes; ++k) mode(Row<Node>(i), axes + k) = Lane{};
@@ -109,6 +107,12 @@ void elastic_forces(const ModeBody<F>& body, const ModeView<typename F::Dimensio
     for (int k = 0; k < axes; ++k)
       mode(n, axes + k) = -(tangential * mode(n, k) + more * entry(normal, k));
   }
+}
+
+// The same with the elements.
+template <class F>
+void elastic_forces(const ModeBody<F>& body, const ModeView<typename F::Dimension>& mode) {
+  spring_forces(body, mode);
   for (int i = 0; i < body.shape.elements(); ++i) subtract_stiffness(body, Row<Element>(i), mode);
 }
 
@@ -196,28 +200,50 @@ Lane contact_modulus(const ContactRules& rules, double stiffening, const AnyShap
                                                    sqrt(rules.stiffness * bulk * rho) / step;
 }
 
+// Without contact.
+template <class F>
+ModeBody<F> mode_body(const highest_mode<F>& of, Chunk chunk) {
+  const Row<Particle> particle;
+  ModeBody<F> body{of.bodies.shape_of(chunk),
+                   of.position.chunk(chunk),
+                   of.deviator.chunk(chunk),
+                   of.material.elastic.bulk.chunk(chunk)(particle),
+                   of.material.elastic.shear.chunk(chunk)(particle),
+                   std::nullopt,
+                   std::nullopt};
+  if (of.estimate.inertance) body.inertance = of.estimate.inertance->chunk(chunk);
+  return body;
+}
+
+// `step`: see contact_modulus.
+template <class F>
+void add_springs(const highest_mode<F>& of, Chunk chunk, const Lane& step, ModeBody<F>& body) {
+  const ContactRules& rules = *of.springs->rules;
+  const double of_chunk = springs_of(chunk, *of.bodies.bodies, rules, *of.clock);
+  const Lane rho = of.material.density.chunk(chunk)(Row<Particle>());
+  const Lane along = contact_modulus(rules, of_chunk, body.shape, body.bulk, rho, step);
+  // Bonds are equally stiff in all directions.
+  const Lane tangential = rules.initial_stiffness.empty()
+                              ? min(along, rules.tangential * rules.stiffness * body.bulk)
+                              : along;
+  body.contact = typename ModeBody<F>::Contact{
+      of.springs->support.chunk(chunk), boundary_normals(body.shape, body.x), along, tangential};
+}
+
 template <class F>
 [[gnu::flatten]] void highest_mode<F>::operator()(Chunk chunk) const {
   if (clock->step < clock->next_look) return;
   const auto known = estimate.gain.chunk(chunk);
   const Row<Particle> particle;
   Lane& step = estimate.stable.chunk(chunk)(particle);
-  if (clock->step > 0 && known(particle, 1)[0] < looks_between_iterations) {
+  const bool first = known(particle, 1)[0] == 0;
+  if (!first && known(particle, 1)[0] < looks_between_iterations) {
     known(particle, 1) += 1.0;
     step *= known(particle, 0);
     return;
   }
-  const Lane k = material.elastic.bulk.chunk(chunk)(particle),
-             rho = material.density.chunk(chunk)(particle);
-  const auto& shape = bodies.shape_of(chunk);
-  ModeBody<F> body{shape,
-                   position.chunk(chunk),
-                   deviator.chunk(chunk),
-                   k,
-                   material.elastic.shear.chunk(chunk)(particle),
-                   std::nullopt,
-                   std::nullopt};
-  if (estimate.inertance) body.inertance = estimate.inertance->chunk(chunk);
+  const Lane rho = material.density.chunk(chunk)(particle);
+  ModeBody<F> body = mode_body(*this, chunk);
   const auto longer_than_bound = [&](const Lane& highest) {
     const Lane longest = mode_margin * stable_step(chunk, rho, highest, damping);
     // A quotient that is not positive says nothing.
@@ -225,17 +251,7 @@ template <class F>
     return Lane(max(1.0, min(gain, body.inertance ? longest_with_inerters : longest_gain)));
   };
   const auto quotient = [&](int iterations, const Lane& gain) {
-    if (springs) {
-      const ContactRules& rules = *springs->rules;
-      const double of_chunk = springs_of(chunk, *bodies.bodies, rules, *clock);
-      const Lane along = contact_modulus(rules, of_chunk, shape, k, rho, step * gain);
-      // Bonds are equally stiff in all directions.
-      const Lane tangential = rules.initial_stiffness.empty()
-                                  ? min(along, rules.tangential * rules.stiffness * k)
-                                  : along;
-      body.contact = typename ModeBody<F>::Contact{
-          springs->support.chunk(chunk), boundary_normals(shape, body.x), along, tangential};
-    }
+    if (springs) add_springs(*this, chunk, step * gain, body);
     Lane highest{};
     for (int i = 0; i < iterations; ++i) highest = iterate(body, estimate.mode.chunk(chunk));
     return highest;
@@ -243,7 +259,7 @@ template <class F>
   Lane& gain = known(particle, 0);
   // Dashpots are less stiff in longer steps: from the bound of the elements on, the estimates approach the stable step from below.
   const bool refined = body.inertance && springs && springs->rules->damping > 0;
-  if (clock->step == 0) {
+  if (first) {
     gain = longer_than_bound(quotient(first_iterations, Lane(1.0)));
     for (int i = 0; i < (refined ? rounds_with_dashpots : 0); ++i)
       gain = longer_than_bound(quotient(iterations_of_round, gain));
@@ -252,6 +268,37 @@ template <class F>
   }
   known(particle, 1) = 1.0;
   step *= gain;
+}
+
+inline const auto& corners_of(const Shape& shape, Row<Element> e) { return entry(shape.quads, e); }
+inline const auto& corners_of(const space::Shape& shape, Row<Element> e) {
+  return entry(shape.hexahedra, e);
+}
+
+template <class F>
+std::vector<Lane> highest_mode<F>::energies(Chunk chunk) const {
+  constexpr int axes = D::axes;
+  ModeBody<F> body = mode_body(*this, chunk);
+  if (springs) add_springs(*this, chunk, estimate.stable.chunk(chunk)(Row<Particle>()), body);
+  const auto nodes = static_cast<std::ptrdiff_t>(body.shape.nodes.size());
+  const Lane* known = &std::as_const(estimate.mode.chunk(chunk)(Row<Node>(0)));
+  std::vector<Lane> copy(known, known + nodes * HighestMode<D>::count);
+  const ModeView<D> mode(copy.data());
+  // Of the forces of that node, which are set to zero for the next element.
+  const auto taken = [&](Row<Node> n) {
+    Lane energy{};
+    for (int k = 0; k < axes; ++k) energy -= mode(n, k) * std::exchange(mode(n, axes + k), Lane{});
+    return energy;
+  };
+  std::vector<Lane> energies(static_cast<std::size_t>(body.shape.elements()) + 1);
+  spring_forces(body, mode);
+  for (int n = 0; n < nodes; ++n) energies.back() += taken(Row<Node>(n));
+  for (int i = 0; i < body.shape.elements(); ++i) {
+    subtract_stiffness(body, Row<Element>(i), mode);
+    for (const Row<Node> n : corners_of(body.shape, Row<Element>(i)))
+      entry(energies, i) += taken(n);
+  }
+  return energies;
 }
 
 }  // namespace pulvis

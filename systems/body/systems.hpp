@@ -4,6 +4,8 @@
 // that both dimensions have also components/space/formulation.hpp).
 #pragma once
 
+#include <vector>
+
 #include "components/bundles.hpp"
 #include "components/highest_mode.hpp"
 #include "components/inertance.hpp"
@@ -128,6 +130,11 @@ struct integrate {
   void operator()(Chunk chunk) const;
 };
 
+// Of the elements of a chunk, s: alone, and with contact.
+struct StableSteps {
+  std::vector<Lane> alone, touching;
+};
+
 template <int Points>
 struct stable_time_step {
   Read<Bodies> bodies;
@@ -139,6 +146,7 @@ struct stable_time_step {
   Optional<BulkDamping> damping;
   Write<StableTimeStep> stable;
   void operator()(Chunk chunk) const;
+  StableSteps of_elements(Chunk chunk) const;  // now, for systems/time_step_limit.hpp
 };
 
 template <class F>
@@ -162,6 +170,8 @@ struct highest_mode {
     Write<StableTimeStep> stable;
   } estimate;
   void operator()(Chunk chunk) const;
+  // Elastic energies of the mode as it is, in a unit of its own: of each element, and last of the contact springs.
+  std::vector<Lane> energies(Chunk chunk) const;
 };
 
 struct return_health {

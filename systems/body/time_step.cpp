@@ -20,10 +20,6 @@
 namespace pulvis {
 namespace {
 
-// Damped blocks on plates and on each other (stiffness 0.35 to 100, damping 0.3 to 1) become unstable from 1.36
-// times what late_frequency allows.
-constexpr double too_strict = 1.25;
-
 // rho omega^2 of the undamped element with the same stable step as an outline element with dashpots:
 // gamma/2 + sqrt(gamma^2/4 + omega^2) for omega.
 Lane late_frequency(const ContactRules& rules, double stiffening, const Shape& shape,
@@ -36,25 +32,20 @@ Lane late_frequency(const ContactRules& rules, double stiffening, const Shape& s
   return omega * omega;
 }
 
-}  // namespace
-
-template <int Points>
-[[gnu::flatten]] void stable_time_step<Points>::operator()(Chunk chunk) const {
-  if (clock->step < clock->next_look) return;
+// visit(bound) for every element of a chunk, in order.
+template <int Points, class Visit>
+void visit_bounds(const stable_time_step<Points>& of, Chunk chunk, const Visit& visit) {
   const Row<Particle> particle;
-  const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto nodes = position.chunk(chunk);
-  const auto stress = deviator.chunk(chunk);
-  const Lane k = material.elastic.bulk.chunk(chunk)(particle),
-             rho = material.density.chunk(chunk)(particle);
-  const Lane shear = material.elastic.shear.chunk(chunk)(particle), inv_shear = 1.0 / shear;
+  const Shape& shape = of.bodies->shape_of_chunk(chunk);
+  const auto nodes = of.position.chunk(chunk);
+  const auto stress = of.deviator.chunk(chunk);
+  const Lane k = of.material.elastic.bulk.chunk(chunk)(particle),
+             shear = of.material.elastic.shear.chunk(chunk)(particle), inv_shear = 1.0 / shear;
+  const auto& rules = of.rules;
+  const double stiffening = rules ? springs_of(chunk, *of.bodies, **rules, *of.clock) : 0;
   // Sufficient for low damping, within the margin of `safety`; with more damping, `late` gives the requirement.
-  const double contact =
-      rules ? (*rules)->stiffness *
-                  (springs_of(chunk, *bodies, **rules, *clock) + 2 * (*rules)->damping)
-            : 0;
+  const double contact = rules ? (*rules)->stiffness * (stiffening + 2 * (*rules)->damping) : 0;
   const bool damped = rules && (*rules)->damping > 0;
-  Lane highest{}, late{};
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
     const auto map = quad_map<4>(nodes, entry(shape.quads, e));
@@ -63,20 +54,32 @@ template <int Points>
     const auto spread =
         kernels::mode_spread(kernels::map_gradient(map, 0, 0), entry(shape.corner_moment, e));
     const Lane distortion = theta * inv_shear * largest_norm<Points>(stress, e);
-    const Lane element = kernels::frequency_bound(spread, k, shear, theta, distortion);
-    const Lane solid = element * corner_factor(map);
-    highest = max(highest, solid + contact * entry(shape.contact_frequency, e) * k);
+    FrequencyBound bound;
+    bound.alone =
+        kernels::frequency_bound(spread, k, shear, theta, distortion) * corner_factor(map);
+    bound.touching = bound.alone + contact * entry(shape.contact_frequency, e) * k;
     if (damped && entry(shape.contact_frequency, e) > 0)
-      late = max(late, late_frequency(**rules, springs_of(chunk, *bodies, **rules, *clock), shape,
-                                      e, k, solid));
+      bound.late = late_frequency(**rules, stiffening, shape, e, k, bound.alone);
+    visit(bound);
   }
-  Lane& step = stable.chunk(chunk)(particle);
-  step = stable_step(chunk, rho, highest, damping);
-  if (!damped) return;
-  // A servo tool uses the entire margin of `safety`; without one, the known conservatism of the bound is
-  // removed.
-  const Lane longest = stable_step(chunk, rho, late, damping);
-  step = (*rules)->servos ? min(longest, step) : min(too_strict / clock->safety * longest, step);
+}
+
+}  // namespace
+
+template <int Points>
+[[gnu::flatten]] void stable_time_step<Points>::operator()(Chunk chunk) const {
+  if (clock->step < clock->next_look) return;
+  FrequencyBound worst;
+  visit_bounds(*this, chunk, [&](const FrequencyBound& bound) { worst.include(bound); });
+  const Row<Particle> particle;
+  stable.chunk(chunk)(particle) = stable_step(chunk, material.density.chunk(chunk)(particle), worst,
+                                              damping, rules, clock->safety);
+}
+
+template <int Points>
+StableSteps stable_time_step<Points>::of_elements(Chunk chunk) const {
+  return steps_of_elements(*this, chunk,
+                           [&](const auto& visit) { visit_bounds(*this, chunk, visit); });
 }
 
 template struct stable_time_step<1>;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "systems/time_step_limit.hpp"
 #include "tests/helpers/initial_state.hpp"
 
 namespace pulvis {
@@ -95,6 +96,21 @@ TEST_P(DieState, GoesOnUnderAServo) {
   whole.run(20);
   EXPECT_NEAR(rest.value(die().position) / whole.value(die().position), 1, 1e-3);
   EXPECT_NEAR(rest.value(die().force) / whole.value(die().force), 1, 0.05);
+}
+
+// The estimate of the highest mode that the state brings is for a run without a servo.
+TEST_P(DieState, TakesStepsForItsOwnServo) {
+  const auto stable = [](Experiment&& e) {
+    e.simulation.observe();
+    return shortest_stable_step(e.simulation.world());
+  };
+  kept(die().powder, die().press);
+  const double from_state =
+      stable(gone_on(die().powder, die().hold)) / stable(gone_on(die().powder, die().draw));
+  const double afresh = stable(Experiment(own_scene(die().powder + die().hold))) /
+                        stable(Experiment(own_scene(die().powder + die().press)));
+  EXPECT_NEAR(from_state / afresh, 1, 0.03);
+  EXPECT_LT(afresh, 0.95) << from_state;
 }
 
 using PlaneState = InitialState;

@@ -89,6 +89,11 @@ function materialRows(materials) {
      ["materials"]]);
 }
 
+// What set the time step at the start, when it was shortest, and at the end, as the program says it (cli/step_limits.hpp).
+const stepRows = limits => !Array.isArray(limits) ? [] : [
+  ...limits.map(({when, time, text}) => [when === "shortest" ? `Shortest time step (at ${withUnit(time, "s")})` : `Time step at the ${when}`, text, ["time_step"]]),
+  ...limits.slice(-1).map(({when, slowest}) => [`Time step at the ${when === "shortest" ? "time of the shortest" : when} by its elements`, slowest, []])];
+
 const NOT_ENCLOSED = "none: the tools do not enclose the powder";
 // Undefined if the run has none; null if its tools did not enclose the powder.
 function finalDensity(run) {
@@ -112,6 +117,7 @@ function knownRows(run) {
     ...materialRows(s.materials),
     ["Simulated time", has("time") ? withUnit(s.time, "s") : null, ["time"]],
     ["Steps", has("steps") ? count(s.steps) : null, ["steps"]],
+    ...stepRows(s.time_step),
     ["Computing time", has("wall_seconds") ? duration(s.wall_seconds) +
       (has("threads") ? ` on ${counted(s.threads, "thread")}` : "") : null,
      ["wall_seconds", "threads"]],

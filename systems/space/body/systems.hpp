@@ -77,6 +77,7 @@ struct stable_time_step {
   Optional<BulkDamping> damping;
   Write<StableTimeStep> stable;
   void operator()(Chunk chunk) const;
+  StableSteps of_elements(Chunk chunk) const;  // now, for systems/time_step_limit.hpp
 };
 
 // ---- in sampled steps -----------------------------------------------------------------------------

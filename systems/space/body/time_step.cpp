@@ -17,9 +17,6 @@
 namespace pulvis::space {
 namespace {
 
-// See systems/body/time_step.cpp.
-constexpr double dashpots_too_strict = 1.25;
-
 // Gradients at the Gauss points of a hexahedron are at most (4/3)^2 times those at the centre; this is for the square.
 constexpr double of_eight_points = 16.0 / 9.0;
 
@@ -45,15 +42,49 @@ struct Contact {
   double springs = 0;   // k, of the springs including the effect of light damping
   double stiff = 0;     // k of the springs alone
   double dashpots = 0;  // 2 xi of a pair
+  double base = 0;      // k of the scene, without stiffening
 };
 
 // gamma/2 + sqrt(gamma^2/4 + omega^2) for omega, squared; times rho.
-Lane late_bound(const Contact& contact, const Shape::Element& element, Lane bulk, Lane solid,
-                double base) {
-  const Lane half = (0.5 * contact.dashpots * element.contact_drag) * sqrt(base * bulk);
+Lane late_bound(const Contact& contact, const Shape::Element& element, Lane bulk, Lane solid) {
+  const Lane half = (0.5 * contact.dashpots * element.contact_drag) * sqrt(contact.base * bulk);
   const Lane omega =
       half + sqrt(half * half + solid + contact.stiff * element.contact_frequency * bulk);
   return omega * omega;
+}
+
+// visit(bound) for every element of a chunk, in order.
+template <class F, class Visit>
+void visit_bounds(const stable_time_step<F>& of, Chunk chunk, const Visit& visit) {
+  const Row<Particle> particle;
+  const Shape& shape = of.bodies.shape_of(chunk);
+  const auto nodes = of.position.chunk(chunk);
+  const auto stress = of.deviator.chunk(chunk);
+  const Lane k = of.material.elastic.bulk.chunk(chunk)(particle),
+             mu = of.material.elastic.shear.chunk(chunk)(particle);
+  Contact contact;
+  if (const auto& rules = of.rules) {
+    const double stiffening = springs_of(chunk, *of.bodies.bodies, **rules, *of.clock);
+    contact = {(*rules)->stiffness * (stiffening + 2 * (*rules)->damping),
+               (*rules)->stiffness * stiffening, dashpot_ratio(**rules), (*rules)->stiffness};
+  }
+  for (int i = 0; i < shape.elements(); ++i) {
+    const Shape::Element& element = entry(shape.element, i);
+    const auto modes = element_modes(nodes, entry(shape.hexahedra, i));
+    const auto f = kernels::deformation_gradient(modes, element.gradient);
+    FrequencyBound bound;
+    bound.alone = kernels::frequency_bound(element, f, k, mu,
+                                           largest_stress<F::points>(stress, Row<Element>(i)));
+    if constexpr (F::stabilised)
+      bound.alone *= closing_factor(modes, f, element, entry(shape.gauss, i));
+    else
+      bound.alone *=
+          gauss_factor(modes, entry(shape.gauss, i), kernels::determinant(f, kernels::adjugate(f)));
+    bound.touching = bound.alone + contact.springs * element.contact_frequency * k;
+    if (contact.dashpots > 0 && element.contact_drag > 0)
+      bound.late = late_bound(contact, element, k, bound.alone);
+    visit(bound);
+  }
 }
 
 }  // namespace
@@ -61,44 +92,19 @@ Lane late_bound(const Contact& contact, const Shape::Element& element, Lane bulk
 template <class F>
 [[gnu::flatten]] void stable_time_step<F>::operator()(Chunk chunk) const {
   if (clock->step < clock->next_look) return;
+  FrequencyBound worst;
+  visit_bounds(*this, chunk, [&](const FrequencyBound& bound) { worst.include(bound); });
   const Row<Particle> particle;
-  const Shape& shape = bodies.shape_of(chunk);
-  const auto nodes = position.chunk(chunk);
-  const auto stress = deviator.chunk(chunk);
-  const Lane k = material.elastic.bulk.chunk(chunk)(particle),
-             mu = material.elastic.shear.chunk(chunk)(particle),
-             rho = material.density.chunk(chunk)(particle);
-  Contact contact;
-  if (rules) {
-    const double stiffening = springs_of(chunk, *bodies.bodies, **rules, *clock);
-    contact = {(*rules)->stiffness * (stiffening + 2 * (*rules)->damping),
-               (*rules)->stiffness * stiffening, dashpot_ratio(**rules)};
-  }
-  Lane highest{}, late{};
-  for (int i = 0; i < shape.elements(); ++i) {
-    const Shape::Element& element = entry(shape.element, i);
-    const auto modes = element_modes(nodes, entry(shape.hexahedra, i));
-    const auto f = kernels::deformation_gradient(modes, element.gradient);
-    Lane solid = kernels::frequency_bound(element, f, k, mu,
-                                          largest_stress<F::points>(stress, Row<Element>(i)));
-    if constexpr (F::stabilised)
-      solid *= closing_factor(modes, f, element, entry(shape.gauss, i));
-    else
-      solid *=
-          gauss_factor(modes, entry(shape.gauss, i), kernels::determinant(f, kernels::adjugate(f)));
-    highest = max(highest, solid + contact.springs * element.contact_frequency * k);
-    if (contact.dashpots > 0 && element.contact_drag > 0)
-      late = max(late, late_bound(contact, element, k, solid, (*rules)->stiffness));
-  }
-  Lane& step = stable.chunk(chunk)(particle);
-  step = stable_step(chunk, rho, highest, damping);
-  if (!(contact.dashpots > 0)) return;
-  const Lane longest = stable_step(chunk, rho, late, damping);
-  // With a servo the step keeps the full margin that `safety` leaves; without one, the bound's known overestimate
-  // need not reduce the step.
-  step = (*rules)->servos ? min(longest, step)
-                          : min(dashpots_too_strict / clock->safety * longest, step);
+  stable.chunk(chunk)(particle) = stable_step(chunk, material.density.chunk(chunk)(particle), worst,
+                                              damping, rules, clock->safety);
 }
+
+template <class F>
+StableSteps stable_time_step<F>::of_elements(Chunk chunk) const {
+  return steps_of_elements(*this, chunk,
+                           [&](const auto& visit) { visit_bounds(*this, chunk, visit); });
+}
+
 template struct stable_time_step<OnePoint>;
 template struct stable_time_step<EightPoint>;
 

@@ -169,6 +169,8 @@ Estimate estimate(Body<F>& body) {
   if (!body.world.template has<ModeGain>())
     add_highest_mode(body.world, body.world.template resource<Bodies>(),
                      body.world.template resource<Shapes>(), false);
+  body.world.template column<ModeGain>().values()[lane_count] =
+      0;  // not yet estimated, in the first lane
   const double exact = 2 / highest_frequency(body);
   body.find_forces();
   body.template run<stable_time_step<F>>();
