@@ -78,16 +78,23 @@ struct TouchingRows {
   Read<PointForce<At>> force;
 };
 // In a periodic cell: the periodic image of the other particle that a row refers to.
+template <class D>
 struct CellImages {
-  Read<ContactImage> image;
-  Read<PeriodicCell> cell;
-  Image of(Row<Contact> row) const { return {image(row, 0), image(row, 1)}; }
-  Point shift(Row<Contact> row) const { return cell->vectors * of(row); }
+  using At = typename D::Contact;
+  Read<ContactImage<At>> image;
+  Read<PeriodicCell<D>> cell;
+  ImageIn<D> of(Row<At> row) const {
+    ImageIn<D> n;
+    for (std::size_t k = 0; k < D::axes; ++k) n[k] = image(row, static_cast<int>(k));
+    return n;
+  }
+  typename D::Point shift(Row<At> row) const { return cell->vectors * of(row); }  // m
+  typename D::Point velocity(Row<At> row) const { return cell->rate * of(row); }  // m/s
 };
 struct TouchingPairs {
   TouchingRows<Contact> rows;
   Read<ClosestPoint> closest;
-  Optional<CellImages> images;
+  Optional<CellImages<TwoD>> images;
 
   // Relative to the other particle itself instead of its image.
   Point from_image(Row<Contact> row, const Point& at) const {

@@ -3,25 +3,33 @@
 // the other particle it refers to.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "components/contact.hpp"
+#include "components/dimension.hpp"
+#include "components/run_state.hpp"
 #include "components/servo.hpp"
 #include "components/shape.hpp"
+#include "engine/world.hpp"
 
 namespace pulvis {
 
-struct ContactImage : Component<Contact, std::int32_t, 2> {
+// At: Contact or FaceContact.
+template <class At>
+struct ContactImage : Component<At, std::int32_t, At::axes> {
   static constexpr ComponentInfo info{
-      "image", "-", "periods by which the other particle is moved along both vectors of the cell"};
+      "image", "-", "periods by which the other particle is moved along each vector of the cell"};
 };
-struct MassCentre : Component<Particle, double, 2> {
+template <class D>
+struct MassCentre : Component<Particle, double, D::axes> {
   static constexpr ComponentInfo info{"mass_centre", "m", "where its centre of mass is"};
 };
-struct NetForce : Component<Particle, double, 2> {
+template <class D>
+struct NetForce : Component<Particle, double, D::axes> {
   static constexpr ComponentInfo info{"net_force", "N", "sum of the contact forces on it"};
 };
 struct StrainResistance : Component<Particle, double, 2> {
@@ -34,54 +42,127 @@ struct KickWork : Component<Particle, double, 1> {
                                       "kinetic energy from the last change of the cell's speed"};
 };
 
-using Image = std::array<std::int32_t, 2>;
+// Periods along each vector of the cell.
+template <class D>
+using ImageIn = std::array<std::int32_t, D::axes>;
 
-// xx xy yx yy, as in x_i = T_ij y_j.
-struct Tensor2 {
-  std::array<double, 4> t{};
-  Point operator*(const Point& p) const {
-    return {t[0] * p[0] + t[1] * p[1], t[2] * p[0] + t[3] * p[1]};
+// visit(image) for all between two, both included, in ascending order.
+template <class D, class Visit>
+void for_images(const ImageIn<D>& first, const ImageIn<D>& last, const Visit& visit) {
+  ImageIn<D> image = first;
+  for (;;) {
+    visit(image);
+    std::size_t k = D::axes;
+    while (k > 0 && image[k - 1] == last[k - 1]) {
+      image[k - 1] = first[k - 1];
+      --k;
+    }
+    if (k == 0) return;
+    image[k - 1] += 1;
   }
-  Point operator*(const Image& n) const {
-    return *this * Point{static_cast<double>(n[0]), static_cast<double>(n[1])};
+}
+
+// Row by row, as in x_i = T_ij y_j: xx xy yx yy in two dimensions.
+template <class D>
+struct Tensor {
+  static constexpr std::size_t n = D::axes;
+  using Vector = typename D::Point;
+  std::array<double, n * n> t{};
+
+  double& operator()(std::size_t i, std::size_t j) { return t[n * i + j]; }
+  double operator()(std::size_t i, std::size_t j) const { return t[n * i + j]; }
+  static constexpr Tensor one() {
+    Tensor unit;
+    for (std::size_t i = 0; i < n; ++i) unit.t[n * i + i] = 1;
+    return unit;
   }
-  Tensor2 operator*(const Tensor2& o) const {
-    return {{t[0] * o.t[0] + t[1] * o.t[2], t[0] * o.t[1] + t[1] * o.t[3],
-             t[2] * o.t[0] + t[3] * o.t[2], t[2] * o.t[1] + t[3] * o.t[3]}};
+  Vector column(std::size_t j) const {
+    Vector v;
+    for (std::size_t i = 0; i < n; ++i) v[i] = (*this)(i, j);
+    return v;
   }
-  double determinant() const { return t[0] * t[3] - t[1] * t[2]; }
-  Tensor2 inverse() const {
-    const double d = 1 / determinant();
-    return {{d * t[3], -d * t[1], -d * t[2], d * t[0]}};
+  Vector operator*(const Vector& v) const {
+    Vector product{};
+    for (std::size_t i = 0; i < n; ++i) {
+      product[i] = (*this)(i, 0) * v[0];
+      for (std::size_t j = 1; j < n; ++j) product[i] += (*this)(i, j) * v[j];
+    }
+    return product;
   }
-  friend Tensor2 operator+(const Tensor2& a, const Tensor2& b) {
-    Tensor2 sum;
-    for (std::size_t i = 0; i < 4; ++i) sum.t[i] = a.t[i] + b.t[i];
+  Vector operator*(const ImageIn<D>& image) const {
+    Vector v;
+    for (std::size_t i = 0; i < n; ++i) v[i] = static_cast<double>(image[i]);
+    return *this * v;
+  }
+  Tensor operator*(const Tensor& o) const {
+    Tensor product;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) {
+        product(i, k) = (*this)(i, 0) * o(0, k);
+        for (std::size_t j = 1; j < n; ++j) product(i, k) += (*this)(i, j) * o(j, k);
+      }
+    return product;
+  }
+  Tensor transposed() const {
+    Tensor swapped;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) swapped(j, i) = (*this)(i, j);
+    return swapped;
+  }
+  double determinant() const {
+    if constexpr (n == 2) return t[0] * t[3] - t[1] * t[2];
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += (*this)(0, j) * cofactor(0, j);
     return sum;
   }
-  friend Tensor2 operator*(double s, const Tensor2& a) {
-    Tensor2 scaled;
-    for (std::size_t i = 0; i < 4; ++i) scaled.t[i] = s * a.t[i];
+  Tensor inverse() const {
+    const double d = 1 / determinant();
+    Tensor inverted;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) inverted(j, i) = d * cofactor(i, j);
+    return inverted;
+  }
+  friend Tensor operator+(const Tensor& a, const Tensor& b) {
+    Tensor sum;
+    for (std::size_t i = 0; i < n * n; ++i) sum.t[i] = a.t[i] + b.t[i];
+    return sum;
+  }
+  friend Tensor operator*(double s, const Tensor& a) {
+    Tensor scaled;
+    for (std::size_t i = 0; i < n * n; ++i) scaled.t[i] = s * a.t[i];
     return scaled;
   }
   // a_ij b_ij
-  friend double product(const Tensor2& a, const Tensor2& b) {
+  friend double product(const Tensor& a, const Tensor& b) {
     double sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) sum += a.t[i] * b.t[i];
+    for (std::size_t i = 0; i < n * n; ++i) sum += a.t[i] * b.t[i];
     return sum;
+  }
+
+ private:
+  double cofactor(std::size_t i, std::size_t j) const {
+    if constexpr (n == 2) {
+      const double minor = (*this)(1 - i, 1 - j);
+      return i == j ? minor : -minor;
+    } else {
+      const std::size_t a = (i + 1) % n, b = (i + 2) % n, c = (j + 1) % n, d = (j + 2) % n;
+      return (*this)(a, c) * (*this)(b, d) - (*this)(a, d) * (*this)(b, c);
+    }
   }
 };
 
 // Mixed strain and stress control of the whole powder: the targets of its stages, and the progress so
-// far. Used for a periodic cell, or for the four planes of a die.
+// far. Used for a periodic cell, or for the planes of a die.
 struct MixedControl {
-  enum Part { xx, yy, xy, parts };  // tensor components, each strain- or stress-controlled
+  // Tensor components, each strain- or stress-controlled. In two dimensions those with z have no strain.
+  enum Part { xx, yy, zz, xy, yz, zx, parts };
   enum class Law {
     strain,  // strain-controlled
     stress,  // stress-controlled
-    ratio,   // xx: kept at this ratio to the stress yy
-    mean     // xx: the mean of xx and yy is kept
+    ratio,   // lateral: kept at this ratio to the axial stress
+    mean     // lateral: all equal, so that the mean of the normal stresses is kept
   };
+  static constexpr bool is_shear(int part) { return part >= xy; }
   struct Stage {
     double duration = 0;                 // s, planned
     double ramp = 0.1;                   // -, share of the duration
@@ -90,12 +171,12 @@ struct MixedControl {
     std::array<Law, parts> law{};        //
     std::array<double, parts> strain{};  // -, over the stage: integral of the rate of deformation
     std::array<double, parts> stress{};  // Pa, tension > 0; for a ratio: -
-    double rotation = 0;                 // rad, over the stage
+    Point3 rotation{};                   // rad, over the stage: integral of the spin
     double mass = 0;                     // kg m^2, minimum for a servo
     double damping = 0;                  // N m s, of its dashpot at that mass
 
     bool holds_stress() const {
-      return law[xx] != Law::strain || law[yy] != Law::strain || law[xy] != Law::strain;
+      return std::ranges::any_of(law, [](Law l) { return l != Law::strain; });
     }
   };
   struct Servo {          // of one stress-controlled component (systems/tools/servo_kernel.hpp)
@@ -111,10 +192,13 @@ struct MixedControl {
 
   // From the scene
   std::vector<Stage> stages;
+  int axes = 2;  // of the scene
+  // The direction in which powders are pressed by most machines: y in the plane, z in space.
+  Part axial() const { return axes == 2 ? yy : zz; }
 
   // State of the run
   std::array<double, parts> strain{};  // integral of the rate of deformation so far
-  double rotation = 0;                 // rad, integral of the spin
+  Point3 rotation{};                   // rad, integral of the spin
   std::array<double, parts> stress{};  // Pa
   std::array<double, parts> asked{};   // Pa, target
   std::array<Servo, parts> servos{};
@@ -128,29 +212,36 @@ struct MixedControl {
   }
 };
 
+template <class D>
 struct PeriodicCell {
   static constexpr const char* resource_name = "periodic_cell";
+  using Vector = typename D::Point;
 
   // From the scene
-  Point centre{};        // m, centre of mass of the powder: the centre of the homogeneous motion
-  Point corner{};        // -, corner of the initial cell relative to the centre, in cell vectors
-  double thickness = 0;  // m
+  Vector centre{};       // m, centre of mass of the powder: the centre of the homogeneous motion
+  Vector corner{};       // -, corner of the initial cell relative to the centre, in cell vectors
+  double thickness = 1;  // m; 1 in three dimensions
 
   // State of the run
   MixedControl control;
-  Tensor2 vectors;  // m, cell vectors as columns
-  Tensor2 rate;  // m/s, of the cell vectors, over the last step; the next one once forces are known
-  Tensor2 gradient;      // 1/s, velocity gradient over the same step
-  Tensor2 next;          // m, cell vectors at the end of the step
-  Tensor2 change;        // 1/s, of the homogeneous velocity field, from the last step to the next
-  Tensor2 border_force;  // N: sum over the contacts of force on the sampled side times image vector
+  Tensor<D> vectors;  // m, cell vectors as columns
+  Tensor<D>
+      rate;  // m/s, of the cell vectors, over the last step; the next one once forces are known
+  Tensor<D> gradient;  // 1/s, velocity gradient over the same step
+  Tensor<D> next;      // m, cell vectors at the end of the step
+  Tensor<D> change;    // 1/s, of the homogeneous velocity field, from the last step to the next
+  Tensor<D>
+      border_force;  // N: sum over the contacts of force on the sampled side times image vector
 
-  double area() const { return std::abs(vectors.determinant()); }
+  // m^2, or m^3 in three dimensions
+  double size() const { return std::abs(vectors.determinant()); }
+  double volume() const { return size() * thickness; }  // m^3
   // m: follows the homogeneous motion about the centre, as the particles do on average. In a periodic powder any corner
   // would do; with this one few particles leave the cell.
-  Point corner_now() const {
-    const Point way = vectors * corner;
-    return {centre[0] + way[0], centre[1] + way[1]};
+  Vector corner_now() const {
+    Vector at = vectors * corner;
+    for (std::size_t k = 0; k < D::axes; ++k) at[k] += centre[k];
+    return at;
   }
 
   template <class Bytes>
@@ -159,11 +250,32 @@ struct PeriodicCell {
   }
 };
 
-// The four planes of a die, driven like the borders of a cell: by strains or stresses, about the centre between them.
+// act(cell) with the periodic cell of either dimension; false if there is none.
+template <class Act>
+bool with_cell_of(const World& world, const Act& act) {
+  if (world.has<PeriodicCell<TwoD>>())
+    act(world.resource<PeriodicCell<TwoD>>());
+  else if (world.has<PeriodicCell<ThreeD>>())
+    act(world.resource<PeriodicCell<ThreeD>>());
+  else
+    return false;
+  return true;
+}
+// Of its images: 2 or 3; 0 without a periodic cell.
+inline std::size_t cell_axes(const World& world) {
+  std::size_t axes = 0;
+  with_cell_of(world, [&](const auto& cell) { axes = cell.vectors.n; });
+  return axes;
+}
+
+// The planes of a die, driven like the borders of a cell: by strains or stresses, about the centre between them.
 struct DrivenWalls {
   static constexpr const char* resource_name = "driven_walls";
-  int left = 0, right = 0, bottom = 0, top = 0;  // tool numbers
-  double thickness = 0;                          // m
+  struct Axis {
+    int low = 0, high = 0;  // tool numbers
+  };
+  std::vector<Axis> walls;  // along x, y, and z in three dimensions
+  double thickness = 1;     // m; 1 in three dimensions
   MixedControl control;
 
   template <class Bytes>

@@ -142,9 +142,9 @@ struct ContactIndex {
   std::int64_t bins = 0;      // number of rebuilds so far
   std::vector<std::int32_t> neighbour_begin;  // [slots + 1] into neighbours
   std::vector<std::int32_t> neighbours;  // slots, including itself, at the last rebuild; sorted
-  // In a periodic cell, for each neighbour: the number of periods by which it is shifted.
-  std::vector<std::array<std::int32_t, 2>> images;
-  std::array<double, 4> cell_before{};      // m, the cell vectors at the last rebuild
+  // In a periodic cell, for each neighbour: the number of periods by which it is shifted along each vector.
+  std::vector<std::int32_t> images;
+  std::vector<double> cell_before;          // m, the tensor of the cell vectors at the last rebuild
   std::vector<Point3> tools_before;         // m, [tools]: tool positions then
   std::vector<std::int32_t> sampled_begin;  // [slots + 1] into contact rows: as sampled particle
   std::vector<std::int32_t>

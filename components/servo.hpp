@@ -147,12 +147,12 @@ struct StageEnds {
       bytes(reached);
     }
   };
-  struct Cell {  // tools around the powder, and the particle area, for relative density
+  struct Cell {  // tools around the powder, for relative density
     int left = 0, right = 0, bottom = 0, top = 0;
-    double particle_area = 0;  // m^2
-    Relief relief = {};        // of the bottom tool
+    Relief relief = {};  // of the bottom tool
   };
   std::vector<End> ends;
+  double content = 0;  // m^2 or m^3, undeformed, of all particles
   Cell cell;
   std::optional<DieRoom> room = {};    // used instead of the cell in three dimensions
   std::vector<Point3> tools_at_begin;  // m, [tools]: tool positions at the start of the stage

@@ -195,7 +195,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
   if (needs.tools || needs.constraints) add_tools(*world, scene, particles, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
-    add_cell(*world, scene, particles);
+    add_cell<TwoD>(*world, scene, particles);
     if (scene.cell) add_drives<TwoD>(*world, scene, particles);
     world->emplace<ContactQuality>();
     ContactRules& rules = world->emplace<ContactRules>(contact_rules(scene));

@@ -8,6 +8,7 @@
 #include "scenes/results/solids/observe.hpp"
 #include "scenes/solid_contact_columns.hpp"
 #include "scenes/solid_layout.hpp"
+#include "scenes/tools/cell.hpp"
 #include "scenes/tools/constraints.hpp"
 #include "scenes/tools/drives.hpp"
 
@@ -48,6 +49,8 @@ std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
     add_drives<ThreeD>(*world, scene, bodies);
   }
   add_contact(*world, scene, needs);
+  add_cell<ThreeD>(*world, scene, bodies);
+  if (scene.cell) add_drives<ThreeD>(*world, scene, bodies);
   if (needs.constraints)
     add_constraints<ThreeD>(
         *world, scene, node_places(world->resource<Shapes>(), world->resource<Bodies>(), layout));

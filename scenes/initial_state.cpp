@@ -58,8 +58,10 @@ void start_constraints(World& world) {
     }
 }
 
-void start_cell(PeriodicCell& cell) {
-  MixedControl& control = cell.control;
+template <class D>
+void start_cell(World& world) {
+  if (!world.has<PeriodicCell<D>>()) return;
+  MixedControl& control = world.resource<PeriodicCell<D>>().control;
   control.servos = {};
   control.asked = {};
   control.stage = static_cast<std::size_t>(-1);
@@ -96,7 +98,8 @@ void begin_with_state(World& world, const Scene& scene) {
   start_tools(world);
   start_constraints<TwoD>(world);
   start_constraints<ThreeD>(world);
-  if (world.has<PeriodicCell>()) start_cell(world.resource<PeriodicCell>());
+  start_cell<TwoD>(world);
+  start_cell<ThreeD>(world);
 }
 
 }  // namespace pulvis

@@ -79,7 +79,7 @@ std::uint64_t edge_row_bytes(const Needs& needs) {
     bytes += bytes_of<BondLawNumber<At>, BondedPoints<At>, BondOffset<At>, BondStrength<At>,
                       BondDamage<At>, CurveAnchor>();
   bytes += bytes_if<WeldPressure<At>>(needs.welds);
-  bytes += bytes_if<ContactImage>(needs.cell);
+  bytes += bytes_if<ContactImage<At>>(needs.cell);
   return bytes;
 }
 

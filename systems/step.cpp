@@ -181,32 +181,32 @@ StepList step_list_of(World& w) {
   const Contacts<D> contacts(w);
   const bool constraints = w.has<ConstraintReaction>();
   const bool moved = contacts.tools || constraints;
-  const bool cell = w.has<PeriodicCell>();
+  const bool cell = w.has<PeriodicCell<D>>();
   SystemList force(w), move(w);
 
   // clang-format off
   force.add<tool_motion>                ("tool_motion",       moved);
   add_contacts<D>(w, force);
-  force.add<cell_load>                  ("cell_load",         cell);
-  force.add<cell_control>               ("cell_control",      cell);
+  force.add<cell_load<D>>               ("cell_load",         cell);
+  force.add<cell_control<D>>            ("cell_control",      cell);
   add_element_forces<F>(w, force);
   add_time_step<F>(w, force);
   force.add<apply_constraints<D>>       ("apply_constraints", constraints);
   force.add<tool_reaction<D>>           ("tool_reaction",     moved);
-  force.add<wall_control>               ("wall_control",      w.has<DrivenWalls>());
-  force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
+  force.add<wall_control<D>>            ("wall_control",      w.has<DrivenWalls>());
+  force.add<stage_control<D>>           ("stage_control",     w.has<StageEnds>());
   force.add<tool_servo<D>>              ("tool_servo",        w.has<ToolServos>());
 
-  move.add<cell_kick>                   ("cell_kick",         cell);
+  move.add<cell_kick<D>>                ("cell_kick",         cell);
   move.add<integrate<D>>                ("integrate");
   move.add<contact_curve>               ("contact_curve",     in_plane<D> && contacts.any());
   move.add<space::contact_surface>      ("contact_surface",   in_space<D> && contacts.any());
   move.add<surface_hardness<F>>         ("surface_hardness",  w.has<SurfaceHardness<D>>());
   move.add<send_outlines<D>>            ("send_outlines",     contacts.ranks);
-  move.add<cell_motion>                 ("cell_motion",       cell);
+  move.add<cell_motion<D>>              ("cell_motion",       cell);
   move.add<element_health>              ("element_health");
   move.add<return_health>               ("return_health",     w.has<ReturnResidual>());
-  move.add<advance_clock>               ("advance_clock");
+  move.add<advance_clock<D>>            ("advance_clock");
   // clang-format on
   return {force.taken(), observed_of<F>(w), move.taken()};
 }
@@ -251,7 +251,7 @@ std::vector<System> start_list_of(World& w) {
   start.add<surface_hardness<F>>("surface_hardness", w.has<SurfaceHardness<D>>());
   add_first_contacts<D>(w, start);
   add_time_step<F>(w, start);
-  start.add<first_time_step>("first_time_step");
+  start.add<first_time_step<D>>("first_time_step");
   return start.taken();
 }
 

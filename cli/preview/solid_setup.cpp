@@ -133,6 +133,7 @@ json solid_setup(const Scene& scene, const std::vector<BodySpec>& particles, con
              {"particles", particles_in_space(scene, particles, world)},
              {"bonds", {{"edges", json::array()}, {"faces", faces}}}};
   setup["tools"] = tools_in_space(scene, setup["particles"], world);
+  setup["cell"] = cell_setup(world);
   return setup;
 }
 

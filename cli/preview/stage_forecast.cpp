@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "scenes/checks/enclosed.hpp"
 #include "scenes/spec/cell_spec.hpp"
+#include "scenes/tools/cell.hpp"
 #include "systems/tools/tool_kernel.hpp"
 
 namespace pulvis {
@@ -52,8 +54,7 @@ class Forecaster {
     if (scene.initial_state) return;
     const double powder = content_of_powder(scene, bodies);
     if (scene.cell && scene.cell->height) {
-      const double angle = scene.cell->angle;
-      cell_density_ = powder / (scene.cell->width * *scene.cell->height * std::cos(angle));
+      cell_density_ = powder / size_of_cell(*scene.cell);
     } else if (auto room = enclosed(scene)) {
       room_ = std::move(room);
       powder_ = powder;
@@ -108,11 +109,17 @@ class Forecaster {
   void strain(const StageSpec& stage, StageForecast& forecast) {
     if (!stage.cell) return;
     const CellDriveSpec& drive = *stage.cell;
-    if (drive.stress_xx || drive.stress_yy || drive.stress_ratio || drive.mean_stress) {
+    const auto normal = [&](const CellDriveSpec::Parts& parts) {
+      return std::span(parts.data(), static_cast<std::size_t>(scene_.dimension));
+    };
+    const bool stressed =
+        std::ranges::any_of(normal(drive.stress), [](const auto& part) { return bool(part); });
+    if (stressed || drive.stress_ratio || drive.mean_stress) {
       cell_density_.reset();
       return;
     }
-    const double volume = drive.strain_xx.value_or(0) + drive.strain_yy.value_or(0);
+    double volume = 0;
+    for (const auto& strain : normal(drive.strain)) volume += strain.value_or(0);
     double share = 1;
     if (stage.until && stage.until->relative_density) {
       share = share_at([&](double at) {

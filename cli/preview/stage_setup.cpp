@@ -1,5 +1,7 @@
 #include "cli/preview/stage_setup.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/enum_table.hpp"
@@ -54,20 +56,22 @@ json until_setup(const Scene& scene, const UntilSpec& until) {
   return out;
 }
 
-json drive_setup(const CellDriveSpec& drive) {
+json drive_setup(const Scene& scene, const CellDriveSpec& drive) {
   json out = json::object();
-  const auto add = [&](const char* name, const std::optional<double>& value) {
+  const auto add = [&](const std::string& name, const std::optional<double>& value) {
     if (value) out[name] = *value;
   };
-  add("strain_xx", drive.strain_xx);
-  add("strain_yy", drive.strain_yy);
-  add("strain_xy", drive.strain_xy);
-  add("stress_xx", drive.stress_xx);
-  add("stress_yy", drive.stress_yy);
-  add("stress_xy", drive.stress_xy);
+  for (std::size_t part = 0; part < tensor_parts; ++part)
+    add(fmt::format("strain_{}", tensor_part_names[part]), drive.strain[part]);
+  for (std::size_t part = 0; part < tensor_parts; ++part)
+    add(fmt::format("stress_{}", tensor_part_names[part]), drive.stress[part]);
   add("stress_ratio", drive.stress_ratio);
   add("mean_stress", drive.mean_stress);
-  if (drive.rotation != 0) out["rotation"] = drive.rotation;
+  if (drive.rotation == Vec3::Zero()) return out;
+  if (scene.in_space())
+    out["rotation"] = vector_of(drive.rotation, scene);
+  else
+    out["rotation"] = drive.rotation.z();
   return out;
 }
 
@@ -84,7 +88,7 @@ json stage_setup(const Scene& scene) {
     for (const MoveSpec& move : stage.moves) out["moves"].push_back(move_setup(scene, stage, move));
     for (const ServoSpec& servo : stage.servos) out["servos"].push_back(servo_setup(scene, servo));
     if (stage.until) out["until"] = until_setup(scene, *stage.until);
-    if (stage.cell) out["cell"] = drive_setup(*stage.cell);
+    if (stage.cell) out["cell"] = drive_setup(scene, *stage.cell);
     if (stage.keep_state) out["keep_state"] = true;
     stages.push_back(std::move(out));
   }

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/surface.hpp"
 #include "engine/enum_table.hpp"
+#include "scenes/tools/cell.hpp"
 #include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "scenes/tools/die_sides.hpp"
@@ -120,11 +120,13 @@ json die_setup(const Scene& scene, const json& tools) {
 }
 
 json cell_setup(const World& world) {
-  if (!world.has<PeriodicCell>()) return nullptr;
-  const auto& cell = world.resource<PeriodicCell>();
-  const auto& t = cell.vectors.t;
-  return {{"corner", {cell.corner_now()[0], cell.corner_now()[1]}},
-          {"vectors", {{t[0], t[2]}, {t[1], t[3]}}}};
+  json setup = nullptr;
+  with_cell_of(world, [&](const auto& cell) {
+    setup = {{"corner", cell.corner_now()}, {"vectors", json::array()}};
+    for (std::size_t k = 0; k < cell.vectors.n; ++k)
+      setup["vectors"].push_back(cell.vectors.column(k));
+  });
+  return setup;
 }
 
 }  // namespace pulvis

@@ -6,63 +6,93 @@
 namespace pulvis {
 namespace {
 
-Point sum(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1]}; }
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1]}; }
+template <std::size_t N>
+using Vector = std::array<double, N>;
+
+// a + factor b
+template <std::size_t N>
+Vector<N> sum(Vector<N> a, const Vector<N>& b, double factor = 1) {
+  for (std::size_t k = 0; k < N; ++k) a[k] += factor * b[k];
+  return a;
+}
+
+// Each component rounded by `round`.
+template <std::size_t N, class Round>
+Vector<N> whole(Vector<N> a, const Round& round) {
+  for (double& x : a) x = round(x);
+  return a;
+}
 
 }  // namespace
 
-ReportCell::ReportCell(const hdf5::File& file, const std::string& frame,
-                       const std::vector<std::int32_t>& node_particle)
+template <class D>
+ReportCell<D>::ReportCell(const hdf5::File& file, const std::string& frame,
+                          const std::vector<std::int32_t>& node_particle)
     : node_particle_(node_particle) {
   if (!file.contains(frame + "/cell") || node_particle.empty()) return;
   const std::vector<double> cell = file.read_doubles(frame + "/cell");
-  corner_ = {cell.at(0), cell.at(1)};
-  vectors_ = {{cell.at(2), cell.at(4), cell.at(3), cell.at(5)}};
+  for (std::size_t i = 0; i < D::axes; ++i) {
+    corner_[i] = cell.at(i);
+    for (std::size_t j = 0; j < D::axes; ++j) vectors_(i, j) = cell.at(D::axes * (j + 1) + i);
+  }
   find_ways(file.read_doubles(frame + "/position"));
 }
 
-void ReportCell::find_ways(const std::vector<double>& positions) {
+template <class D>
+void ReportCell<D>::find_ways(const std::vector<double>& positions) {
   const auto particles = static_cast<std::size_t>(*std::ranges::max_element(node_particle_)) + 1;
   std::vector<Point> centre(particles);
   std::vector<double> nodes(particles);
   for (std::size_t n = 0; n < node_particle_.size(); ++n) {
     const auto p = static_cast<std::size_t>(node_particle_[n]);
-    centre[p] = sum(centre[p], {positions[2 * n], positions[2 * n + 1]});
+    for (std::size_t k = 0; k < D::axes; ++k) centre[p][k] += positions[D::axes * n + k];
     nodes[p] += 1;
   }
-  const Tensor2 inverse = vectors_.inverse();
+  const Tensor<D> inverse = vectors_.inverse();
   for (std::size_t p = 0; p < particles; ++p) {
-    const Point middle{centre[p][0] / nodes[p], centre[p][1] / nodes[p]};
-    const Point at = inverse * difference(middle, corner_);
-    way_.push_back(vectors_ * Point{-std::floor(at[0]), -std::floor(at[1])});
+    for (double& x : centre[p]) x /= nodes[p];
+    const Point at = inverse * sum(centre[p], corner_, -1);
+    way_.push_back(vectors_ * whole(at, [](double x) { return -std::floor(x); }));
   }
 }
 
-std::vector<double> ReportCell::inside(std::vector<double> positions) const {
+template <class D>
+std::vector<double> ReportCell<D>::inside(std::vector<double> positions) const {
   if (here())
     for (std::size_t i = 0; i < positions.size(); ++i)
-      positions[i] += way(node_particle_[i / 2])[i % 2];
+      positions[i] += way(node_particle_[i / D::axes])[i % D::axes];
   return positions;
 }
 
-Point ReportCell::other_end(const Point& from, const Point& through, const Point& other) const {
+template <class D>
+auto ReportCell<D>::other_end(const Point& from, const Point& through, const Point& other) const
+    -> Point {
   if (!here()) return other;
-  const Point there = difference(sum(through, through), from);
-  const Point periods = vectors_.inverse() * difference(there, other);
-  return sum(other, vectors_ * Point{std::round(periods[0]), std::round(periods[1])});
+  const Point there = sum(sum(through, through), from, -1);
+  const Point periods = vectors_.inverse() * sum(there, other, -1);
+  return sum(other, vectors_ * whole(periods, [](double x) { return std::round(x); }));
 }
 
-std::vector<double> ReportCell::numbers() const {
-  const auto& h = vectors_.t;
-  return {corner_[0], corner_[1], h[0], h[2], h[1], h[3]};
-}
-
-std::vector<Point> ReportCell::corners() const {
-  std::vector<Point> all;
-  if (!here()) return all;
-  for (const Point& at : {Point{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-    all.push_back(sum(corner_, vectors_ * at));
+template <class D>
+std::vector<double> ReportCell<D>::numbers() const {
+  std::vector<double> all(corner_.begin(), corner_.end());
+  for (std::size_t j = 0; j < D::axes; ++j)
+    for (const double x : vectors_.column(j)) all.push_back(x);
   return all;
 }
+
+template <class D>
+auto ReportCell<D>::corners() const -> std::vector<Point> {
+  std::vector<Point> all;
+  if (!here()) return all;
+  ImageIn<D> last;
+  last.fill(1);
+  for_images<D>({}, last,
+                [&](const ImageIn<D>& at) { all.push_back(sum(corner_, vectors_ * at)); });
+  return all;
+}
+
+template class ReportCell<TwoD>;
+template class ReportCell<ThreeD>;
 
 }  // namespace pulvis

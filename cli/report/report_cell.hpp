@@ -9,8 +9,11 @@
 
 namespace pulvis {
 
+template <class D>
 class ReportCell {
  public:
+  using Point = typename D::Point;
+
   ReportCell(const hdf5::File& file, const std::string& frame,
              const std::vector<std::int32_t>& node_particle);
 
@@ -19,12 +22,12 @@ class ReportCell {
   Point way(std::int32_t particle) const {
     return here() ? way_[static_cast<std::size_t>(particle)] : Point{};
   }
-  // x, y of all nodes, shifted into the cell.
+  // Coordinates of all nodes, shifted into the cell.
   std::vector<double> inside(std::vector<double> positions) const;
   // For a line from the centre of one particle through its contact point with another: the centre of that image of the
   // other one. Neighbouring particles are assumed to be of similar size.
   Point other_end(const Point& from, const Point& through, const Point& other) const;
-  // Corner, first and second vector.
+  // Corner and vectors.
   std::vector<double> numbers() const;
   std::vector<Point> corners() const;
 
@@ -33,7 +36,7 @@ class ReportCell {
 
   const std::vector<std::int32_t>& node_particle_;
   Point corner_{};
-  Tensor2 vectors_;
+  Tensor<D> vectors_;
   std::vector<Point> way_;
 };
 

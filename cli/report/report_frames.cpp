@@ -79,10 +79,10 @@ class Frames {
     fields_ = cell_fields(file_, last_, {.tensors = tensors, .particles = false});
   }
 
-  ReportCell cell(const std::string& frame) const {
+  ReportCell<TwoD> cell(const std::string& frame) const {
     return {file_, frame_path(frame), mesh_.node_particle};
   }
-  std::vector<double> positions(const std::string& frame, const ReportCell& cell) const {
+  std::vector<double> positions(const std::string& frame, const ReportCell<TwoD>& cell) const {
     return drawn_.positions(cell.inside(file_.read_doubles(frame_path(frame) + "/position")));
   }
 
@@ -93,7 +93,7 @@ class Frames {
 
   void find_ranges() {
     for (const auto& frame : frames_) {
-      const ReportCell of_frame = cell(frame);
+      const ReportCell<TwoD> of_frame = cell(frame);
       const auto xy = positions(frame, of_frame);
       for (std::size_t i = 0; i < xy.size(); ++i) widen(i % 2 == 0 ? x_ : y_, xy[i]);
       for (const Point& corner : of_frame.corners()) {
@@ -112,7 +112,7 @@ class Frames {
     const std::string prefix = "frame-" + std::to_string(number) + "-";
     const double width = std::max(x_.high - x_.low, y_.high - y_.low);
     const std::size_t levels = fans_ ? coarse_levels : fine_levels;
-    const ReportCell of_frame = cell(frame);
+    const ReportCell<TwoD> of_frame = cell(frame);
     auto xy = positions(frame, of_frame);  // both axes with the same step length: from 0 to `width`
     for (std::size_t i = 0; i < xy.size(); ++i) xy[i] -= i % 2 == 0 ? x_.low : y_.low;
     sections_.push_back({prefix + "position", encoded(quantised(xy, {0, width}), 2)});

@@ -40,7 +40,7 @@ std::vector<double> means(const std::vector<double>& cells, std::size_t columns,
 
 class Observed {
  public:
-  Observed(const hdf5::File& file, std::string frame, const ReportCell& cell)
+  Observed(const hdf5::File& file, std::string frame, const ReportCell<TwoD>& cell)
       : file_(file), frame_(std::move(frame)), cell_(cell) {}
 
   bool has(const std::string& name) const { return file_.contains(frame_ + "/" + name); }
@@ -131,13 +131,13 @@ class Observed {
 
   const hdf5::File& file_;
   std::string frame_;
-  const ReportCell& cell_;
+  const ReportCell<TwoD>& cell_;
 };
 
 }  // namespace
 
 void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
-                  const ReportCell& cell, Json& entry, std::vector<ReportSection>& sections) {
+                  const ReportCell<TwoD>& cell, Json& entry, std::vector<ReportSection>& sections) {
   const Observed observed(file, frame, cell);
   if (observed.has("local_density")) entry["density"] = observed.density();
   if (observed.has("bonds")) {

@@ -13,7 +13,7 @@ namespace pulvis {
 
 // Adds "density" and "network" to the frame's entry in the report's head, and the contact lines.
 void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
-                  const ReportCell& cell, nlohmann::ordered_json& entry,
+                  const ReportCell<TwoD>& cell, nlohmann::ordered_json& entry,
                   std::vector<ReportSection>& sections);
 
 }  // namespace pulvis

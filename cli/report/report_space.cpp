@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "cli/report/report_cell.hpp"
 #include "cli/report/report_encoding.hpp"
 #include "cli/report/report_fields.hpp"
 #include "cli/report/report_fragments.hpp"
@@ -76,8 +77,11 @@ class SpaceFrames {
     return budget_ / std::max<std::size_t>(1, bytes);
   }
 
+  ReportCell<ThreeD> cell(const std::string& frame) const {
+    return {file_, frame, mesh_.node_particle};
+  }
   std::vector<double> positions(const std::string& frame) const {
-    return drawn_.positions(file_.read_doubles(frame + "/position"));
+    return drawn_.positions(cell(frame).inside(file_.read_doubles(frame + "/position")));
   }
   std::vector<double> values(const std::string& frame, const CellField& field) const {
     return drawn_.values(
@@ -88,6 +92,8 @@ class SpaceFrames {
     for (const auto& frame : frames_) {
       const auto xyz = positions(frame);
       for (std::size_t i = 0; i < xyz.size(); ++i) widen(box_[i % 3], xyz[i]);
+      for (const Point3& corner : cell(frame).corners())
+        for (std::size_t k = 0; k < 3; ++k) widen(box_[k], corner[k]);
       for (auto& field : fields_)
         for (const double value : values(frame, field)) widen(field.range, value);
     }
@@ -123,9 +129,13 @@ class SpaceFrames {
     }
     add_tool_corners(file_, frame, prefix, sections_);
     head_["frames"].push_back({{"time", file_.number_attribute(frame, "time")},
-                               {"step", file_.number_attribute(frame, "step")},
-                               {"profile", profile(frame)}});
-    add_space_observed(file_, frame, prefix, head_["frames"].back(), sections_);
+                               {"step", file_.number_attribute(frame, "step")}});
+    const ReportCell<ThreeD> of_frame = cell(frame);
+    if (of_frame.here())
+      head_["frames"].back()["cell"] = of_frame.numbers();
+    else  // a powder without walls has no ends
+      head_["frames"].back()["profile"] = profile(frame);
+    add_space_observed(file_, frame, prefix, of_frame, head_["frames"].back(), sections_);
     add_space_bonds(file_, frame, prefix, head_["frames"].back(), sections_);
   }
 

@@ -9,11 +9,15 @@ namespace pulvis {
 namespace {
 
 // Lines to draw, seven numbers each: centre to centre, or centre to the tool's contact point; normal force.
-std::vector<float> space_network_lines(const hdf5::File& file, const std::string& frame) {
+std::vector<float> space_network_lines(const hdf5::File& file, const std::string& frame,
+                                       const ReportCell<ThreeD>& cell) {
   std::vector<float> lines;
   const std::vector<double> centre = file.read_doubles(frame + "/particle_centre");
-  const auto add_point = [&](const std::vector<double>& points, std::size_t number) {
-    for (std::size_t k = 0; k < 3; ++k) lines.push_back(static_cast<float>(points[3 * number + k]));
+  const auto point_of = [](const std::vector<double>& points, std::size_t number) {
+    return Point3{points[3 * number], points[3 * number + 1], points[3 * number + 2]};
+  };
+  const auto add_point = [&](const Point3& point, const Point3& shift) {
+    for (std::size_t k = 0; k < 3; ++k) lines.push_back(static_cast<float>(point[k] + shift[k]));
   };
   for (const char* name : {"/contacts", "/tool_contacts"}) {
     const std::string group = frame + name;
@@ -22,11 +26,15 @@ std::vector<float> space_network_lines(const hdf5::File& file, const std::string
     const auto point = file.read_doubles(group + "/point");
     const auto force = file.read_doubles(group + "/normal_force");
     for (std::size_t i = 0; i < force.size(); ++i) {
-      add_point(centre, static_cast<std::size_t>(ids[2 * i]));
+      const Point3 from = point_of(centre, static_cast<std::size_t>(ids[2 * i]));
+      const Point3 through = point_of(point, i), shift = cell.way(ids[2 * i]);
+      add_point(from, shift);
       if (pairs)
-        add_point(centre, static_cast<std::size_t>(ids[2 * i + 1]));
+        add_point(cell.other_end(from, through,
+                                 point_of(centre, static_cast<std::size_t>(ids[2 * i + 1]))),
+                  shift);
       else
-        add_point(point, i);
+        add_point(through, shift);
       lines.push_back(static_cast<float>(std::abs(force[i])));  // the width of the line
     }
   }
@@ -93,10 +101,11 @@ nlohmann::ordered_json density_grid_of(const hdf5::File& file, const std::string
 }  // namespace
 
 void add_space_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
-                        nlohmann::ordered_json& entry, std::vector<ReportSection>& sections) {
+                        const ReportCell<ThreeD>& cell, nlohmann::ordered_json& entry,
+                        std::vector<ReportSection>& sections) {
   if (file.contains(frame + "/local_density")) entry["grid"] = density_grid_of(file, frame);
   if (!file.contains(frame + "/contacts")) return;
-  const std::vector<float> lines = space_network_lines(file, frame);
+  const std::vector<float> lines = space_network_lines(file, frame, cell);
   entry["network"] = {{"lines", lines.size() / 7},
                       {"unit", file.text_attribute(frame + "/contacts/normal_force", "unit")}};
   if (!lines.empty()) sections.push_back({prefix + "network", encoded(lines)});

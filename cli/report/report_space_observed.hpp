@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/report/report_cell.hpp"
 #include "cli/report/report_data.hpp"
 #include "engine/files/hdf5.hpp"
 
@@ -12,6 +13,7 @@ namespace pulvis {
 
 // Adds to the entry of a frame ("/frames/N") and, as sections that begin with `prefix`, the numbers.
 void add_space_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
-                        nlohmann::ordered_json& entry, std::vector<ReportSection>& sections);
+                        const ReportCell<ThreeD>& cell, nlohmann::ordered_json& entry,
+                        std::vector<ReportSection>& sections);
 
 }  // namespace pulvis

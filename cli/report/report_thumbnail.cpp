@@ -151,7 +151,7 @@ Drawing plane_drawing(const hdf5::File& file, const std::string& frame) {
                        file.read_doubles("/mesh/reference")};
   const DrawnMesh drawn =
       mesh.cells() > thumbnail_cells ? DrawnMesh::fans(mesh, fan_sectors) : DrawnMesh::whole(mesh);
-  const ReportCell cell{file, frame, mesh.node_particle};
+  const ReportCell<TwoD> cell{file, frame, mesh.node_particle};
   const auto xy = drawn.positions(cell.inside(file.read_doubles(frame + "/position")));
   Drawing drawing;
   std::vector<double> values(drawn.cell_count(), 0.0);

@@ -113,7 +113,8 @@ struct ContactPointForce : Component<FaceContact, double, 3 * face_points> {
 };
 
 // ---- pairs of particles ------------------------------------------------------------------------------
-// The rows of one particle against one other. Built with the rows, which are sorted by (particle, other, face).
+// The rows of one particle against one other, or one of its periodic images. Built with the rows, which are sorted by
+// (particle, other, image, face).
 struct FacePairs {
   static constexpr const char* resource_name = "face_pairs";
   std::vector<std::int32_t> begin{0};     // [pairs + 1] into rows
@@ -125,12 +126,18 @@ struct FacePairs {
   int from_row(std::int32_t row) const {
     return static_cast<int>(std::ranges::lower_bound(begin, row) - begin.begin());
   }
-  // From the keys of the rows: slot, face, other for each; `begins`: slots + 1.
-  void list(std::span<const std::int32_t> keys, std::size_t begins) {
+  // From the keys of the rows: slot, face, other for each; `images`: three numbers for each, none without a cell; `begins`:
+  // slots + 1.
+  void list(std::span<const std::int32_t> keys, std::span<const std::int32_t> images,
+            std::size_t begins) {
+    const auto other_image = [&](std::size_t k) {
+      return !images.empty() &&
+             !std::equal(images.data() + k - 3, images.data() + k, images.data() + k);
+    };
     std::vector<std::int32_t> other;  // [pairs]
     begin.assign(1, 0);
     for (std::size_t k = 0; k < keys.size(); k += 3) {
-      if (k == 0 || keys[k - 3] != keys[k] || keys[k - 1] != keys[k + 2]) {
+      if (k == 0 || keys[k - 3] != keys[k] || keys[k - 1] != keys[k + 2] || other_image(k)) {
         other.push_back(keys[k + 2]);
         begin.push_back(0);
       }

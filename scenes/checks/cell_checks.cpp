@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <vector>
 
 #include "scenes/tools/die_cell.hpp"
+#include "scenes/tools/die_room.hpp"
 
 namespace pulvis {
 namespace {
@@ -54,7 +55,14 @@ class CellChecks {
       refuse("packing[0].width",
              fmt::format("the packing fills the cell, allowed: {:g} m, the width of the cell",
                          cell.width));
-    if (in_plane(packing.container.corner) != cell.corner)
+    if (scene_.in_space() && packing.container.kind != ContainerSpec::Kind::box)
+      return refuse("packing[0].diameter",
+                    "the packing fills the cell, allowed: its `width` and `depth` instead");
+    if (scene_.in_space() && packing.container.depth != *cell.depth)
+      refuse("packing[0].depth",
+             fmt::format("the packing fills the cell, allowed: {:g} m, the depth of the cell",
+                         *cell.depth));
+    if (packing.container.corner != cell.corner)
       refuse("packing[0].corner", "the packing fills the cell, allowed: the corner of the cell");
   }
 
@@ -71,51 +79,66 @@ class CellChecks {
   }
 
   void drive(const CellDriveSpec& drive, const std::string& path) {
-    const std::array<std::pair<const char*, bool>, 3> both{
-        std::pair{".stress_xx", drive.strain_xx && drive.stress_xx},
-        std::pair{".stress_yy", drive.strain_yy && drive.stress_yy},
-        std::pair{".stress_xy", drive.strain_xy && drive.stress_xy}};
-    for (const auto& [key, twice] : both)
-      if (twice)
-        refuse(path + key, "this component has a strain as well, allowed: only one of the two");
-    const int of_xx = int{drive.strain_xx || drive.stress_xx} +
-                      int{drive.stress_ratio.has_value()} + int{drive.mean_stress.has_value()};
-    if (of_xx > 1)
+    for (std::size_t part = 0; part < tensor_parts; ++part)
+      if (drive.strain[part] && drive.stress[part])
+        refuse(fmt::format("{}.stress_{}", path, tensor_part_names[part]),
+               "this component has a strain as well, allowed: only one of the two");
+    const int lateral = scene_.in_space() ? 2 : 1;
+    for (std::size_t part = 0; part < static_cast<std::size_t>(lateral); ++part) {
+      const int given = int{drive.strain[part] || drive.stress[part]} +
+                        int{drive.stress_ratio.has_value()} + int{drive.mean_stress.has_value()};
+      if (given <= 1) continue;
       refuse(path + (drive.mean_stress ? ".mean_stress" : ".stress_ratio"),
-             "the component xx is prescribed twice, allowed: one of strain_xx, stress_xx, "
-             "stress_ratio and mean_stress");
+             fmt::format("the component {0} is prescribed twice, allowed: one of strain_{0}, "
+                         "stress_{0}, stress_ratio and mean_stress",
+                         tensor_part_names[part]));
+      break;
+    }
     unused(drive, path);
   }
 
   // Keys for strains without any strain, and likewise for stresses.
   void unused(const CellDriveSpec& drive, const std::string& path) {
-    const bool strains =
-        drive.strain_xx || drive.strain_yy || drive.strain_xy || drive.rotation != 0;
-    const bool stresses = drive.stress_xx || drive.stress_yy || drive.stress_xy ||
-                          drive.stress_ratio || drive.mean_stress;
     const auto only_with = [&](const std::string& key, bool any, const char* what) {
       if (!any && origins_.contains(path + key))
         refuse(path + key, fmt::format("has no effect without {0}, allowed: with {0}", what));
     };
-    only_with(".ramp", strains, "a strain or a rotation");
+    only_with(".ramp", drive.strains(), "a strain or a rotation");
     for (const char* key : {".rise", ".response", ".tolerance"})
-      only_with(key, stresses, "a stress");
+      only_with(key, drive.stresses(), "a stress");
+  }
+
+  // The tools on all sides; none if that is no box.
+  std::vector<int> sides_of_die() const {
+    if (scene_.in_space()) {
+      const auto room = die_room(scene_);
+      if (!room || room->kind != DieRoom::Kind::box) return {};
+      return {room->tool.begin(), room->tool.end()};
+    }
+    const auto die = die_cell(scene_);
+    if (!die) return {};
+    return {die->left, die->right, die->bottom, die->top};
   }
 
   // For a scene without a cell.
   void walls(const StageSpec& stage, const std::string& path) {
-    const auto die = die_cell(scene_);
-    if (!die)
-      return refuse(path + "cell",
-                    "there is no cell, allowed: with a table [cell], or in a scene whose tools are "
-                    "four planes with normals along +x, -x, +y and -y");
+    const std::vector<int> sides = sides_of_die();
+    if (sides.empty())
+      return refuse(
+          path + "cell",
+          fmt::format("there is no cell, allowed: with a table [cell], or in a scene "
+                      "whose tools are {}",
+                      scene_.in_space() ? "six planes with normals along +x, -x, +y, -y, +z and -z"
+                                        : "four planes with normals along +x, -x, +y and -y"));
     const CellDriveSpec& drive = *stage.cell;
-    if (drive.strain_xy || drive.stress_xy)
-      refuse(path + (drive.strain_xy ? "cell.strain_xy" : "cell.stress_xy"),
-             "planes cannot shear, allowed: in a periodic cell");
-    if (drive.rotation != 0)
+    for (std::size_t part = 3; part < tensor_parts; ++part)
+      if (drive.strain[part] || drive.stress[part])
+        refuse(fmt::format("{}cell.{}_{}", path, drive.strain[part] ? "strain" : "stress",
+                           tensor_part_names[part]),
+               "planes cannot shear, allowed: in a periodic cell");
+    if (drive.rotation != Vec3::Zero())
       refuse(path + "cell.rotation", "planes cannot rotate, allowed: in a periodic cell");
-    for (const int tool : {die->left, die->right, die->bottom, die->top})
+    for (const int tool : sides)
       if (scene_.tools[static_cast<std::size_t>(tool)].shape != ToolSpec::Shape::plane)
         refuse(fmt::format("tool[{}]", tool),
                "it would be moved by [stage.cell], allowed: a plane on each side");

@@ -116,13 +116,18 @@ class Report {
 std::vector<BodySpec> with_images(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::vector<BodySpec> all = bodies;
   if (!scene.cell) return all;
-  const auto [first, second] = cell_vectors(*scene.cell);
+  const std::vector<Vec3> vectors = cell_vectors(*scene.cell);
+  const int across = scene.in_space() ? 1 : 0;
   for (int i = -1; i <= 1; ++i)
-    for (int k = -1; k <= 1; ++k)
-      for (const BodySpec& body : bodies) {
-        if (i == 0 && k == 0) break;
-        all.push_back(body);
-        all.back().position.head<2>() += i * first + k * second;
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -across; k <= across; ++k) {
+        if (i == 0 && j == 0 && k == 0) continue;
+        Vec3 shift = i * vectors[0] + j * vectors[1];
+        if (across != 0) shift += k * vectors[2];
+        for (const BodySpec& body : bodies) {
+          all.push_back(body);
+          all.back().position += shift;
+        }
       }
   return all;
 }

@@ -140,11 +140,6 @@ std::string servo_warning(const Scene& scene, const World& world, const Servo& s
 }
 
 // ---- cells and dies that are driven by stresses ---------------------------------------------------
-const MixedControl* control_in(const World& world) {
-  if (world.has<PeriodicCell>()) return &world.resource<PeriodicCell>().control;
-  return world.has<DrivenWalls>() ? &world.resource<DrivenWalls>().control : nullptr;
-}
-
 bool asks_for_more(const MixedControl& control, std::size_t stage) {
   const MixedControl::Stage& asked = control.stages[stage];
   if (!asked.holds_stress() || asked.tolerance >= never_judged ||
@@ -181,7 +176,7 @@ std::vector<std::string> servo_warnings(const Scene& scene, const World& world) 
     for (const Servo& servo : servos.servos)
       if (approaches(scene, servos, servo)) lines.push_back(servo_warning(scene, world, servo));
   }
-  if (const MixedControl* control = control_in(world))
+  if (const MixedControl* control = mixed_control_of(world))
     for (std::size_t s = 0; s < control->stages.size(); ++s)
       lines.push_back(cell_warning(scene, *control, s));
   std::erase(lines, "");

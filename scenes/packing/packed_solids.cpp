@@ -1,6 +1,7 @@
 #include "scenes/packing/packed_solids.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -47,14 +48,24 @@ double PackedSolids::least_width(const ParticleSpec& particle) {
   return widths_of(particle.shape).least;
 }
 
-Container PackedSolids::container(const Scene&, const ContainerSpec& given, double unit) {
-  return {given.kind, given.width / unit, given.depth / unit, given.diameter / 2 / unit};
+Container PackedSolids::container(const Scene& scene, const ContainerSpec& given, double unit) {
+  return {given.kind, given.width / unit, given.depth / unit, given.diameter / 2 / unit,
+          scene.cell.has_value()};
 }
 
-BodySpec PackedSolids::placed(const Scene&, const ContainerSpec& given, const RigidShape&,
-                              const RigidPose& pose, double, double unit) {
+BodySpec PackedSolids::placed(const Scene& scene, const ContainerSpec& given, const RigidShape&,
+                              const RigidPose& pose, double height, double unit) {
+  const Container in = container(scene, given, unit);
+  V3 at = pose.at;
+  if (in.periodic) {
+    const auto periods = [](double x, double size) {
+      return -static_cast<std::int32_t>(std::floor(x / size));
+    };
+    at = at + shift_of(in, height,
+                       {periods(at.x, in.width), periods(at.y, in.depth), periods(at.z, height)});
+  }
   BodySpec body;
-  body.position = given.corner + unit * Vec3(pose.at.x, pose.at.y, pose.at.z);
+  body.position = given.corner + unit * Vec3(at.x, at.y, at.z);
   body.rotation = Rotation(pose.turn.w, pose.turn.x, pose.turn.y, pose.turn.z);
   return body;
 }

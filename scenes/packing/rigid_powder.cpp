@@ -35,7 +35,9 @@ RigidPose RigidPowder<TwoD>::second_of(const NearPair& pair) const {
 
 template <>
 space::RigidPose RigidPowder<ThreeD>::second_of(const space::NearPair& pair) const {
-  return poses_[static_cast<std::size_t>(pair.b)];
+  space::RigidPose pose = poses_[static_cast<std::size_t>(pair.b)];
+  if (container_.periodic) pose.at = pose.at + shift_of(container_, height_, pair.periods);
+  return pose;
 }
 
 template <>
@@ -48,7 +50,8 @@ template <>
 std::span<const space::RigidTouch> RigidPowder<ThreeD>::touches_of(space::NearPair& pair,
                                                                    double range) {
   const auto [a, b] = both_of(pair);
-  contacts_ = space::RigidPair(shape(a), poses_[a], shape(b), poses_[b]).touch(range, pair.normal);
+  const space::RigidPose second = second_of(pair);
+  contacts_ = space::RigidPair(shape(a), poses_[a], shape(b), second).touch(range, pair.normal);
   return contacts_ ? std::span<const space::RigidTouch>(&*contacts_, 1)
                    : std::span<const space::RigidTouch>();
 }
@@ -66,7 +69,8 @@ std::optional<double> RigidPowder<ThreeD>::gap_of(space::NearPair& pair, double 
   const auto touches = touches_of(pair, range);
   if (touches.empty()) return std::nullopt;
   const auto [a, b] = both_of(pair);
-  return space::RigidPair(shape(a), poses_[a], shape(b), poses_[b]).distance(touches[0].normal);
+  const space::RigidPose second = second_of(pair);
+  return space::RigidPair(shape(a), poses_[a], shape(b), second).distance(touches[0].normal);
 }
 
 // For each wall the deepest corner, then the deepest again: for a flat side on a wall, its other end. All walls start from

@@ -204,8 +204,8 @@ void Gatherer::triangles(const RowBegins& begins) {
 void Gatherer::neighbours() {
   const ContactIndex& own = share_.resource<ContactIndex>();
   const Bodies& bodies = share_.resource<Bodies>();
-  std::vector<std::int32_t> counts, slots;
-  std::vector<std::array<std::int32_t, 2>> images;
+  const std::size_t axes = cell_axes(share_);
+  std::vector<std::int32_t> counts, slots, images;
   if (!own.neighbour_begin.empty())
     bodies.for_own_lanes([&](int slot) {
       const auto first = static_cast<std::size_t>(entry(own.neighbour_begin, slot)),
@@ -213,7 +213,7 @@ void Gatherer::neighbours() {
       counts.push_back(static_cast<std::int32_t>(last - first));
       for (std::size_t k = first; k < last; ++k) {
         slots.push_back(own.neighbours[k]);
-        if (!own.images.empty()) images.push_back(own.images[k]);
+        for (std::size_t i = 0; i < axes; ++i) images.push_back(own.images[axes * k + i]);
       }
     });
   else
@@ -226,12 +226,10 @@ void Gatherer::neighbours() {
   for (std::size_t slot = 0; slot < of_slot.size(); ++slot) {
     const auto count = static_cast<std::size_t>(of_slot[slot]);
     of_chunk[slot / lane_count] += count * sizeof(std::int32_t);
-    if (share_.has<PeriodicCell>())
-      images_of_chunk[slot / lane_count] += count * 2 * sizeof(std::int32_t);
+    images_of_chunk[slot / lane_count] += count * axes * sizeof(std::int32_t);
   }
   const auto whole_slots = list_in<std::int32_t>(joined(bytes_of(slots), of_chunk));
-  const auto whole_images =
-      list_in<std::array<std::int32_t, 2>>(joined(bytes_of(images), images_of_chunk));
+  const auto whole_images = list_in<std::int32_t>(joined(bytes_of(images), images_of_chunk));
   if (whole_ == nullptr) return;
   ContactIndex& index = whole_->resource<ContactIndex>();
   index.neighbours = whole_slots;

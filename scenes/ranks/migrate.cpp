@@ -199,7 +199,7 @@ void Migration::rows(const char* entity) const {
 void Migration::neighbours() const {
   ContactIndex& index = share_.resource<ContactIndex>();
   if (index.neighbour_begin.empty()) return;
-  const bool cell = share_.has<PeriodicCell>();
+  const std::size_t axes = cell_axes(share_);
   std::vector<Ranks::Bytes> to(count());
   bodies_.for_own_lanes([&](int slot) {
     const auto first = static_cast<std::size_t>(entry(index.neighbour_begin, slot)),
@@ -208,7 +208,8 @@ void Migration::neighbours() const {
     Ranks::Bytes& bytes = entry(to, new_owner(slot));
     append(bytes, std::as_bytes(std::span(head)));
     append(bytes, std::as_bytes(std::span(index.neighbours).subspan(first, size)));
-    if (cell) append(bytes, std::as_bytes(std::span(index.images).subspan(first, size)));
+    if (axes > 0)
+      append(bytes, std::as_bytes(std::span(index.images).subspan(axes * first, axes * size)));
   });
   std::vector<std::vector<std::int32_t>> messages;
   for (const Ranks::Bytes& bytes : ranks_.all_to_all(std::move(to)))
@@ -216,7 +217,7 @@ void Migration::neighbours() const {
   std::vector<std::span<const std::int32_t>> of_slot(bodies_.slots.size());
   for (const std::vector<std::int32_t>& message : messages)
     for (std::span<const std::int32_t> left(message); !left.empty();) {
-      const auto size = static_cast<std::size_t>(left[1]) * (cell ? 3 : 1);
+      const auto size = static_cast<std::size_t>(left[1]) * (1 + axes);
       entry(of_slot, left[0]) = left.subspan(2, size);
       left = left.subspan(2 + size);
     }
@@ -224,10 +225,11 @@ void Migration::neighbours() const {
   index.neighbours.clear();
   index.images.clear();
   for (const std::span<const std::int32_t> of : of_slot) {
-    const std::size_t size = of.size() / (cell ? 3 : 1);
+    const std::size_t size = of.size() / (1 + axes);
     index.neighbours.insert(index.neighbours.end(), of.begin(),
                             of.begin() + static_cast<std::ptrdiff_t>(size));
-    for (std::size_t k = size; k < of.size(); k += 2) index.images.push_back({of[k], of[k + 1]});
+    index.images.insert(index.images.end(), of.begin() + static_cast<std::ptrdiff_t>(size),
+                        of.end());
     index.neighbour_begin.push_back(static_cast<std::int32_t>(index.neighbours.size()));
   }
 }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "scenes/results/observables/result_rows.hpp"
 #include "scenes/tools/bond_rules.hpp"
+#include "scenes/tools/cell.hpp"
 
 namespace pulvis {
 namespace {
@@ -24,10 +24,13 @@ double overlap_of_particles(const Observation& now) {
 }
 
 std::vector<double> corner_and_vectors(const Observation& now) {
-  const auto& cell = now.world.resource<PeriodicCell>();
-  const Point corner = cell.corner_now();
-  const auto& h = cell.vectors.t;
-  return {corner[0], corner[1], h[0], h[2], h[1], h[3]};
+  std::vector<double> numbers;
+  with_cell_of(now.world, [&](const auto& cell) {
+    const auto add = [&](const auto& v) { numbers.insert(numbers.end(), v.begin(), v.end()); };
+    add(cell.corner_now());
+    for (std::size_t k = 0; k < cell.vectors.n; ++k) add(cell.vectors.column(k));
+  });
+  return numbers;
 }
 
 }  // namespace
@@ -92,8 +95,8 @@ void add_contact_series(const Scene& scene, Observables& all) {
 
 void add_cell_fields(const Scene& scene, FrameFields& all) {
   if (!scene.cell) return;
-  all.add({{{"cell", "m", "periodic cell $x$",
-             "corner, first and second vector of the periodic cell", FieldPlace::list, 2},
+  all.add({{{"cell", "m", "periodic cell $x$", "corner and vectors of the periodic cell",
+             FieldPlace::list, scene.dimension},
             corner_and_vectors}});
 }
 

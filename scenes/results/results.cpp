@@ -1,5 +1,7 @@
 #include "scenes/results/results.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -103,9 +105,13 @@ void Results::take_energies() {
 double Results::load() const {
   if (world_.has_table<Tool>() && world_.column<ToolForce>().table.rows > 0)
     return largest_tool_force(world_);
-  if (has("cell/stress_xx"))
-    return portable::hypot(portable::hypot(value("cell/stress_xx"), value("cell/stress_yy")),
-                           value("cell/stress_xy"));
+  if (has("cell/stress_xx")) {
+    double size = 0;
+    for (const char* part : tensor_part_names)
+      if (const std::string name = fmt::format("cell/stress_{}", part); has(name))
+        size = portable::hypot(size, value(name));
+    return size;
+  }
   return std::sqrt(std::max(0.0, energies_.elastic + energies_.contact + energies_.bonds));
 }
 

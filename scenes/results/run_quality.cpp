@@ -5,12 +5,12 @@
 #include <cmath>
 #include <string>
 
-#include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/servo.hpp"
 #include "scenes/spec/elastic_response.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/spec/yield.hpp"
+#include "scenes/tools/cell.hpp"
 
 namespace pulvis {
 namespace {
@@ -172,8 +172,7 @@ void add_overshoots(Figures& figures, const World& world) {
       if (servos.servos[i].holds_force())
         of_tools.see(servos.watches[i], servos.servos[i].tolerance);
   }
-  if (world.has<PeriodicCell>()) of_cells.see(world.resource<PeriodicCell>().control);
-  if (world.has<DrivenWalls>()) of_cells.see(world.resource<DrivenWalls>().control);
+  if (const MixedControl* control = mixed_control_of(world)) of_cells.see(*control);
   const bool of_cell = of_cells.value > 0;
   const Overshoot& worst = of_cell ? of_cells : of_tools;
   if (worst.value > 0)

@@ -40,10 +40,10 @@ inline const DimensionWords& words_of(const Scene& scene) {
                                         "wide",
                                         "smaller faces",
                                         "spheres",
-                                        "with six planes with normals along +x, -x, +y, -y, +z and "
-                                        "-z, or a cylindrical die and a plane or "
-                                        "punch at either end",
-                                        "",
+                                        "in a periodic cell, with six planes with normals along "
+                                        "+x, -x, +y, -y, +z and -z, or a cylindrical die and a "
+                                        "plane or punch at either end",
+                                        ", a [stage.cell]",
                                         "xyz"};
   return scene.in_space() ? three : two;
 }

@@ -73,11 +73,11 @@ void add_servos(World& world, const Scene& scene, const std::vector<BodySpec>& b
 // What a relative density refers to: the box between four tools, or a room between planes or in a die.
 template <class D>
 void set_enclosure(const World& world, const Scene& scene, double content, StageEnds& ends) {
+  ends.content = content;
   if constexpr (D::axes == 2) {
-    ends.cell.particle_area = content;
     if (const auto cell = die_cell(scene))
-      ends.cell = {cell->left, cell->right, cell->bottom,
-                   cell->top,  content,     relief_of(world, cell->bottom)};
+      ends.cell = {cell->left, cell->right, cell->bottom, cell->top,
+                   relief_of(world, cell->bottom)};
   } else {
     ends.room = die_room(scene);
     if (ends.room) ends.room->particle_volume = content;
@@ -116,7 +116,7 @@ template <class D>
 void add_drives(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   world.emplace<ToolProgram>(tool_program(world, scene));
   if (has_servos(scene)) add_servos<D>(world, scene, bodies);
-  add_driven_walls(world, scene, bodies);
+  add_driven_walls<D>(world, scene, bodies);
   if (has_early_ends(scene.stages)) world.emplace<StageEnds>(stage_ends<D>(world, scene, bodies));
 }
 

@@ -38,10 +38,13 @@ Powder powder_of(const World& world, const Scene& scene, const std::vector<BodyS
       content = shape_of(world, i).volume;
     const double nu = m.poissons_ratio;
     const double modulus = m.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+    const double mass = m.density * content * thickness_of<D>(scene);
     powder.content += content;
-    powder.mass += m.density * content * thickness_of<D>(scene);
+    powder.mass += mass;
+    powder.centre += mass * bodies[i].position;
     powder.impedance = std::max(powder.impedance, std::sqrt(m.density * modulus));
   }
+  powder.centre /= powder.mass;
   return powder;
 }
 

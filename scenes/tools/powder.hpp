@@ -14,6 +14,7 @@ struct Powder {
   double mass = 0;       // kg
   double impedance = 0;  // Pa s/m, largest of its materials: density times dilatational wave speed
   double content = 0;    // m^2 or m^3, of all particles, undeformed
+  Vec3 centre = Vec3::Zero();  // m, of mass
 };
 
 template <class D>

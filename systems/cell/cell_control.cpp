@@ -2,18 +2,18 @@
 //
 // Law      an image of particle b is at b + h n (h: the cell's vectors, n: integers). A contact force f on the
 //          sampled side a against that image does work at a rate f . (h' n) through the cell alone:
-//            stress = sum f (x) l / (area thickness),   l = h n + x_b - x_a from centre to centre, tension > 0
-//                   = (sum f (x) h n - sum F (x) x) / (area thickness),   F: the net force on a particle
+//            stress = sum f (x) l / volume,   l = h n + x_b - x_a from centre to centre, tension > 0
+//                   = (sum f (x) h n - sum F (x) x) / volume,   F: the net force on a particle
 //          (Christoffersen, Mehrabadi & Nemat-Nasser 1981). Without the second sum it is the stress across the
 //          boundaries, which contains the inertia of the particles. cell_kick gives them the homogeneous motion without
 //          a reaction on the servo, so that only l is the arm on which f resists a strain (Parrinello & Rahman 1981):
 //          a servo driven by the stress across the boundaries feeds vibrations
 // Control  systems/cell/mixed_control.hpp
-// Vectors  by the midpoint rule, (h_(n+1) - h_n)/dt = L (h_n + h_(n+1))/2: their area follows the trace of L
+// Vectors  by the midpoint rule, (h_(n+1) - h_n)/dt = L (h_n + h_(n+1))/2: their volume follows the trace of L
 // Runs     after cell_load; cell_kick and cell_motion apply it
 // Watches  that target stresses are reached when their stage ends
 //
-// wall_control: the same for the four planes of a die, with the stresses that they carry. Opposite planes move
+// wall_control: the same for the planes of a die, with the stresses that they carry. Opposite planes move
 // symmetrically about their centre.
 //
 // Runs     after tool_reaction; tool_motion applies it in the next step
@@ -34,74 +34,146 @@ namespace {
 using kernels::TouchSums;
 using Parts = std::array<double, MixedControl::parts>;
 
-// Over all rows and particles of all ranks.
+// Over all contacts and particles of all ranks.
+template <class D>
 struct CellSums {
-  std::array<ExactSum, 11> exact;
+  static constexpr std::size_t numbers = std::size_t{D::axes} * D::axes;
+  std::array<ExactSum, 2 * numbers + 3> exact;
 
-  void add(int from, const Tensor2& t) {
-    for (int k = 0; k < 4; ++k) entry(exact, from + k).add(entry(t.t, k));
+  void add_border_force(const Tensor<D>& t) { add(0, t); }
+  void add_moment(const Tensor<D>& t) { add(numbers, t); }
+  void add_kick_work(double work) { exact[2 * numbers].add(work); }
+  void add_resistance(double stiffness, double damping) {
+    exact[2 * numbers + 1].add(stiffness);
+    exact[2 * numbers + 2].add(damping);
   }
-  Tensor2 tensor(int from) const {
-    Tensor2 t;
-    for (int k = 0; k < 4; ++k) entry(t.t, k) = entry(exact, from + k).value();
+  Tensor<D> border_force() const { return tensor(0); }             // N
+  Tensor<D> moment() const { return tensor(numbers); }             // N m
+  double kick_work() const { return exact[2 * numbers].value(); }  // J
+  TouchSums resistance() const {                                   // N m, N m s
+    return {exact[2 * numbers + 1].value(), exact[2 * numbers + 2].value()};
+  }
+
+ private:
+  void add(std::size_t from, const Tensor<D>& t) {
+    for (std::size_t k = 0; k < numbers; ++k) exact[from + k].add(t.t[k]);
+  }
+  Tensor<D> tensor(std::size_t from) const {
+    Tensor<D> t;
+    for (std::size_t k = 0; k < numbers; ++k) t.t[k] = exact[from + k].value();
     return t;
   }
-  Tensor2 border_force() const { return tensor(0); }     // N
-  Tensor2 moment() const { return tensor(4); }           // N m, of the net forces on the particles
-  double kick_work() const { return exact[8].value(); }  // J
-  TouchSums resistance() const { return {exact[9].value(), exact[10].value()}; }  // N m, N m s
 };
 
-void add_borders(const cell_control& s, CellSums& sums) {
-  for (int r = 0; r < s.borders.rows.pair.rows(); ++r) {
+// visit(row, force on its sampled side) for the contacts of which this rank owns that side.
+template <class Visit>
+void for_contacts(const cell_control<TwoD>& s, const Visit& visit) {
+  const auto& rows = s.borders.pairs.rows;
+  for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<Contact> row(r);
-    const Image n{s.borders.image(row, 0), s.borders.image(row, 1)};
-    if (s.borders.rows.touches(row) == 0 || n == Image{}) continue;
-    if (!s.bodies->owns(s.borders.rows.pair(row, 0))) continue;  // added by its owner
-    Tensor2 force;
-    for (int i = 0; i < 2; ++i) {
-      double all = 0;
-      for (int g = 0; g < edge_points; ++g) all += s.borders.rows.force(row, 2 * g + i);
-      for (int k = 0; k < 2; ++k) entry(force.t, 2 * i + k) = all * entry(n, k);
-    }
-    sums.add(0, force);
+    if (rows.touches(row) == 0 || !s.bodies->owns(rows.pair(row, 0))) continue;
+    Point force{};
+    for (int k = 0; k < 2; ++k)
+      for (int g = 0; g < edge_points; ++g) entry(force, k) += rows.force(row, 2 * g + k);
+    visit(row, force);
+  }
+}
+template <class Visit>
+void for_contacts(const cell_control<ThreeD>& s, const Visit& visit) {
+  const auto& rows = s.borders.pairs.rows;
+  for (int p = 0; p < rows.of->count(); ++p) {
+    const Row<FaceContact> first(entry(rows.of->begin, p));
+    const auto& of_points = entry(rows.loads->pairs, p).own;
+    if (of_points.empty() || !s.bodies->owns(rows.pair(first, 0))) continue;
+    Point3 force{};
+    for (const auto& f : of_points)
+      for (std::size_t k = 0; k < 3; ++k) force[k] += f[k];
+    visit(first, force);
   }
 }
 
-void add_particles(const cell_control& s, CellSums& sums) {
+template <class D>
+void add_borders(const cell_control<D>& s, CellSums<D>& sums) {
+  for_contacts(s, [&](auto row, const typename D::Point& force) {
+    std::array<double, D::axes> n;
+    for (int k = 0; k < D::axes; ++k) entry(n, k) = s.borders.image(row, k);
+    if (n == std::array<double, D::axes>{}) return;
+    Tensor<D> product;
+    for (std::size_t i = 0; i < D::axes; ++i)
+      for (std::size_t k = 0; k < D::axes; ++k) product(i, k) = force[i] * n[k];
+    sums.add_border_force(product);
+  });
+}
+
+template <class D>
+void add_particles(const cell_control<D>& s, CellSums<D>& sums) {
   const Row<Particle> particle;
   for (const int slot : s.bodies->own_slots) {
     const ChunkLane at(slot);
-    const auto of = [&](const auto& column, int k) {
-      return column.chunk(at.chunk)(particle, k)[at.lane];
+    const auto of = [&](const auto& column, std::size_t k) {
+      return column.chunk(at.chunk)(particle, static_cast<int>(k))[at.lane];
     };
     const auto& [centre, force, resistance, kick_work] = s.particles;
-    const double x = of(centre, 0), y = of(centre, 1), fx = of(force, 0), fy = of(force, 1);
-    sums.add(4, {{fx * x, fx * y, fy * x, fy * y}});
-    sums.exact[8].add(of(kick_work, 0));
-    sums.exact[9].add(of(resistance, 0));
-    sums.exact[10].add(of(resistance, 1));
+    Tensor<D> moment;
+    for (std::size_t i = 0; i < D::axes; ++i)
+      for (std::size_t k = 0; k < D::axes; ++k) moment(i, k) = of(force, i) * of(centre, k);
+    sums.add_moment(moment);
+    sums.add_kick_work(of(kick_work, 0));
+    sums.add_resistance(of(resistance, 0), of(resistance, 1));
   }
 }
 
+constexpr std::array<std::array<std::size_t, 2>, MixedControl::parts> axes_of_part{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+
+// The symmetric part.
+template <class D>
+Parts parts_of(const Tensor<D>& t) {
+  Parts parts{};
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto [i, j] = axes_of_part[p];
+    if (i < D::axes && j < D::axes) parts[p] = i == j ? t(i, i) : 0.5 * (t(i, j) + t(j, i));
+  }
+  return parts;
+}
+
+// 1/s, of the homogeneous motion with these rates.
+template <class D>
+Tensor<D> gradient_of(const Rates& rates) {
+  Tensor<D> gradient;
+  for (std::size_t p = 0; p < rates.deformation.size(); ++p) {
+    const auto [i, j] = axes_of_part[p];
+    if (i < D::axes && j < D::axes) gradient(i, j) = gradient(j, i) = rates.deformation[p];
+  }
+  const auto add_spin = [&](std::size_t i, std::size_t j, double spin) {
+    gradient(i, j) -= spin;
+    gradient(j, i) += spin;
+  };
+  add_spin(0, 1, rates.spin[2]);
+  if constexpr (D::axes == 3) {
+    add_spin(1, 2, rates.spin[0]);
+    add_spin(2, 0, rates.spin[1]);
+  }
+  return gradient;
+}
+
 // `moment`: N m, of the net forces on the particles about the origin.
-Parts stress_of(const PeriodicCell& cell, const Tensor2& moment) {
-  Tensor2 transposed = cell.vectors;
-  std::swap(transposed.t[1], transposed.t[2]);
-  const Tensor2 sum =
-      (1 / (cell.area() * cell.thickness)) * (cell.border_force * transposed + -1.0 * moment);
-  return {sum.t[0], sum.t[3], 0.5 * (sum.t[1] + sum.t[2])};
+template <class D>
+Parts stress_of(const PeriodicCell<D>& cell, const Tensor<D>& moment) {
+  return parts_of((1 / cell.volume()) *
+                  (cell.border_force * cell.vectors.transposed() + -1.0 * moment));
 }
 
 }  // namespace
 
-void cell_control::operator()() const {
-  PeriodicCell& now = *control.cell;
-  CellSums sums;
+template <class D>
+void cell_control<D>::operator()() const {
+  PeriodicCell<D>& now = *control.cell;
+  CellSums<D> sums;
   add_borders(*this, sums);
   add_particles(*this, sums);
   sum_of_ranks(link, sums.exact);
-  const Tensor2 force = sums.border_force();
+  const Tensor<D> force = sums.border_force();
   const double work =
       0.5 * product(now.border_force + force, now.rate) * clock->dt_before + sums.kick_work();
   control.totals->external_work += work;
@@ -109,65 +181,97 @@ void cell_control::operator()() const {
   now.border_force = force;
   now.control.stress = stress_of(now, sums.moment());
 
-  const TouchSums touching = sums.resistance();
-  const Rates rates = rates_of(now.control, *program, *clock, now.area() * now.thickness,
-                               {touching, touching, touching});
-  const auto& rate = rates.deformation;
-  const Tensor2 gradient{{rate[0], rate[2] - rates.spin, rate[2] + rates.spin, rate[1]}};
-  now.gradient = gradient;
-  const Tensor2 half = (0.5 * clock->dt) * gradient;
-  constexpr Tensor2 one{{1, 0, 0, 1}};
+  std::array<TouchSums, MixedControl::parts> touching;
+  touching.fill(sums.resistance());
+  now.gradient = gradient_of<D>(rates_of(now.control, *program, *clock, now.volume(), touching));
+  const Tensor<D> half = (0.5 * clock->dt) * now.gradient;
+  constexpr Tensor<D> one = Tensor<D>::one();
   now.next = (one + -1.0 * half).inverse() * ((one + half) * now.vectors);
-  const Tensor2 next_rate = (1 / clock->dt) * (now.next + -1.0 * now.vectors);
+  const Tensor<D> next_rate = (1 / clock->dt) * (now.next + -1.0 * now.vectors);
   now.change = (next_rate + -1.0 * now.rate) * now.vectors.inverse();
 }
+template struct cell_control<TwoD>;
+template struct cell_control<ThreeD>;
 
 // Motion of the cell.
-void cell_motion::operator()() const {
-  PeriodicCell& now = *cell;
+template <class D>
+void cell_motion<D>::operator()() const {
+  PeriodicCell<D>& now = *cell;
   now.rate = (1 / clock->dt) * (now.next + -1.0 * now.vectors);
   now.vectors = now.next;
-  const auto& l = now.gradient.t;
-  add_strain(now.control, {{l[0], l[3], 0.5 * (l[1] + l[2])}, 0.5 * (l[2] - l[1])}, clock->dt);
+  const Tensor<D>& l = now.gradient;
+  Rates rates{parts_of(l), {}};
+  rates.spin[2] = 0.5 * (l(1, 0) - l(0, 1));
+  if constexpr (D::axes == 3) {
+    rates.spin[0] = 0.5 * (l(2, 1) - l(1, 2));
+    rates.spin[1] = 0.5 * (l(0, 2) - l(2, 0));
+  }
+  add_strain(now.control, rates, clock->dt);
 }
+template struct cell_motion<TwoD>;
+template struct cell_motion<ThreeD>;
 
 // ---- walls ----------------------------------------------------------------------------------------
 namespace {
 
+TouchSums touching_row(const wall_control<TwoD>& s, Row<ToolContact> row) {
+  return touching_of(row, s.contacts.rows, s.contacts.law, s.rules->stiffest_weld());
+}
+TouchSums touching_row(const wall_control<ThreeD>& s, Row<FaceToolContact> row) {
+  const auto& faces = s.bodies.shape_of(s.contacts.rows.pair(row, 0)).faces;
+  const auto& area = entry(faces, s.contacts.rows.pair(row, 1)).weight;
+  return touching_of(
+      row, s.contacts.rows, s.contacts.law, [&](int g) { return entry(area, g); },
+      s.rules->stiffest_weld());
+}
+
 // Contacts of two planes, each moving by half of the strain, weighted with the squares of their displacements.
-TouchSums pressed_by(int low, int high, double size, const wall_control& s) {
+template <class D>
+TouchSums pressed_by(const DrivenWalls::Axis& walls, double size, const wall_control<D>& s) {
   TouchSum sums;
   const double square = 0.25 * size * size;
-  for (int r = 0; r < s.contacts.pair.rows(); ++r) {
-    const Row<ToolContact> row(r);
-    const int tool = s.contacts.pair(row, 2);
-    if (s.contacts.touches(row) == 0 || (tool != low && tool != high)) continue;
-    sums.add(touching_of(row, s.contacts, s.law, s.rules->stiffest_weld()), square);
+  for (int r = 0; r < s.contacts.rows.pair.rows(); ++r) {
+    const Row<typename D::ToolContact> row(r);
+    const int tool = s.contacts.rows.pair(row, 2);
+    if (s.contacts.rows.touches(row) == 0 || (tool != walls.low && tool != walls.high)) continue;
+    sums.add(touching_row(s, row), square);
   }
   return sums.of_ranks(s.drive.link);
 }
 
 }  // namespace
 
-void wall_control::operator()() const {
+template <class D>
+void wall_control<D>::operator()() const {
   DrivenWalls& now = *drive.walls;
-  const Row<Tool> left(now.left), right(now.right), bottom(now.bottom), top(now.top);
-  const double width = position(right, 0) - position(left, 0);
-  const double height = position(top, 1) - position(bottom, 1);
-  now.control.stress = {-0.5 * (force(right, 0) - force(left, 0)) / (height * now.thickness),
-                        -0.5 * (force(top, 1) - force(bottom, 1)) / (width * now.thickness), 0};
-  const Rates rates = rates_of(now.control, *program, *clock, width * height * now.thickness,
-                               {pressed_by(now.left, now.right, width, *this),
-                                pressed_by(now.bottom, now.top, height, *this), TouchSums{}});
-  const auto move = [&](Row<Tool> low, Row<Tool> high, int axis, double size, double rate) {
+  std::array<double, D::axes> size;
+  double volume = now.thickness;
+  for (int k = 0; k < D::axes; ++k) {
+    const auto [low, high] = entry(now.walls, k);
+    entry(size, k) = position(Row<Tool>(high), k) - position(Row<Tool>(low), k);
+    volume *= entry(size, k);
+  }
+  std::array<TouchSums, MixedControl::parts> touching{};
+  now.control.stress.fill(0);
+  for (int k = 0; k < D::axes; ++k) {
+    const auto [low, high] = entry(now.walls, k);
+    const double area = volume / entry(size, k);
+    entry(now.control.stress, k) =
+        -0.5 * (force(Row<Tool>(high), k) - force(Row<Tool>(low), k)) / area;
+    entry(touching, k) = pressed_by({low, high}, entry(size, k), *this);
+  }
+  const Rates rates = rates_of(now.control, *program, *clock, volume, touching);
+  for (int k = 0; k < D::axes; ++k) {
+    const auto [low, high] = entry(now.walls, k);
+    const double rate = entry(rates.deformation, k);
     const double half = 0.5 * rate * clock->dt;  // midpoint rule, as in a cell
-    const double speed = 0.5 * rate * size / (1 - half);
-    drive.velocity(low, axis) = -speed;
-    drive.velocity(high, axis) = speed;
-  };
-  move(left, right, 0, width, rates.deformation[0]);
-  move(bottom, top, 1, height, rates.deformation[1]);
+    const double speed = 0.5 * rate * entry(size, k) / (1 - half);
+    drive.velocity(Row<Tool>(low), k) = -speed;
+    drive.velocity(Row<Tool>(high), k) = speed;
+  }
   add_strain(now.control, rates, clock->dt);
 }
+template struct wall_control<TwoD>;
+template struct wall_control<ThreeD>;
 
 }  // namespace pulvis

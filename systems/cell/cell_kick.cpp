@@ -13,41 +13,66 @@
 #include "systems/cell/systems.hpp"
 
 namespace pulvis {
+namespace {
 
-[[gnu::flatten]] void cell_kick::operator()(Chunk chunk) const {
+template <class D>
+using LaneVector = std::array<Lane, D::axes>;
+
+template <class D>
+[[gnu::always_inline]] inline LaneVector<D> times(const Tensor<D>& t, const LaneVector<D>& v) {
+  LaneVector<D> product;
+  for (std::size_t i = 0; i < D::axes; ++i) {
+    product[i] = t(i, 0) * v[0];
+    for (std::size_t j = 1; j < D::axes; ++j) product[i] += t(i, j) * v[j];
+  }
+  return product;
+}
+
+template <class D, class Column>
+[[gnu::always_inline]] inline LaneVector<D> vector_at(const Column& column, auto row) {
+  LaneVector<D> v;
+  for (int k = 0; k < D::axes; ++k) entry(v, k) = column(row, k);
+  return v;
+}
+
+}  // namespace
+
+template <class D>
+[[gnu::flatten]] void cell_kick<D>::operator()(Chunk chunk) const {
   const auto total = work.chunk(chunk);
   Lane sum{};
-  const auto& l = cell->change.t;
-  if (l != std::array<double, 4>{}) {
-    const Shape& shape = bodies->shape_of_chunk(chunk);
-    const int nodes = static_cast<int>(shape.nodes.size());
+  const Tensor<D>& change = cell->change;
+  if (change.t != Tensor<D>{}.t) {
+    const auto& shape = bodies.shape_of(chunk);
     const auto x = place.position.chunk(chunk);
-    const auto centre = place.centre.chunk(chunk);
     const auto v = velocity.chunk(chunk);
-    const auto f = forces.internal.chunk(chunk);
-    const auto g = forces.contact->chunk(chunk);
-    const Lane mass_per_area = density.chunk(chunk)(Row<Particle>()) * bodies->thickness;
+    const auto internal = forces.internal.chunk(chunk);
+    const auto contact = forces.contact->chunk(chunk);
+    const Lane mass_per_size = density.chunk(chunk)(Row<Particle>()) * bodies.depth();
     const double quarter = 0.25 * (clock->dt_before + clock->dt);
-    const Lane cx = centre(Row<Particle>(), 0), cy = centre(Row<Particle>(), 1);
-    const Lane rx = cx - cell->centre[0], ry = cy - cell->centre[1];
-    const Lane of_x = l[0] * rx + l[1] * ry, of_y = l[2] * rx + l[3] * ry;
-    const double spin = 0.5 * (l[2] - l[1]);
-    for (int i = 0; i < nodes; ++i) {
+    const LaneVector<D> centre = vector_at<D>(place.centre.chunk(chunk), Row<Particle>());
+    LaneVector<D> from_middle;
+    for (std::size_t k = 0; k < D::axes; ++k) from_middle[k] = centre[k] - cell->centre[k];
+    const LaneVector<D> common = times(change, from_middle);
+    const Tensor<D> spin = 0.5 * (change + -1.0 * change.transposed());
+    for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
       const Row<Node> n(i);
-      const Lane dx = of_x - spin * (x(n, 1) - cy), dy = of_y + spin * (x(n, 0) - cx);
-      Lane fx = f(n, 0), fy = f(n, 1);
-      if (i < shape.boundary_nodes) {
-        fx += g(Row<BoundaryNode>(i), 0);
-        fy += g(Row<BoundaryNode>(i), 1);
+      LaneVector<D> arm = vector_at<D>(x, n), force = vector_at<D>(internal, n);
+      for (std::size_t k = 0; k < D::axes; ++k) arm[k] -= centre[k];
+      if (i < shape.boundary_nodes)
+        for (int k = 0; k < D::axes; ++k) entry(force, k) += contact(Row<BoundaryNode>(i), k);
+      const LaneVector<D> turned = times(spin, arm);
+      const Lane mass = mass_per_size * shape.size_of_node(i);
+      for (int k = 0; k < D::axes; ++k) {
+        const Lane dv = entry(common, k) + entry(turned, k);
+        sum += dv * (mass * (v(n, k) + 0.5 * dv) + quarter * entry(force, k));
+        v(n, k) += dv;
       }
-      const Lane mass = mass_per_area * entry(shape.nodal_area, i);
-      sum += dx * (mass * (v(n, 0) + 0.5 * dx) + quarter * fx) +
-             dy * (mass * (v(n, 1) + 0.5 * dy) + quarter * fy);
-      v(n, 0) += dx;
-      v(n, 1) += dy;
     }
   }
   total(Row<Particle>()) = sum;
 }
+template struct cell_kick<TwoD>;
+template struct cell_kick<ThreeD>;
 
 }  // namespace pulvis

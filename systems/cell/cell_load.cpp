@@ -6,61 +6,92 @@
 //             l^2 <= (r + r')^2 <= 2 r^2 + 2 r'^2 with the radii about the centres: each side counts (2 r)^2.
 // Runs        after contact_force; the resistance only with the stable time step, which guards the same springs
 #include <algorithm>
+#include <bit>
 
 #include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
 #include "systems/cell/systems.hpp"
+#include "systems/space/contact/assembly.hpp"
 #include "systems/tools/servo_touch.hpp"
 
 namespace pulvis {
 namespace {
 
+using kernels::TouchSums;
+
+void add(const TouchSums& of_row, TouchSums& sums) {
+  sums.stiffness += of_row.stiffness;
+  sums.damping += of_row.damping;
+}
+
 // Springs and dashpots of what a particle samples.
-kernels::TouchSums touching_at(const cell_load::Contacts& contacts, int slot) {
-  kernels::TouchSums sums;
-  for (const Row<Contact> row : contacts.index->sampled_by(slot)) {
-    if (contacts.rows.touches(row) == 0) continue;
-    const kernels::TouchSums of_row =
-        touching_of(row, contacts.rows, contacts.law, contacts.rules->stiffest_weld());
-    sums.stiffness += of_row.stiffness;
-    sums.damping += of_row.damping;
+TouchSums touching_at(const cell_load<TwoD>& s, int slot) {
+  TouchSums sums;
+  const auto& [index, rules, pairs, law] = s.contacts;
+  for (const Row<Contact> row : index->sampled_by(slot))
+    if (pairs.rows.touches(row) != 0)
+      add(touching_of(row, pairs.rows, law, rules->stiffest_weld()), sums);
+  return sums;
+}
+TouchSums touching_at(const cell_load<ThreeD>& s, int slot) {
+  TouchSums sums;
+  const auto& [index, rules, pairs, law] = s.contacts;
+  const auto& rows = pairs.rows;
+  const std::int32_t end = entry(index->sampled_begin, slot + 1);
+  for (int p = rows.of->from_row(entry(index->sampled_begin, slot)); entry(rows.of->begin, p) < end;
+       ++p) {
+    const std::array<double, 3>* force = entry(rows.loads->pairs, p).own.data();
+    for (const Row<FaceContact> row : RowRange<FaceContact>::of(rows.of->begin, p)) {
+      if (rows.touches(row) == 0) continue;
+      const auto& area = entry(s.bodies.shape_of(slot).faces, rows.pair(row, 1)).weight;
+      for (unsigned left = space::touching_points(&rows.activation(row)); left != 0;
+           left &= left - 1)
+        add(touching_at_point(row, law, *force++, entry(area, std::countr_zero(left)),
+                              rules->stiffest_weld()),
+            sums);
+    }
   }
   return sums;
 }
 
 }  // namespace
 
-[[gnu::flatten]] void cell_load::operator()(Chunk chunk) const {
+template <class D>
+[[gnu::flatten]] void cell_load<D>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
-  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto& shape = bodies.shape_of(chunk);
   const auto x = position.chunk(chunk);
   const auto f = force.chunk(chunk);
-  double area = 0;
-  Lane mx{}, my{};
+  double size = 0;
+  std::array<Lane, D::axes> moment{}, net{};
   for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
-    area += entry(shape.nodal_area, i);
-    mx += entry(shape.nodal_area, i) * x(Row<Node>(i), 0);
-    my += entry(shape.nodal_area, i) * x(Row<Node>(i), 1);
-  }
-  const Lane cx = (1 / area) * mx, cy = (1 / area) * my;
-  Lane fx{}, fy{}, square{};
-  for (int i = 0; i < shape.boundary_nodes; ++i) {
-    fx += f(Row<BoundaryNode>(i), 0);
-    fy += f(Row<BoundaryNode>(i), 1);
-    const Lane rx = x(Row<Node>(i), 0) - cx, ry = x(Row<Node>(i), 1) - cy;
-    square = max(square, rx * rx + ry * ry);
+    const double of_node = shape.size_of_node(i);
+    size += of_node;
+    for (int k = 0; k < D::axes; ++k) entry(moment, k) += of_node * x(Row<Node>(i), k);
   }
   const auto centre = load.centre.chunk(chunk);
-  const auto net = load.force.chunk(chunk);
-  centre(particle, 0) = cx, centre(particle, 1) = cy;
-  net(particle, 0) = fx, net(particle, 1) = fy;
+  for (int k = 0; k < D::axes; ++k) centre(particle, k) = (1 / size) * entry(moment, k);
+  Lane square{};
+  for (int i = 0; i < shape.boundary_nodes; ++i) {
+    Lane of_node{};
+    for (int k = 0; k < D::axes; ++k) {
+      entry(net, k) += f(Row<BoundaryNode>(i), k);
+      const Lane arm = x(Row<Node>(i), k) - centre(particle, k);
+      of_node += arm * arm;
+    }
+    square = max(square, of_node);
+  }
+  const auto sum = load.force.chunk(chunk);
+  for (int k = 0; k < D::axes; ++k) sum(particle, k) = entry(net, k);
   if (clock->step < clock->next_look) return;
   const auto resistance = load.resistance.chunk(chunk);
   for (int lane = 0; lane < lane_count; ++lane) {
-    const kernels::TouchSums sums = touching_at(contacts, ChunkLane(chunk, lane).slot());
+    const TouchSums sums = touching_at(*this, ChunkLane(chunk, lane).slot());
     resistance(particle, 0)[lane] = 4 * square[lane] * sums.stiffness;
     resistance(particle, 1)[lane] = 4 * square[lane] * sums.damping;
   }
 }
+template struct cell_load<TwoD>;
+template struct cell_load<ThreeD>;
 
 }  // namespace pulvis

@@ -15,16 +15,16 @@ namespace {
 
 using Stage = MixedControl::Stage;
 using Law = MixedControl::Law;
-constexpr std::array<const char*, MixedControl::parts> names{"xx", "yy", "xy"};
+constexpr std::array<const char*, MixedControl::parts> names{"xx", "yy", "zz", "xy", "yz", "zx"};
 
 // Pa: the stress to reach at the end of the stage.
 double aim(const MixedControl& control, const Stage& stage, int part) {
-  const double yy = control.stress[MixedControl::yy], given = entry(stage.stress, part);
+  const double axial = control.stress[control.axial()], given = entry(stage.stress, part);
   switch (entry(stage.law, part)) {
     case Law::ratio:
-      return given * yy;
+      return given * axial;
     case Law::mean:
-      return 2 * given - yy;
+      return (control.axes * given - axial) / (control.axes - 1);
     default:
       return given;
   }
@@ -78,7 +78,7 @@ double driven_by_stress(const Stage& stage, int part, double volume,
                         const kernels::TouchSums& touching, const Clock& clock,
                         MixedControl& control) {
   MixedControl::Servo& servo = entry(control.servos, part);
-  const double sides = part == MixedControl::xy ? 2 : 1;  // xy and yx
+  const double sides = MixedControl::is_shear(part) ? 2 : 1;  // xy and yx
   const double stress = entry(control.stress, part);
   const double missing = sides * (entry(control.asked, part) - stress) * volume;
   const double minimum = sides * kernels::min_tool_mass(touching, clock.dt, clock.safety);
@@ -148,14 +148,14 @@ Rates rates_of(MixedControl& control, const ToolProgram& program, const Clock& c
           driven_by_stress(*stage, k, volume, entry(touching, k), clock, control);
     }
   }
-  rates.spin = share * stage->rotation;
+  for (std::size_t k = 0; k < 3; ++k) rates.spin[k] = share * stage->rotation[k];
   return rates;
 }
 
 void add_strain(MixedControl& control, const Rates& rates, double dt) {
   for (int k = 0; k < MixedControl::parts; ++k)
     entry(control.strain, k) += entry(rates.deformation, k) * dt;
-  control.rotation += rates.spin * dt;
+  for (std::size_t k = 0; k < 3; ++k) control.rotation[k] += rates.spin[k] * dt;
 }
 
 }  // namespace pulvis

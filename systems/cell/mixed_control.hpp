@@ -2,8 +2,9 @@
 //
 // A strain is spread over its stage with smooth ramps (systems/tools/tool_kernel.hpp). A stress is held by a servo: that
 // component of the rate moves as a mass driven by the missing stress and damped by a dashpot
-// (systems/tools/servo_kernel.hpp), with the force (target - stress) area thickness, the mass in kg m^2, the speed in 1/s.
-// The target may depend on another current stress component: as a ratio to yy, or as a mean with it.
+// (systems/tools/servo_kernel.hpp), with the force (target - stress) volume, the mass in kg m^2, the speed in 1/s.
+// The target may depend on the current axial stress (yy in the plane, zz in space): as a ratio to it, or so that the mean of the
+// normal stresses is kept while the lateral ones are equal.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ namespace pulvis {
 
 struct Rates {
   std::array<double, MixedControl::parts> deformation{};  // 1/s
-  double spin = 0;                                        // rad/s
+  Point3 spin{};                                          // rad/s
 };
 
 // `volume`: m^3, of the powder including its pores. `touching`: resistance to each component, in N m and N m s. Throws

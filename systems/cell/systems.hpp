@@ -1,75 +1,104 @@
 // Systems of the periodic cell, and of a die driven like one. What a system reads and writes is declared here.
+// D: the dimension (components/dimension.hpp).
 #pragma once
 
 #include "components/bundles.hpp"
 #include "components/cell.hpp"
 #include "components/servo.hpp"
 #include "systems/ranks/reduce.hpp"
+#include "systems/space/contact/systems.hpp"
 
 namespace pulvis {
 
+// The contacts between particles with their forces: a row has them in the plane; in space the narrow phase leaves those of a
+// pair's touching points in a list.
+template <class D>
+struct ForcedPairs;
+template <>
+struct ForcedPairs<TwoD> {
+  TouchingRows<Contact> rows;
+};
+template <>
+struct ForcedPairs<ThreeD> {
+  space::contact_force::Pairs rows;
+};
+
+template <class D>
 struct cell_load {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   struct Contacts {
     Read<ContactIndex> index;
     Read<ContactRules> rules;
-    TouchingRows<Contact> rows;
-    Read<ContactLaw<Contact>> law;
+    ForcedPairs<D> pairs;
+    Read<ContactLaw<typename D::Contact>> law;
   } contacts;
-  Read<Position<TwoD>> position;
-  Read<ContactForce<TwoD>> force;
+  Read<Position<D>> position;
+  Read<ContactForce<D>> force;
   struct Load {
-    Write<MassCentre> centre;
-    Write<NetForce> force;
+    Write<MassCentre<D>> centre;
+    Write<NetForce<D>> force;
     Write<StrainResistance> resistance;
   } load;
   void operator()(Chunk chunk) const;
 };
 
+template <class D>
 struct cell_control {
   Read<Bodies> bodies;
   Read<Clock> clock;
   struct Borders {
-    TouchingRows<Contact> rows;
-    Read<ContactImage> image;
+    ForcedPairs<D> pairs;
+    Read<ContactImage<typename D::Contact>> image;
   } borders;
   struct Particles {
-    Read<MassCentre> centre;
-    Read<NetForce> force;
+    Read<MassCentre<D>> centre;
+    Read<NetForce<D>> force;
     Read<StrainResistance> resistance;
     Read<KickWork> kick_work;
   } particles;
   Read<ToolProgram> program;
   struct Control {
-    Write<PeriodicCell> cell;
+    Write<PeriodicCell<D>> cell;
     Write<Totals> totals;
   } control;
   Link link;
   void operator()() const;
 };
 
+template <class D>
 struct cell_kick {
-  Read<Bodies> bodies;
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
-  Read<PeriodicCell> cell;
-  NodalForces<Read, TwoD> forces;
+  Read<PeriodicCell<D>> cell;
+  NodalForces<Read, D> forces;
   Read<Density> density;
   struct Place {
-    Read<Position<TwoD>> position;
-    Read<MassCentre> centre;
+    Read<Position<D>> position;
+    Read<MassCentre<D>> centre;
   } place;
-  Write<Velocity<TwoD>> velocity;
+  Write<Velocity<D>> velocity;
   Write<KickWork> work;
   void operator()(Chunk chunk) const;
 };
 
+template <class D>
+struct cell_motion {
+  Read<Clock> clock;
+  Write<PeriodicCell<D>> cell;
+  void operator()() const;
+};
+
+template <class D>
 struct wall_control {
+  ShapedBodies<D> bodies;
   Read<Clock> clock;
   Read<ContactRules> rules;
   Read<ToolProgram> program;
-  TouchingRows<ToolContact> contacts;
-  Read<ContactLaw<ToolContact>> law;
+  struct Contacts {
+    TouchingRows<typename D::ToolContact> rows;
+    Read<ContactLaw<typename D::ToolContact>> law;
+  } contacts;
   Read<ToolPosition> position;
   Read<ToolForce> force;
   struct Drive {
@@ -77,12 +106,6 @@ struct wall_control {
     Write<ServoVelocity> velocity;
     Link link;
   } drive;
-  void operator()() const;
-};
-
-struct cell_motion {
-  Read<Clock> clock;
-  Write<PeriodicCell> cell;
   void operator()() const;
 };
 

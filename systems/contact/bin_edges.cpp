@@ -40,7 +40,7 @@ struct KeysBefore {
 };
 struct PairKeysBefore {
   const Write<ContactPair<Contact>>& pair;
-  const Optional<Write<ContactImage>>& image;
+  const Optional<Write<ContactImage<Contact>>>& image;
   RowKey operator()(Row<Contact> row) const {
     const Image n = image ? Image{(*image)(row, 0), (*image)(row, 1)} : Image{};
     return {pair(row, 0), pair(row, 1), pair(row, 2), n};
@@ -173,24 +173,12 @@ bool any_fold_touches(const PairKeysBefore& before, const Read<ContactTouches<Co
   return false;
 }
 
-void keep_neighbours(const BySlot<Neighbour>& found, const PeriodicCell* cell,
-                     ContactIndex& index) {
-  index.neighbour_begin = found.begin;
-  index.neighbours.clear();
-  index.images.clear();
-  for (const Neighbour& neighbour : found.all) {
-    index.neighbours.push_back(neighbour.slot);
-    if (cell != nullptr) index.images.push_back(neighbour.image);
-  }
-  if (cell != nullptr) index.cell_before = cell->vectors.t;
-}
-
 }  // namespace
 
 void bin_edges::operator()() const {
   if (!index->due) return;
   const ContactRules& rules = *material.rules;
-  const PeriodicCell* periodic = outlines.cell ? &**outlines.cell : nullptr;
+  const PeriodicCell<TwoD>* periodic = outlines.cell ? &**outlines.cell : nullptr;
   BySlot<Neighbour> neighbours =
       particle_neighbours(*bodies, outlines.control.values(), periodic, index->neighbourhood);
   BySlot<EdgeCandidate> found = edge_candidates(*bodies, outlines.control.values(), periodic,

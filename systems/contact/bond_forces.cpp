@@ -60,7 +60,9 @@ struct PairBonds {
   }
   PointLanes sampled_rates(const Two& two) const {
     PointLanes velocity = sampled_edges(rates, two);
-    if (s.at.images) move_to_images(s.at.images->cell->rate, s.at.images->image, two, velocity);
+    if (s.at.images)
+      move_to_images(
+          two, [&](auto row) { return s.at.images->velocity(row); }, velocity);
     return velocity;
   }
   Projection at_anchors(const Two& two) const {
@@ -71,7 +73,9 @@ struct PairBonds {
                points,
                nullptr};
     p.points = sampled_edges(points, two);
-    if (s.at.images) move_to_images(s.at.images->cell->vectors, s.at.images->image, two, p.points);
+    if (s.at.images)
+      move_to_images(
+          two, [&](auto row) { return s.at.images->shift(row); }, p.points);
     p.at = CurvePoints::of(s.at.anchor, two);
     p.curve = gather(p.other, points, p.at);
     p.offset();

@@ -15,57 +15,6 @@ namespace pulvis {
 
 namespace {
 
-// Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours
-// are in the surrounding cells.
-class Grid {
- public:
-  Grid(const std::vector<Box>& boxes, const std::vector<int>& slots, double distance) {
-    Box all = entry(boxes, slots.front());
-    for (const int s : slots) {
-      const Box& b = entry(boxes, s);
-      for (int k = 0; k < 2; ++k) {
-        all.low[k] = std::min(all.low[k], b.low[k]);
-        all.high[k] = std::max(all.high[k], b.high[k]);
-        size_ = std::max(size_, b.high[k] - b.low[k] + distance);
-      }
-    }
-    for (int k = 0; k < 2; ++k) {
-      low_[k] = all.low[k];
-      // A particle that flew off must not enlarge the grid; far cells fold into the last one.
-      count_[k] = static_cast<int>(std::clamp((all.high[k] - all.low[k]) / size_ + 1, 1.0, 4096.0));
-    }
-    cell_begin_.assign(static_cast<std::size_t>(count_[0] * count_[1]) + 1, 0);
-    for (const int s : slots) entry(cell_begin_, cell(entry(boxes, s)) + 1) += 1;
-    std::partial_sum(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin());
-    members_.resize(slots.size());
-    std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
-    for (const int s : slots) entry(members_, entry(next, cell(entry(boxes, s)))++) = s;
-  }
-
-  template <class Visit>
-  void around(const Box& box, const Visit& visit) const {
-    const int cx = index(box, 0), cy = index(box, 1);
-    for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, count_[1] - 1); ++y)
-      for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, count_[0] - 1); ++x) {
-        const int c = y * count_[0] + x;
-        for (int m = entry(cell_begin_, c); m < entry(cell_begin_, c + 1); ++m)
-          visit(entry(members_, m));
-      }
-  }
-
- private:
-  int index(const Box& box, int k) const {
-    const double middle = 0.5 * (box.low[k] + box.high[k]);
-    return static_cast<int>(std::clamp((middle - low_[k]) / size_, 0.0, count_[k] - 1.0));
-  }
-  int cell(const Box& box) const { return index(box, 1) * count_[0] + index(box, 0); }
-
-  double size_ = 0;
-  double low_[2] = {0, 0};
-  int count_[2] = {1, 1};
-  std::vector<std::int32_t> cell_begin_, members_;
-};
-
 // One outline after the other: boxes of the whole, and of its edges.
 struct Boxes {
   std::vector<Box> particle;             // [slots]; undefined where is_absent is
@@ -169,7 +118,7 @@ bool faces(const double* own, const double* other) {
 // The candidate search, one slot after the other.
 class EdgeSearch {
  public:
-  EdgeSearch(const Curves& curves, const Boxes& boxes, const PeriodicCell* cell,
+  EdgeSearch(const Curves& curves, const Boxes& boxes, const PeriodicCell<TwoD>* cell,
              const BySlot<Neighbour>& neighbours, double skin)
       : curves_(curves), boxes_(boxes), cell_(cell), neighbours_(neighbours), skin_(skin) {}
 
@@ -226,7 +175,7 @@ class EdgeSearch {
       Other other{neighbour.slot,
                   neighbour.image,
                   shift_of(cell_, neighbour.image),
-                  neighbour.slot == slot && neighbour.image == Image{},
+                  neighbour.is(slot),
                   {}};
       const Box own = moved(entry(boxes_.particle, slot), {-other.shift[0], -other.shift[1]});
       if (!curves_.is_own(slot) && !curves_.is_own(other.slot)) continue;  // owned by other ranks
@@ -287,7 +236,7 @@ class EdgeSearch {
 
   const Curves& curves_;
   const Boxes& boxes_;
-  const PeriodicCell* cell_;
+  const PeriodicCell<TwoD>* cell_;
   const BySlot<Neighbour>& neighbours_;
   double skin_;
 };
@@ -299,112 +248,23 @@ int edges_between(int a, int b, int edges) {
   return std::min(apart, edges - apart);
 }
 
-namespace {
-
-// Periods that shift the middle of a box into the cell.
-Image periods_home(const Tensor2& inverse, const Box& box) {
-  const Point share =
-      inverse * Point{0.5 * (box.low[0] + box.high[0]), 0.5 * (box.low[1] + box.high[1])};
-  return {-static_cast<std::int32_t>(std::floor(share[0])),
-          -static_cast<std::int32_t>(std::floor(share[1]))};
-}
-
-// All particles wrapped into the cell, and the images that come near the cell.
-class Images {
- public:
-  Images(const PeriodicCell& cell, const std::vector<Box>& boxes, const std::vector<int>& slots,
-         double distance)
-      : home_(boxes.size()), boxes_(boxes.size()), of_(boxes.size()) {
-    const Tensor2 inverse = cell.vectors.inverse();
-    Box all{{1e300, 1e300}, {-1e300, -1e300}};
-    for (const int s : slots) {
-      entry(home_, s) = periods_home(inverse, entry(boxes, s));
-      entry(boxes_, s) = moved(entry(boxes, s), cell.vectors * entry(home_, s));
-      entry(of_, s) = {s, entry(home_, s)};
-      ids_.push_back(s);
-      for (int k = 0; k < 2; ++k) {
-        all.low[k] = std::min(all.low[k], entry(boxes_, s).low[k]);
-        all.high[k] = std::max(all.high[k], entry(boxes_, s).high[k]);
-      }
-    }
-    // As many periods on each side as can reach across: the extent of all over the cell's heights.
-    const auto& h = cell.vectors.t;
-    const double extent =
-        portable::hypot(all.high[0] - all.low[0], all.high[1] - all.low[1]) + distance;
-    const auto periods = [&](double x, double y) {  // components of the other vector
-      return static_cast<std::int32_t>(std::ceil(extent * portable::hypot(x, y) / cell.area()));
-    };
-    const Image most{periods(h[1], h[3]), periods(h[0], h[2])};
-    for (std::int32_t i = -most[0]; i <= most[0]; ++i)
-      for (std::int32_t k = -most[1]; k <= most[1]; ++k) {
-        if (i == 0 && k == 0) continue;
-        const Point shift = cell.vectors * Image{i, k};
-        for (const int s : slots) {
-          const Box box = moved(entry(boxes_, s), shift);
-          if (!near(box, all, distance)) continue;
-          ids_.push_back(static_cast<int>(boxes_.size()));
-          boxes_.push_back(box);
-          of_.push_back({s, {entry(home_, s)[0] + i, entry(home_, s)[1] + k}});
-        }
-      }
-  }
-
-  const std::vector<Box>& boxes() const { return boxes_; }
-  const std::vector<int>& ids() const { return ids_; }
-  // The image with that index, as seen by the particle in `slot` from its actual position.
-  Neighbour seen_from(int slot, int id) const {
-    const Neighbour& there = entry(of_, id);
-    const Image& own = entry(home_, slot);
-    return {there.slot, {there.image[0] - own[0], there.image[1] - own[1]}};
-  }
-
- private:
-  std::vector<Image> home_;    // [slots]
-  std::vector<Box> boxes_;     // [slots], then images
-  std::vector<Neighbour> of_;  // for each box: whose, by which periods
-  std::vector<int> ids_;
-};
-
-bool before(const Neighbour& a, const Neighbour& b) {
-  return std::pair(a.slot, a.image) < std::pair(b.slot, b.image);
-}
-
-}  // namespace
-
 BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const double> control,
-                                      const PeriodicCell* cell, double distance) {
-  const std::vector<int>& slots = bodies.present_slots;
-  const Curves curves{bodies, control};
-  if (slots.empty()) return BySlot<Neighbour>::none(curves.slots());
-  const std::vector<Box> own_boxes = curves.particle_boxes();
-  const auto images = cell != nullptr
-                          ? std::optional<Images>(std::in_place, *cell, own_boxes, slots, distance)
-                          : std::nullopt;
-  const std::vector<Box>& boxes = images ? images->boxes() : own_boxes;
-  const Grid grid(boxes, images ? images->ids() : slots, distance);
-  return list_by_slot<Neighbour>(curves.slots(), [&](int slot, std::vector<Neighbour>& found) {
-    if (curves.is_absent(slot)) return;
-    const auto first = static_cast<std::ptrdiff_t>(found.size());
-    const Box& own = entry(boxes, slot);
-    grid.around(own, [&](int other) {
-      if (near(own, entry(boxes, other), distance))
-        found.push_back(images ? images->seen_from(slot, other) : Neighbour{other});
-    });
-    std::sort(found.begin() + first, found.end(), before);
-  });
+                                      const PeriodicCell<TwoD>* cell, double distance) {
+  return near_particles(Curves{bodies, control}.particle_boxes(), bodies.present_slots, cell,
+                        distance);
 }
 
 BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
-                                      const PeriodicCell* cell, const BySlot<Neighbour>& neighbours,
-                                      double skin) {
+                                      const PeriodicCell<TwoD>* cell,
+                                      const BySlot<Neighbour>& neighbours, double skin) {
   const Curves curves{bodies, control};
   const Boxes boxes = curves.boxes();
   return list_by_slot<EdgeCandidate>(curves.slots(),
                                      EdgeSearch(curves, boxes, cell, neighbours, skin));
 }
 
-int start_of_point(const Bodies& bodies, std::span<const double> control, const PeriodicCell* cell,
-                   const EdgeCandidate& candidate, int point) {
+int start_of_point(const Bodies& bodies, std::span<const double> control,
+                   const PeriodicCell<TwoD>* cell, const EdgeCandidate& candidate, int point) {
   const Curves curves{bodies, control};
   const auto& edges = bodies.shape_of_slot(candidate.other).edges;
   const int count = static_cast<int>(edges.size());

@@ -7,10 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "components/cell.hpp"
 #include "components/shape.hpp"
-#include "systems/contact/box.hpp"
-#include "systems/contact/by_slot.hpp"
+#include "systems/contact/neighbours.hpp"
 
 namespace pulvis {
 
@@ -30,36 +28,28 @@ int edges_between(int a, int b, int edges);
 struct EdgeCandidate {
   std::int32_t slot, edge, other, start;
   bool faces;
-  Image image{};  // of the other particle
+  ImageIn<TwoD> image{};  // of the other particle
 
-  bool itself() const { return slot == other && image == Image{}; }
+  bool itself() const { return slot == other && image == ImageIn<TwoD>{}; }
 };
 
-// A particle near another one, either the particle itself or one of its periodic images.
-struct Neighbour {
-  std::int32_t slot;
-  Image image{};
-};
-
-// m, offset of an image from its particle.
-inline Point shift_of(const PeriodicCell* cell, const Image& image) {
-  return cell == nullptr ? Point{} : cell->vectors * image;
-}
+using Neighbour = NeighbourIn<TwoD>;
+using Image = ImageIn<TwoD>;
 
 // For every slot, the particles within `distance` (of boxes), itself included, ascending by slot and image.
 // `control`: x y of every control point; `cell`: null if nothing is periodic.
 BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const double> control,
-                                      const PeriodicCell* cell, double distance);
+                                      const PeriodicCell<TwoD>* cell, double distance);
 
 // All candidates, sorted by (slot, edge, other, image). `neighbours`: within `skin` or more.
 BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
-                                      const PeriodicCell* cell, const BySlot<Neighbour>& neighbours,
-                                      double skin);
+                                      const PeriodicCell<TwoD>* cell,
+                                      const BySlot<Neighbour>& neighbours, double skin);
 
 // The edge from which point `point` of a new candidate starts its closest-point search: `start`, or an edge that meets it
 // at a corner if that is nearer to the point. The search passes a corner only for points beside it, and the edge nearest to
 // the middle of the sampled one may be the wrong one for some of its points.
-int start_of_point(const Bodies& bodies, std::span<const double> control, const PeriodicCell* cell,
-                   const EdgeCandidate& candidate, int point);
+int start_of_point(const Bodies& bodies, std::span<const double> control,
+                   const PeriodicCell<TwoD>* cell, const EdgeCandidate& candidate, int point);
 
 }  // namespace pulvis

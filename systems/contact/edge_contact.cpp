@@ -80,7 +80,9 @@ struct EdgePass {
                points,
                rates};
     p.points = sampled_edges(points, two);
-    if (s.images) move_to_images(s.images->cell->vectors, s.images->image, two, p.points);
+    if (s.images)
+      move_to_images(
+          two, [&](auto row) { return s.images->shift(row); }, p.points);
     p.at = CurvePoints::of(s.points.closest, two);
     p.curve = gather(p.other, points, p.at);
     return p;
@@ -92,13 +94,15 @@ struct EdgePass {
 
   bool itself(Row<Contact> row) const {
     return s.columns.pair(row, 2) == s.columns.pair(row, 0) &&
-           (!s.images || s.images->of(row) == Image{});
+           (!s.images || s.images->of(row) == ImageIn<TwoD>{});
   }
 
   [[gnu::always_inline]] PointMotion motion_at(const Two& two, const Projection& p) const {
     if (rates == nullptr) return motion_of(p, {});
     PointLanes velocity = sampled_edges(rates, two);
-    if (s.images) move_to_images(s.images->cell->rate, s.images->image, two, velocity);
+    if (s.images)
+      move_to_images(
+          two, [&](auto row) { return s.images->velocity(row); }, velocity);
     return motion_of(p, velocity);
   }
 

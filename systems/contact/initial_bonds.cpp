@@ -27,7 +27,7 @@ void initial_bonds::operator()() const {
     const Row<Contact> row(r);
     const int slot = rows.pair(row, 0), edge = rows.pair(row, 1), other = rows.pair(row, 2);
     if (!bodies->owns(slot)) continue;
-    if (slot == other && (!at.images || at.images->of(row) == Image{})) continue;
+    if (slot == other && (!at.images || at.images->of(row) == ImageIn<TwoD>{})) continue;
     const Point shift = at.images ? at.images->shift(row) : Point{};
     const auto& a = entry(bodies->slots, slot);
     const auto& b = entry(bodies->slots, other);

@@ -72,27 +72,30 @@ double min_of_slots(const std::vector<int>& slots, const Left& left) {
       [](double a, double b) { return std::min(a, b); });
 }
 
-// ---- periodic images, in two dimensions ---------------------------------------------------------
+// ---- periodic images ------------------------------------------------------------------------------
 // How far the nearest images have moved relative to their particles.
-double displacement_of_images(const ContactIndex& index, const PeriodicCell* cell) {
+template <class D>
+double displacement_of_images(const ContactIndex& index, const PeriodicCell<D>* cell) {
   double sum = 0;
-  for (std::size_t i = 0; cell != nullptr && i < 4; ++i)
+  for (std::size_t i = 0; cell != nullptr && i < cell->vectors.t.size(); ++i)
     sum += std::abs(cell->vectors.t[i] - index.cell_before[i]);
   return sum;
 }
 
-// Motion of the neighbour's image, from its position at that time.
-OutlineMotion<TwoD> of_image(const OutlineMotion<TwoD>& m, const ContactIndex& index,
-                             const PeriodicCell* cell, int k) {
+// Motion of the k-th neighbour's image, from its position at that time.
+template <class D>
+OutlineMotion<D> of_image(const OutlineMotion<D>& m, const ContactIndex& index,
+                          const PeriodicCell<D>* cell, int k) {
   if (cell == nullptr) return m;
-  const Tensor2 before{index.cell_before};
-  const Image& n = entry(index.images, k);
-  const Point was = before * n, is = cell->vectors * n;
-  return {moved(m.before, was), moved(m.displacement, {is[0] - was[0], is[1] - was[1]})};
-}
-const OutlineMotion<ThreeD>& of_image(const OutlineMotion<ThreeD>& m, const ContactIndex&,
-                                      const PeriodicCell*, int) {
-  return m;
+  Tensor<D> before;
+  std::ranges::copy(index.cell_before, before.t.begin());
+  ImageIn<D> image;
+  for (std::size_t i = 0; i < D::axes; ++i)
+    image[i] = index.images[D::axes * static_cast<std::size_t>(k) + i];
+  const typename D::Point was = before * image, is = cell->vectors * image;
+  typename D::Point moved_by;
+  for (std::size_t i = 0; i < D::axes; ++i) moved_by[i] = is[i] - was[i];
+  return {moved(m.before, was), moved(m.displacement, moved_by)};
 }
 
 // ---- tools ----------------------------------------------------------------------------------------
@@ -138,7 +141,7 @@ Point3 tool_position(const Tools& tools, int t) {
 template <class D>
 struct Remaining {
   const skin_check<D>& s;
-  const PeriodicCell* cell;
+  const PeriodicCell<D>* cell;
   const std::vector<OutlineMotion<D>>& motion;  // [slots]
 
   // Particles that were not neighbours: the largest relative motion of any two.
@@ -170,7 +173,7 @@ struct Remaining {
          ++k) {
       const int other = entry(index.neighbours, k);
       if (other < slot && s.bodies.bodies->owns(other)) continue;  // handled from the other slot
-      const OutlineMotion<D>& its = of_image(entry(motion, other), index, cell, k);
+      const OutlineMotion<D> its = of_image(entry(motion, other), index, cell, k);
       const double allowed =
           std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
       minimum = std::min(minimum, allowed - kernels::closing(own.displacement, its.displacement));

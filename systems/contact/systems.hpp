@@ -25,7 +25,7 @@ struct skin_check {
   Read<Clock> clock;
   Read<typename D::OutlinePosition> position;
   Optional<ToolSurfacesIn<D>> tools;
-  Optional<Read<PeriodicCell>> cell;
+  Optional<Read<PeriodicCell<D>>> cell;
   Write<typename D::OutlineBefore> before;
   Write<ContactIndex> index;
   Optional<BorderOutlines<typename D::OutlinePosition>> border;
@@ -55,7 +55,7 @@ struct bin_edges {
   ContactStiffness material;
   struct Outlines {
     Read<CurvePosition> control;
-    Optional<Read<PeriodicCell>> cell;
+    Optional<Read<PeriodicCell<TwoD>>> cell;
   } outlines;
   Write<ContactIndex> index;
   Structural<Contact> structure;
@@ -64,7 +64,7 @@ struct bin_edges {
   struct Curves {
     Write<ContactPlace> place;
     Write<ClosestPoint> closest;
-    Optional<Write<ContactImage>> image;
+    Optional<Write<ContactImage<Contact>>> image;
   } curves;
   void operator()() const;
 };
@@ -131,7 +131,7 @@ struct edge_contact {
     Write<ClosestPoint> closest;
     Optional<Write<SlopeLoad>> slope_load;
   } points;
-  Optional<CellImages> images;
+  Optional<CellImages<TwoD>> images;
   SummedBlocks<Contact, ContactSums<Contact>> summed;
   void operator()(SmallTasks) const;
 };
@@ -192,7 +192,7 @@ struct PairAnchors {
   Read<ContactPlace> place;
   Read<ClosestPoint> closest;
   Write<CurveAnchor> anchor;
-  Optional<CellImages> images;
+  Optional<CellImages<TwoD>> images;
 };
 
 struct initial_bonds {  // once, at the start
@@ -231,7 +231,7 @@ struct bond_forces {
     Read<CurveAnchor> anchor;
     Write<ClosestPoint> closest;
     Write<SlopeLoad> slope_load;
-    Optional<CellImages> images;
+    Optional<CellImages<TwoD>> images;
   } at;
   SummedBlocks<Contact, BondSums<Contact>> summed;
   void operator()(SmallTasks) const;

@@ -10,7 +10,6 @@
 
 #include <array>
 
-#include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "engine/lane_memory.hpp"
 #include "systems/contact/contact_kernel.hpp"
@@ -66,13 +65,11 @@ inline PointLanes edge_points_at(const double* low, const double* high) {
   return p;
 }
 
-// Points in contact with periodic images, shifted to where they are relative to the particles themselves. `vectors` of
-// the cell: m, or m/s for velocities.
-template <class Images, class At>
-inline void move_to_images(const Tensor2& vectors, const Images& image,
-                           const TwoCandidates<At>& two, PointLanes& p) {
-  const Point a = vectors * Image{image(two[0], 0), image(two[0], 1)};
-  const Point b = vectors * Image{image(two[1], 0), image(two[1], 1)};
+// Points in contact with periodic images, shifted to where they are relative to the particles themselves. `of_row`: m,
+// shift of a row's image, or m/s, its velocity.
+template <class At, class OfRow>
+inline void move_to_images(const TwoCandidates<At>& two, const OfRow& of_row, PointLanes& p) {
+  const std::array<double, 2> a = of_row(two[0]), b = of_row(two[1]);
   p.x -= halves(a[0], b[0]);
   p.y -= halves(a[1], b[1]);
 }

@@ -17,6 +17,7 @@ namespace pulvis {
 namespace {
 
 using Gathered = GatheredContact<TwoD>;
+using Image = ImageIn<TwoD>;
 
 // Adds the points of a row that carry a force; normal_at(point, g) points into the sampled particle. `shift` m, from the
 // position of the sampled particle to where it touches the link's first one.
@@ -54,10 +55,6 @@ std::vector<ContactLink<TwoD>> links_of_pairs(const Bodies& bodies, const Contac
   const auto image_of = [&](Row<Contact> row) {
     return pairs.images ? pairs.images->of(row) : Image{};
   };
-  // Of the two links between a particle and its own image one is kept.
-  const auto counts = [](int number, int other, const Image& image) {
-    return other > number || (other == number && image > Image{});
-  };
   // Each pair belongs to its particle of lower number, whose rows and those against it are searched.
   auto links = list_by_slot<ContactLink<TwoD>>(
       static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ContactLink<TwoD>>& found) {
@@ -70,7 +67,7 @@ std::vector<ContactLink<TwoD>> links_of_pairs(const Bodies& bodies, const Contac
           if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 2));
           const Image image = image_of(row);
-          if (counts(number, other, image))
+          if (counts_for_first<TwoD>(number, other, image))
             add_row(row, 1, partners.with(other, image, period_of(image)));
         }
         for (int k = index.other_begin[s]; k < index.other_begin[s + 1]; ++k) {
@@ -78,7 +75,7 @@ std::vector<ContactLink<TwoD>> links_of_pairs(const Bodies& bodies, const Contac
           if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 0));
           const Image n = image_of(row), image{-n[0], -n[1]};
-          if (counts(number, other, image))
+          if (counts_for_first<TwoD>(number, other, image))
             add_row(row, -1, partners.with(other, image, period_of(image)));
         }
         partners.move_to(found, 2);

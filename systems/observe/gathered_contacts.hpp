@@ -23,7 +23,7 @@ template <class D>
 struct GatheredContact {
   using Point = typename D::Point;
   ContactLink<D> link;
-  Image image{};  // of the second particle
+  ImageIn<D> image{};  // of the second particle
   double weight = 0;
 
   // `side` is -1 if the sampled side is the link's second particle.
@@ -63,7 +63,7 @@ template <class D>
 class ContactsOfParticle {
  public:
   explicit ContactsOfParticle(int number) : number_(number) {}
-  GatheredContact<D>& with(int second, const Image& image = {},
+  GatheredContact<D>& with(int second, const ImageIn<D>& image = {},
                            const typename D::Point& period = {}) {
     const auto same = [&](const GatheredContact<D>& g) {
       return g.link.second == second && g.image == image;
@@ -87,6 +87,12 @@ class ContactsOfParticle {
   int number_;
   std::vector<GatheredContact<D>> all_;
 };
+
+// Each contact belongs to its particle of lower number; of the two between a particle and its own image one is kept.
+template <class D>
+bool counts_for_first(int number, int other, const ImageIn<D>& image) {
+  return other > number || (other == number && image > ImageIn<D>{});
+}
 
 template <class D>
 void sort_by_numbers(std::vector<ContactLink<D>>& links) {

@@ -30,9 +30,10 @@ struct Extent {  // a box, z = 0 in two dimensions; initially empty
       take(k, other.high[k]);
     }
   }
-  bool is_near(const Extent& other, const Point& shift, double distance) const {
+  template <std::size_t N>
+  bool is_near(const Extent& other, const std::array<double, N>& shift, double distance) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double by = k < 2 ? shift[k] : 0;
+      const double by = k < N ? shift[k] : 0;
       if (!(low[k] + by <= other.high[k] + distance && other.low[k] <= high[k] + by + distance))
         return false;
     }
@@ -54,27 +55,30 @@ Extent extent_of(ThreeD, std::span<const double> points) {
 }
 
 // Whether `own`, or an image of it, comes near `there`.
-bool comes_near(const Extent& own, const Extent& there, const PeriodicCell* cell, double distance) {
+template <class D>
+bool comes_near(const Extent& own, const Extent& there, const PeriodicCell<D>* cell,
+                double distance) {
   if (there.is_empty()) return false;
-  if (cell == nullptr) return own.is_near(there, {}, distance);
-  const Tensor2 inverse = cell->vectors.inverse();
-  Point apart{}, half{};
-  for (std::size_t k = 0; k < 2; ++k) {
+  if (cell == nullptr) return own.is_near(there, typename D::Point{}, distance);
+  const Tensor<D> inverse = cell->vectors.inverse();
+  typename D::Point apart{}, half{};
+  for (std::size_t k = 0; k < D::axes; ++k) {
     apart[k] = 0.5 * (there.low[k] + there.high[k] - own.low[k] - own.high[k]);
     half[k] = 0.5 * (there.high[k] - there.low[k] + own.high[k] - own.low[k]) + distance;
   }
-  const Point middle = inverse * apart;
-  std::array<int, 2> first, last;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double width =
-        std::abs(inverse.t[2 * k]) * half[0] + std::abs(inverse.t[2 * k + 1]) * half[1];
+  const typename D::Point middle = inverse * apart;
+  ImageIn<D> first, last;
+  for (std::size_t k = 0; k < D::axes; ++k) {
+    double width = 0;
+    for (std::size_t i = 0; i < D::axes; ++i) width += std::abs(inverse(k, i)) * half[i];
     first[k] = static_cast<int>(std::floor(middle[k] - width));
     last[k] = static_cast<int>(std::ceil(middle[k] + width));
   }
-  for (int i = first[0]; i <= last[0]; ++i)
-    for (int k = first[1]; k <= last[1]; ++k)
-      if (own.is_near(there, cell->vectors * Image{i, k}, distance)) return true;
-  return false;
+  bool found = false;
+  for_images<D>(first, last, [&](const ImageIn<D>& image) {
+    found = found || own.is_near(there, cell->vectors * image, distance);
+  });
+  return found;
 }
 
 // The box of the particles of every rank.
@@ -101,7 +105,7 @@ std::vector<Extent> extents_of_ranks(const RankLink& link, const Extent& own) {
 template <class D>
 void find_border<D>::operator()() const {
   if (!index->due) return;
-  const PeriodicCell* periodic = cell ? &**cell : nullptr;
+  const PeriodicCell<D>* periodic = cell ? &**cell : nullptr;
   const Outlines positions(outlines.position);
   std::vector<Extent> extent;
   Extent own;

@@ -16,6 +16,14 @@ std::span<const std::int32_t> keys_of(const World& world) {
   return {pair.values(), 3 * pair.table.rows};
 }
 
+// None without a periodic cell.
+std::span<const std::int32_t> images_of(const World& world) {
+  using Images = ContactImage<FaceContact>;
+  if (!world.has<Images>()) return {};
+  const Column<Images>& column = world.column<Images>();
+  return {column.values(), 3 * column.table.rows};
+}
+
 // Particles of other ranks, by rank, that were near those of this one when the rows were built.
 std::map<int, std::vector<int>> needed_of(const World& share) {
   const ContactIndex& index = share.resource<ContactIndex>();
@@ -61,7 +69,7 @@ void list_rows(World& world) {
   if (world.has<RowBlocks<FaceToolContact>>() && !index.tool_begin.empty())
     world.resource<RowBlocks<FaceToolContact>>().divide(index.tool_begin);
   if (world.has<space::FacePairs>() && !index.sampled_begin.empty())
-    world.resource<space::FacePairs>().list(keys_of<FaceContact>(world),
+    world.resource<space::FacePairs>().list(keys_of<FaceContact>(world), images_of(world),
                                             index.sampled_begin.size());
 }
 

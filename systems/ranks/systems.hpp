@@ -32,7 +32,7 @@ struct OutlineColumns {
 template <class D>
 struct find_border {
   Read<ContactIndex> index;
-  Optional<Read<PeriodicCell>> cell;
+  Optional<Read<PeriodicCell<D>>> cell;
   Write<Bodies> bodies;
   OutlineColumns<D> outlines;
   Write<typename D::OutlineBefore> before;

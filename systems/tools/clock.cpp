@@ -31,9 +31,8 @@ constexpr double max_strain_between_looks = 0.01;
 // Share of the thinnest part that surfaces may move against each other in a step: what they enter is seen
 // while its near side is by far the nearer one, also where speeds grow within the step.
 constexpr double max_share_of_thickness = 0.25;
-constexpr double overlap_at_start =
-    1e-5;                                 // of the size of a face; less is round-off
-constexpr double share_at_overlap = 0.2;  // of the stable step, for the first step
+constexpr double overlap_at_start = 1e-5;  // of the size of a face; less is round-off
+constexpr double share_at_overlap = 0.2;   // of the stable step, for the first step
 
 double length_of(const Point3& v) { return portable::hypot(portable::hypot(v[0], v[1]), v[2]); }
 
@@ -54,10 +53,11 @@ double farthest_displacement(const ToolProgram& program, const Optional<Read<Ser
 }
 
 // Upper bound on the relative motion of any two surfaces in a step.
+template <class D>
 class Approach {
  public:
   // `fastest`: m/s, over all outlines.
-  Approach(const SurfaceSpeeds& speeds, double fastest) : speeds_(speeds), fastest_(fastest) {
+  Approach(const SurfaceSpeeds<D>& speeds, double fastest) : speeds_(speeds), fastest_(fastest) {
     if (speeds.cell)
       for (const double v : (*speeds.cell)->rate.t) images_ += std::abs(v);
   }
@@ -71,13 +71,15 @@ class Approach {
   }
 
  private:
-  const SurfaceSpeeds& speeds_;
+  const SurfaceSpeeds<D>& speeds_;
   double fastest_;
   double images_ = 0;  // m/s, of the nearest images relative to their particles
 };
 
 // No surface may be on one side of a part before a step and on, or closer to, its other side afterwards.
-double without_passing(const Approach& approach, const Clock& clock, double thinnest, double dt) {
+template <class D>
+double without_passing(const Approach<D>& approach, const Clock& clock, double thinnest,
+                       double dt) {
   const double maximum = max_share_of_thickness * thinnest;
   for (double displacement = approach.displacement(clock.time, dt);
        displacement > maximum && std::isfinite(displacement);
@@ -92,8 +94,9 @@ struct Extremes {
 };
 
 // `min_jacobian`: of this rank so far; then of all.
+template <class D>
 Extremes extremes_of(const Bodies& bodies, const Read<StableTimeStep>& stable,
-                     const SurfaceSpeeds& speeds, double& min_jacobian, const Link& link) {
+                     const SurfaceSpeeds<D>& speeds, double& min_jacobian, const Link& link) {
   Extremes of;
   bodies.for_own_lanes([&](int slot) {
     of.min_step = std::min(of.min_step, entry(stable.values(), slot));
@@ -106,7 +109,8 @@ Extremes extremes_of(const Bodies& bodies, const Read<StableTimeStep>& stable,
   return {-of_all[1], of_all[0]};
 }
 
-void choose_time_step(double min_step, const Approach& approach,
+template <class D>
+void choose_time_step(double min_step, const Approach<D>& approach,
                       const Optional<Read<ContactRules>>& rules, Clock& clock) {
   // Never grow fast: the accelerations caused by a sudden change belong to the old step.
   const double wanted = clock.safety * min_step;
@@ -146,14 +150,16 @@ void first_penetration::operator()() const {
   clock->stiffening = kernels::stiffening(maximum_of_ranks(link, deepest));
 }
 
-void first_time_step::operator()() const {
+template <class D>
+void first_time_step<D>::operator()() const {
   double none = 1;
   const Extremes of = extremes_of(*bodies, stable, speeds, none, link);
   choose_time_step(of.min_step, Approach(speeds, of.fastest), rules, *clock);
   if (clock->stiffening > kernels::stiffening(overlap_at_start)) clock->dt *= share_at_overlap;
 }
 
-void advance_clock::operator()() const {
+template <class D>
+void advance_clock<D>::operator()() const {
   const Extremes of = extremes_of(*bodies, stable, speeds, totals->min_jacobian, link);
   const Approach approach(speeds, of.fastest);
   const bool looked = clock->step >= clock->next_look;
@@ -179,5 +185,9 @@ void advance_clock::operator()() const {
   clock->step += 1;
   choose_time_step(of.min_step, approach, rules, *clock);
 }
+template struct first_time_step<TwoD>;
+template struct first_time_step<ThreeD>;
+template struct advance_clock<TwoD>;
+template struct advance_clock<ThreeD>;
 
 }  // namespace pulvis

@@ -1,6 +1,7 @@
 // Contacts of a servo-driven part: springs and dashpots of a row's points, as if all pointed in its direction.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "components/bundles.hpp"
@@ -9,24 +10,34 @@
 
 namespace pulvis {
 
-// For the points currently under pressure. `area(g)`: of a point, m^2. `bonds`: their stiffness over that of a contact spring.
+// Of a point with this force, N, and area, m^2. `bonds`: their stiffness over that of a contact spring.
+template <class At>
+kernels::TouchSums touching_at_point(Row<At> row, const Read<ContactLaw<At>>& law,
+                                     const std::array<double, At::axes>& force, double area,
+                                     double bonds) {
+  using Law = ContactLaw<At>;
+  double square = 0;
+  for (const double part : force) square += part * part;
+  const double pressure = std::sqrt(square) / area;
+  if (!(pressure > 0)) return {};
+  const double kappa = law(row, Law::stiffness);
+  const double g_s = kernels::stiffening_depth / law(row, Law::inv_size);
+  return {area * kappa * (kernels::tangent_at(pressure, kappa, g_s) + bonds),
+          area * law(row, Law::damping)};
+}
+
+// For the points currently under pressure. `area(g)`: of a point, m^2.
 template <class At, class Area>
 kernels::TouchSums touching_of(Row<At> row, const TouchingRows<At>& rows,
                                const Read<ContactLaw<At>>& law, const Area& area, double bonds) {
-  using Law = ContactLaw<At>;
   kernels::TouchSums sums;
-  const double kappa = law(row, Law::stiffness);
-  const double g_s = kernels::stiffening_depth / law(row, Law::inv_size);
   for (int g = 0; g < At::points; ++g) {
-    double square = 0;
-    for (int k = 0; k < At::axes; ++k) {
-      const double force = rows.force(row, PointForce<At>::number(g, k));
-      square += force * force;
-    }
-    const double weight = area(g), pressure = std::sqrt(square) / weight;
-    if (!(pressure > 0)) continue;
-    sums.stiffness += weight * kappa * (kernels::tangent_at(pressure, kappa, g_s) + bonds);
-    sums.damping += weight * law(row, Law::damping);
+    std::array<double, At::axes> force;
+    for (int k = 0; k < At::axes; ++k)
+      entry(force, k) = rows.force(row, PointForce<At>::number(g, k));
+    const kernels::TouchSums of_point = touching_at_point(row, law, force, area(g), bonds);
+    sums.stiffness += of_point.stiffness;
+    sums.damping += of_point.damping;
   }
   return sums;
 }

@@ -55,7 +55,8 @@ double rest_time(const ToolProgram& program, const MixedControl* control, int st
 }
 
 // Strain still to come from a driven component if it begins to come to rest now.
-double strain_to_rest(const MixedControl& control, int part, const stage_control& s, int stage) {
+template <class D>
+double strain_to_rest(const MixedControl& control, int part, const stage_control<D>& s, int stage) {
   const MixedControl::Stage& asked = entry(control.stages, stage);
   if (entry(asked.law, part) != MixedControl::Law::strain) return 0;
   const double since = s.clock->time - entry(s.program->stages, stage).begin;
@@ -63,10 +64,12 @@ double strain_to_rest(const MixedControl& control, int part, const stage_control
 }
 
 // The same for the way of a plane that is driven by strains: the two of an axis share their change of distance.
-double wall_to_rest(int tool, int k, const stage_control& s, int stage) {
+template <class D>
+double wall_to_rest(int tool, int k, const stage_control<D>& s, int stage) {
   const DrivenWalls& walls = **s.walls;
-  const int low = k == 0 ? walls.left : walls.bottom, high = k == 0 ? walls.right : walls.top;
-  if (k > 1 || (tool != low && tool != high)) return 0;
+  if (k >= D::axes) return 0;
+  const auto [low, high] = entry(walls.walls, k);
+  if (tool != low && tool != high) return 0;
   const Read<ToolPosition>& at = s.tools->position;
   const double size = at(Row<Tool>(high), k) - at(Row<Tool>(low), k);
   const double half = 0.5 * size * (portable::exp(strain_to_rest(walls.control, k, s, stage)) - 1);
@@ -75,7 +78,8 @@ double wall_to_rest(int tool, int k, const stage_control& s, int stage) {
 
 // The way that a servo adds to its tool until `rest` at the current speed. Behind an elastic drive that speed is of the
 // spring, and falls like that of its far end.
-double servo_to_rest(int tool, int k, const stage_control& s, int stage) {
+template <class D>
+double servo_to_rest(int tool, int k, const stage_control<D>& s, int stage) {
   const MixedControl* control = s.walls ? &(*s.walls)->control : nullptr;
   const double left = rest_time(*s.program, control, stage, s.clock->time) - s.clock->time;
   for (const ToolServos::Servo& servo : s.drives->servos->servos)
@@ -85,7 +89,8 @@ double servo_to_rest(int tool, int k, const stage_control& s, int stage) {
 }
 
 // m: where a tool will have come to rest.
-double rest_position(int tool, int k, const stage_control& s, int stage) {
+template <class D>
+double rest_position(int tool, int k, const stage_control<D>& s, int stage) {
   double at = s.tools->position(Row<Tool>(tool), k);
   for (const Segment& move : s.program->segments)
     if (move.tool == tool && move.stage == stage)
@@ -97,30 +102,33 @@ double rest_position(int tool, int k, const stage_control& s, int stage) {
 }
 
 // ---- conditions -----------------------------------------------------------------------------------
-double density_at_rest(const stage_control& s, int stage) {
+template <class D>
+double density_at_rest(const stage_control<D>& s, int stage) {
   const StageEnds& ends = *s.ends;
   if (s.cell) {
     const MixedControl& control = (*s.cell)->control;
-    const double to_come = strain_to_rest(control, MixedControl::xx, s, stage) +
-                           strain_to_rest(control, MixedControl::yy, s, stage);
-    return ends.cell.particle_area / (*s.cell)->area() * portable::exp(-to_come);
+    double to_come = 0;
+    for (int k = 0; k < D::axes; ++k) to_come += strain_to_rest(control, k, s, stage);
+    return ends.content / (*s.cell)->size() * portable::exp(-to_come);
   }
   const auto at = [&](int tool, int k) { return rest_position(tool, k, s, stage); };
   if (ends.room) return ends.room->density(at);
   const StageEnds::Cell& cell = ends.cell;
   const kernels::DieSides sides{at(cell.left, 0), at(cell.right, 0), at(cell.top, 1),
                                 at(cell.bottom, 0), at(cell.bottom, 1)};
-  return cell.particle_area / kernels::die_area(sides, cell.relief);
+  return ends.content / kernels::die_area(sides, cell.relief);
 }
 
-double displacement_at_rest(const stage_control& s, const End& end) {
+template <class D>
+double displacement_at_rest(const stage_control<D>& s, const End& end) {
   Point3 moved = entry(s.ends->tools_at_begin, end.tool);
   for (int k = 0; k < tool_axes; ++k)
     entry(moved, k) = rest_position(end.tool, k, s, end.stage) - entry(moved, k);
   return size_of(moved);
 }
 
-double force_now(const stage_control& s, const End& end) {
+template <class D>
+double force_now(const stage_control<D>& s, const End& end) {
   const Point3 load = of_tool(s.tools->force, Row<Tool>(end.tool));
   const bool any_way = end.direction == Point3{};
   return any_way ? size_of(load)
@@ -128,7 +136,8 @@ double force_now(const stage_control& s, const End& end) {
                      load[2] * end.direction[2]);
 }
 
-double value_at_rest(const End& end, const stage_control& s) {
+template <class D>
+double value_at_rest(const End& end, const stage_control<D>& s) {
   if (end.kind == StageEnds::Kind::density) return density_at_rest(s, end.stage);
   return end.kind == StageEnds::Kind::displacement ? displacement_at_rest(s, end)
                                                    : force_now(s, end);
@@ -182,7 +191,8 @@ void end_early(const End& end, double time, MixedControl* control, ToolProgram& 
 
 }  // namespace
 
-void stage_control::operator()() const {
+template <class D>
+void stage_control<D>::operator()() const {
   const std::size_t stage = program->stage_at(clock->time);
   const bool new_stage = stage != ends->stage;
   if (new_stage)
@@ -204,5 +214,7 @@ void stage_control::operator()() const {
     if (end.reached) end_early(end, clock->time, control, *program, ends->run_end);
   }
 }
+template struct stage_control<TwoD>;
+template struct stage_control<ThreeD>;
 
 }  // namespace pulvis

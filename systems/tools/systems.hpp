@@ -21,6 +21,7 @@ struct tool_motion {
   void operator()() const;
 };
 
+template <class D>
 struct stage_control {
   Read<Clock> clock;
   struct Tools {
@@ -33,7 +34,7 @@ struct stage_control {
     Read<ServoVelocity> velocity;
   };
   Optional<Drives> drives;
-  Optional<Write<PeriodicCell>> cell;
+  Optional<Write<PeriodicCell<D>>> cell;
   Optional<Write<DrivenWalls>> walls;
   Write<StageEnds> ends;
   Write<ToolProgram> program;
@@ -186,11 +187,12 @@ struct ridge_health {
 
 // ---- the clock --------------------------------------------------------------------------------------
 // Speeds of the surfaces; empty if no contact is possible.
+template <class D>
 struct SurfaceSpeeds {
   Optional<Read<MaximumSpeed>> outlines;
   Optional<Read<ToolProgram>> program;
   Optional<Read<ServoVelocity>> servo;
-  Optional<Read<PeriodicCell>> cell;
+  Optional<Read<PeriodicCell<D>>> cell;
 };
 
 struct first_penetration {  // once, at the start, for surfaces that overlap there
@@ -201,20 +203,22 @@ struct first_penetration {  // once, at the start, for surfaces that overlap the
   void operator()() const;
 };
 
+template <class D>
 struct first_time_step {  // once, at the start
   Read<Bodies> bodies;
   Read<StableTimeStep> stable;
-  SurfaceSpeeds speeds;
+  SurfaceSpeeds<D> speeds;
   Optional<Read<ContactRules>> rules;
   Write<Clock> clock;
   Link link;
   void operator()() const;
 };
 
+template <class D>
 struct advance_clock {
   Read<Bodies> bodies;
   Read<StableTimeStep> stable;
-  SurfaceSpeeds speeds;
+  SurfaceSpeeds<D> speeds;
   Write<Totals> totals;  // of all ranks
   Optional<Read<StageEnds>> ends;
   Optional<Read<ContactRules>> rules;

@@ -32,7 +32,7 @@ ROOMS = {
         "body": "laws",
         "contact": "laws ranks",
         "tools": "contact laws ranks",
-        "cell": "tools ranks",
+        "cell": "space/contact tools ranks",
         "observe": "contact tools ranks",
         "sparse": "",
         "lever": "sparse body laws",

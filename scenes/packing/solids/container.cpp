@@ -81,7 +81,7 @@ Turn random_turn(portable::Random& random) {
 
 V3 random_place(const Container& container, double height, double edge, portable::Random& random) {
   const auto along = [&](double size) {
-    const double off = std::min(edge, size / 2);
+    const double off = container.periodic ? 0 : std::min(edge, size / 2);
     return random.between(off, size - off);
   };
   if (!container.round()) {
@@ -101,7 +101,10 @@ double Container::floor() const {
   return round() ? std::numbers::pi * radius * radius : width * depth;
 }
 
-int walls_of(const Container& container) { return container.round() ? 3 : 6; }
+int walls_of(const Container& container) {
+  if (container.periodic) return 0;
+  return container.round() ? 3 : 6;
+}
 
 std::optional<RigidTouch> round_wall_touch(double radius, const RigidShape& shape,
                                            const RigidPose& pose, double range) {
@@ -132,8 +135,79 @@ std::optional<RigidTouch> wall_touch(const Container& container, double height, 
   return gap < range ? std::optional(RigidTouch{deepest, plane.normal, gap}) : std::nullopt;
 }
 
-std::vector<NearPair> near_pairs(const Container&, double, const std::vector<RigidPose>& poses,
+namespace {
+
+using Periods = std::array<std::int32_t, 3>;
+
+// The particles moved into the cell, followed by their images that come near it.
+struct PeriodicBalls {
+  std::vector<Ball> balls;
+  std::vector<std::int32_t> particle;  // [balls]
+  std::vector<Periods> periods;        // [balls], from where the particle is
+};
+
+PeriodicBalls periodic_balls(const Container& cell, double height,
+                             const std::vector<RigidPose>& poses, const std::vector<double>& radii,
+                             double range) {
+  const std::array<double, 3> size{cell.width, cell.depth, height};
+  const double reach = 2 * std::ranges::max(radii) + range;  // of what can touch
+  PeriodicBalls all;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const V3& at = poses[i].at;
+    const Periods home{-static_cast<std::int32_t>(std::floor(at.x / size[0])),
+                       -static_cast<std::int32_t>(std::floor(at.y / size[1])),
+                       -static_cast<std::int32_t>(std::floor(at.z / size[2]))};
+    all.balls.push_back({at + shift_of(cell, height, home), radii[i]});
+    all.particle.push_back(static_cast<std::int32_t>(i));
+    all.periods.push_back(home);
+  }
+  Periods most;
+  for (std::size_t k = 0; k < 3; ++k) most[k] = static_cast<std::int32_t>(reach / size[k]) + 1;
+  const auto is_near = [&](double at, double extent) { return at > -reach && at < extent + reach; };
+  for (std::int32_t x = -most[0]; x <= most[0]; ++x)
+    for (std::int32_t y = -most[1]; y <= most[1]; ++y)
+      for (std::int32_t z = -most[2]; z <= most[2]; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const V3 shift = shift_of(cell, height, {x, y, z});
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+          const V3 at = all.balls[i].centre + shift;
+          if (!is_near(at.x, size[0]) || !is_near(at.y, size[1]) || !is_near(at.z, size[2]))
+            continue;
+          const Periods home = all.periods[i];
+          all.balls.push_back({at, radii[i]});
+          all.particle.push_back(static_cast<std::int32_t>(i));
+          all.periods.push_back({home[0] + x, home[1] + y, home[2] + z});
+        }
+      }
+  return all;
+}
+
+// Every pair once: from its first particle, or for one with its own image from either side.
+std::vector<NearPair> periodic_pairs(const Container& cell, double height,
+                                     const std::vector<RigidPose>& poses,
+                                     const std::vector<double>& radii, double range) {
+  const PeriodicBalls all = periodic_balls(cell, height, poses, radii, range);
+  const auto count = static_cast<std::int32_t>(poses.size());
+  std::vector<NearPair> pairs;
+  for (const auto& [first, second] : near_pairs(all.balls, range)) {
+    if (first >= count) continue;  // two images
+    const auto i = static_cast<std::size_t>(first), k = static_cast<std::size_t>(second);
+    const std::int32_t other = all.particle[k];
+    Periods apart;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      apart[axis] = all.periods[k][axis] - all.periods[i][axis];
+    if (other > first || (other == first && apart > Periods{}))
+      pairs.push_back({first, other, apart});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<NearPair> near_pairs(const Container& container, double height,
+                                 const std::vector<RigidPose>& poses,
                                  const std::vector<double>& radii, double range) {
+  if (container.periodic) return periodic_pairs(container, height, poses, radii, range);
   std::vector<Ball> balls;
   for (std::size_t i = 0; i < poses.size(); ++i) balls.push_back({poses[i].at, radii[i]});
   std::vector<NearPair> pairs;

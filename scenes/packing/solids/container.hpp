@@ -1,8 +1,9 @@
-// The rigid box or round die that solids are packed in: floor at z = 0, walls, and a punch that presses from above.
-// The origin is the corner of a box, or the centre of a cylinder's floor. And how solids move in it. Lengths in units of a
+// The rigid box or round die that solids are packed in: floor at z = 0, walls, and a punch that presses from above; or a
+// periodic cell. The origin is the corner of a box, or the centre of a cylinder's floor. And how solids move in it. Lengths in units of a
 // mean diameter. The counterpart in two dimensions is scenes/packing/outlines/container.hpp.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Container {
   ContainerSpec::Kind kind = ContainerSpec::Kind::box;
   double width = 0, depth = 0;  // for a box
   double radius = 0;            // for a cylinder
+  bool periodic = false;        // a box without walls
 
   double floor() const;  // its area
   // Of a powder with this content (volume) at a density.
@@ -36,8 +38,14 @@ std::optional<RigidTouch> round_wall_touch(double radius, const RigidShape& shap
 
 struct NearPair {
   std::int32_t a, b;
-  V3 normal{0, 0, 1};  // along which they were apart, or in contact, last
+  std::array<std::int32_t, 3> periods{};  // by which b is shifted
+  V3 normal{0, 0, 1};                     // along which they were apart, or in contact, last
 };
+// How far that moves it.
+inline V3 shift_of(const Container& container, double height,
+                   const std::array<std::int32_t, 3>& periods) {
+  return {periods[0] * container.width, periods[1] * container.depth, periods[2] * height};
+}
 // All pairs whose spheres around their centres, of these radii, have a gap below `range`.
 std::vector<NearPair> near_pairs(const Container& container, double height,
                                  const std::vector<RigidPose>& poses,

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "components/cell.hpp"
 #include "components/contact.hpp"
+#include "scenes/tools/cell.hpp"
 #include "scenes/tools/die_relief.hpp"
 #include "scenes/tools/die_room.hpp"
 #include "systems/tools/relief_kernel.hpp"
@@ -54,7 +54,12 @@ Vec2 size_of(const World& world, const DieCell& die) {
 }
 
 std::function<double(const World&)> enclosure_of(const Scene& scene) {
-  if (scene.cell) return [](const World& world) { return world.resource<PeriodicCell>().area(); };
+  if (scene.cell)
+    return [](const World& world) {
+      double size = 0;
+      with_cell_of(world, [&](const auto& cell) { size = cell.size(); });
+      return size;
+    };
   if (scene.in_space()) {
     if (const auto room = die_room(scene))
       return [room = *room](const World& world) { return volume_of(world, room); };

@@ -63,7 +63,7 @@ void add_stress_series(const Scene& scene, Observables& all) {
   const char* as_xx = "as stress/xx";
   all.add(figures,
           {{"stress/xx", "Pa", "mean stress $\\sigma_{xx}$",
-            space ? "Cauchy, mean over the volume between the tools; tension > 0"
+            space ? "Cauchy, mean over the volume between the tools, or of the cell; tension > 0"
                   : "Cauchy, mean over the area between the tools, or of the cell; tension > 0",
             part(0)},
            {"stress/yy", "Pa", "mean stress $\\sigma_{yy}$", as_xx, part(1)},

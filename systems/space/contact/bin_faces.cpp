@@ -1,7 +1,7 @@
 // bin_faces, bin_tool_faces: broad phase in three dimensions: rebuilds the contact rows once the surfaces have moved
 // through the skin.
 //
-// History (closest points, friction springs) is matched by the key (particle, other, face) or (particle, face, tool): rows
+// History (closest points, friction springs) is matched by the key (particle, other, image, face) or (particle, face, tool): rows
 // are sorted by it, so that old and new rows of a particle are merged in one pass.
 // Runs     after skin_check, which decides when; a sync point (row counts change)
 #include <oneapi/tbb/parallel_for.h>
@@ -17,28 +17,40 @@ namespace {
 
 struct FaceKey {
   std::int32_t slot, face, other;
+  ImageIn<ThreeD> image{};
 };
-FaceKey key_of(const FaceCandidate& c) { return {c.slot, c.face, c.other}; }
+FaceKey key_of(const FaceCandidate& c) { return {c.slot, c.face, c.other.slot, c.other.image}; }
 FaceKey key_of(const ToolCandidate& c) { return {c.slot, c.face, c.tool}; }
 
 // The sort order of rows.
 template <class At>
-std::array<std::int32_t, 3> order_of(const FaceKey& key) {
-  if constexpr (std::is_same_v<At, FaceContact>) return {key.slot, key.other, key.face};
+std::array<std::int32_t, 6> order_of(const FaceKey& key) {
+  const auto [x, y, z] = key.image;
+  if constexpr (std::is_same_v<At, FaceContact>) return {key.slot, key.other, x, y, z, key.face};
   return {key.slot, key.face, key.other};
 }
+
+// The keys of the rows from the last rebuild.
+template <class At>
+struct KeysBefore {
+  const Write<ContactPair<At>>& pair;
+  const Write<ContactImage<At>>* image;  // in a periodic cell
+  FaceKey operator()(Row<At> row) const {
+    FaceKey key{pair(row, 0), pair(row, 1), pair(row, 2)};
+    for (std::size_t k = 0; image != nullptr && k < key.image.size(); ++k)
+      key.image[k] = (*image)(row, static_cast<int>(k));
+    return key;
+  }
+};
 
 // For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, from the last rebuild; empty
 // if there was none.
 template <class At, class Candidate>
 std::vector<std::int32_t> rows_before(const std::vector<std::int32_t>& before_begin,
-                                      const Write<ContactPair<At>>& pair,
-                                      const BySlot<Candidate>& now) {
+                                      const KeysBefore<At>& before, const BySlot<Candidate>& now) {
   std::vector<std::int32_t> source(now.all.size(), -1);
   if (before_begin.empty()) return source;
-  const auto old_order = [&](std::int32_t row) {
-    return order_of<At>({pair(Row<At>(row), 0), pair(Row<At>(row), 1), pair(Row<At>(row), 2)});
-  };
+  const auto old_order = [&](std::int32_t row) { return order_of<At>(before(Row<At>(row))); };
   for_slots(static_cast<int>(now.begin.size()) - 1, [&](int slot) {
     std::int32_t b = entry(before_begin, slot);
     const std::int32_t end = entry(before_begin, slot + 1);
@@ -112,11 +124,13 @@ void bin_faces::operator()() const {
   if (!index->due) return;
   const ContactRules& rules = *material.rules;
   const SurfaceBoxes boxes = surface_boxes(bodies, position.values());
-  BySlot<std::int32_t> neighbours = particle_neighbours(bodies, boxes, index->neighbourhood);
+  const PeriodicCell<ThreeD>* periodic = pairs.cell ? &**pairs.cell : nullptr;
+  const BySlot<Neighbour> neighbours =
+      near_particles(boxes.particle, bodies.bodies->present_slots, periodic, index->neighbourhood);
   BySlot<FaceCandidate> found =
-      face_candidates(bodies, boxes, neighbours, index->skin + index->reach);
-  const std::vector<std::int32_t> source =
-      rows_before<FaceContact>(index->sampled_begin, rows.pair, found);
+      face_candidates(bodies, boxes, periodic, neighbours, index->skin + index->reach);
+  const std::vector<std::int32_t> source = rows_before<FaceContact>(
+      index->sampled_begin, {rows.pair, pairs.image ? &*pairs.image : nullptr}, found);
   structure.rebuild(source);
   tbb::parallel_for(std::size_t{0}, found.all.size(), [&](std::size_t r) {
     const Row<FaceContact> row(static_cast<std::int64_t>(r));
@@ -128,14 +142,17 @@ void bin_faces::operator()() const {
                      entry(material.density.values(), key.other)),
             rules.between(material_of(key.slot), material_of(key.other)).friction.coefficient,
             rules.damping, rows);
+    for (std::size_t k = 0; pairs.image && k < key.image.size(); ++k)
+      (*pairs.image)(row, static_cast<int>(k)) = key.image[k];
     if (source[r] >= 0) return;
     activate(row, rows);
     start_from(found.all[r].start, row, point);
   });
-  pairs->list(rows.pair.values(), found.begin.size());
+  pairs.list->list(rows.pair.values(),
+                   pairs.image ? pairs.image->values() : std::span<std::int32_t>{},
+                   found.begin.size());
   index->sampled_begin = std::move(found.begin);
-  index->neighbour_begin = std::move(neighbours.begin);
-  index->neighbours = std::move(neighbours.all);
+  keep_neighbours(neighbours, periodic, *index);
 }
 
 namespace {
@@ -161,7 +178,8 @@ void bin_tool_faces::operator()() const {
   const ContactRules& rules = *material.rules;
   const FaceLook look{bodies, position.values(), tools, index->skin + index->reach};
   BySlot<ToolCandidate> found = tool_candidates(look);
-  structure.rebuild(rows_before<FaceToolContact>(index->tool_begin, rows.columns.pair, found));
+  structure.rebuild(
+      rows_before<FaceToolContact>(index->tool_begin, {rows.columns.pair, nullptr}, found));
   for (std::size_t r = 0; r < found.all.size(); ++r) {
     const FaceKey key = key_of(found.all[r]);
     const Shape::Face& face = entry(bodies.shape_of(key.slot).faces, key.face);

@@ -6,76 +6,30 @@
 namespace pulvis::space {
 namespace {
 
-// Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours are in
-// adjacent cells.
-class ParticleGrid {
- public:
-  ParticleGrid(const std::vector<Box>& boxes, const std::vector<int>& slots, double distance) {
-    Box all = entry(boxes, slots.front());
-    for (const int s : slots) {
-      const Box& b = entry(boxes, s);
-      all = joined(all, b);
-      for (std::size_t k = 0; k < 3; ++k) size_ = std::max(size_, b.high[k] - b.low[k] + distance);
-    }
-    low_ = all.low;
-    // A particle that flew away must not inflate the grid; far cells are clamped to the last one.
-    for (std::size_t k = 0; k < 3; ++k)
-      count_[k] = static_cast<int>(std::clamp((all.high[k] - all.low[k]) / size_ + 1, 1.0, 256.0));
-    begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
-    for (const int s : slots) entry(begin_, cell(entry(boxes, s)) + 1) += 1;
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    members_.resize(slots.size());
-    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
-    for (const int s : slots) entry(members_, entry(next, cell(entry(boxes, s)))++) = s;
-  }
-
-  template <class Visit>
-  void around(const Box& box, const Visit& visit) const {
-    std::array<int, 3> low, high;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int at = index(box, k);
-      low[k] = std::max(at - 1, 0);
-      high[k] = std::min(at + 1, count_[k] - 1);
-    }
-    for (int z = low[2]; z <= high[2]; ++z)
-      for (int y = low[1]; y <= high[1]; ++y)
-        for (int x = low[0]; x <= high[0]; ++x) {
-          const int c = (z * count_[1] + y) * count_[0] + x;
-          for (int m = entry(begin_, c); m < entry(begin_, c + 1); ++m) visit(entry(members_, m));
-        }
-  }
-
- private:
-  int index(const Box& box, std::size_t k) const {
-    return static_cast<int>(std::clamp((box.middle()[k] - low_[k]) / size_, 0.0, count_[k] - 1.0));
-  }
-  int cell(const Box& box) const {
-    return (index(box, 2) * count_[1] + index(box, 1)) * count_[0] + index(box, 0);
-  }
-
-  double size_ = 0;
-  std::array<double, 3> low_{};
-  std::array<int, 3> count_{1, 1, 1};
-  std::vector<std::int32_t> begin_, members_;
-};
-
 double squared_distance(const Point& a, const Point& b) {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
   return sum;
 }
 
-// Another particle, with those of its faces that are near a particle's box.
+// Another particle, or one of its periodic images, with those of its faces that are near a particle's box.
 struct NearParticle {
-  std::int32_t slot;
+  Neighbour who;
+  Point shift;  // m, of the image
   std::vector<std::int32_t> faces;
 };
+
+// Instead of an image what comes near it is moved, the other way.
+Box as_seen_from(const Point& shift, const Box& box) {
+  return moved(box, {-shift[0], -shift[1], -shift[2]});
+}
 
 // Finds the candidates of one slot after another.
 struct FaceSearch {
   const ShapedBodies<ThreeD>& bodies;
   const SurfaceBoxes& boxes;
-  const BySlot<std::int32_t>& neighbours;
+  const PeriodicCell<ThreeD>* cell;
+  const BySlot<Neighbour>& neighbours;
   double distance;
 
   void operator()(int slot, std::vector<FaceCandidate>& found) const {
@@ -84,20 +38,20 @@ struct FaceSearch {
     const std::span<const Box> own = boxes.face.of(slot);
     for (const NearParticle& other : others)
       for (std::int32_t f = 0; f < static_cast<std::int32_t>(own.size()); ++f) {
-        const std::int32_t start = nearest_face(entry(own, f), other);
-        if (start >= 0) found.push_back({slot, f, other.slot, start});
+        const std::int32_t start = nearest_face(as_seen_from(other.shift, entry(own, f)), other);
+        if (start >= 0) found.push_back({slot, f, other.who, start});
       }
   }
 
  private:
   std::vector<NearParticle> others_of(int slot) const {
     std::vector<NearParticle> others;
-    const Box& own = entry(boxes.particle, slot);
-    for (const std::int32_t neighbour : neighbours.of(slot)) {
-      if (!bodies.bodies->owns(slot) && !bodies.bodies->owns(neighbour)) continue;
-      if (!near(own, entry(boxes.particle, neighbour), distance)) continue;
-      NearParticle other{neighbour, {}};
-      const std::span<const Box> faces = boxes.face.of(neighbour);
+    for (const Neighbour& neighbour : neighbours.of(slot)) {
+      if (!bodies.bodies->owns(slot) && !bodies.bodies->owns(neighbour.slot)) continue;
+      NearParticle other{neighbour, shift_of(cell, neighbour.image), {}};
+      const Box own = as_seen_from(other.shift, entry(boxes.particle, slot));
+      if (!near(own, entry(boxes.particle, neighbour.slot), distance)) continue;
+      const std::span<const Box> faces = boxes.face.of(neighbour.slot);
       for (std::int32_t f = 0; f < static_cast<std::int32_t>(faces.size()); ++f)
         if (near(own, entry(faces, f), distance)) other.faces.push_back(f);
       if (!other.faces.empty()) others.push_back(std::move(other));
@@ -107,9 +61,9 @@ struct FaceSearch {
   // Among those near the box, or -1.
   std::int32_t nearest_face(const Box& own, const NearParticle& other) const {
     std::int32_t nearest = -1;
-    if (!near(own, entry(boxes.particle, other.slot), distance)) return nearest;
+    if (!near(own, entry(boxes.particle, other.who.slot), distance)) return nearest;
     double minimum = std::numeric_limits<double>::max();
-    const std::span<const Box> faces = boxes.face.of(other.slot);
+    const std::span<const Box> faces = boxes.face.of(other.who.slot);
     for (const std::int32_t f : other.faces) {
       const Box& its = entry(faces, f);
       if (!near(own, its, distance)) continue;
@@ -142,28 +96,11 @@ SurfaceBoxes surface_boxes(const ShapedBodies<ThreeD>& bodies, std::span<const d
   return boxes;
 }
 
-BySlot<std::int32_t> particle_neighbours(const ShapedBodies<ThreeD>& bodies,
-                                         const SurfaceBoxes& boxes, double distance) {
-  const std::vector<int>& slots = bodies.bodies->present_slots;
-  if (slots.empty()) return BySlot<std::int32_t>::none(bodies.slots());
-  const ParticleGrid grid(boxes.particle, slots, distance);
-  return list_by_slot<std::int32_t>(
-      bodies.slots(), [&](int slot, std::vector<std::int32_t>& found) {
-        if (bodies.is_absent(slot)) return;
-        const auto first = static_cast<std::ptrdiff_t>(found.size());
-        const Box& own = entry(boxes.particle, slot);
-        grid.around(own, [&](int other) {
-          if (other != slot && near(own, entry(boxes.particle, other), distance))
-            found.push_back(other);
-        });
-        std::sort(found.begin() + first, found.end());
-      });
-}
-
 BySlot<FaceCandidate> face_candidates(const ShapedBodies<ThreeD>& bodies, const SurfaceBoxes& boxes,
-                                      const BySlot<std::int32_t>& neighbours, double distance) {
+                                      const PeriodicCell<ThreeD>* cell,
+                                      const BySlot<Neighbour>& neighbours, double distance) {
   return list_by_slot<FaceCandidate>(bodies.slots(),
-                                     FaceSearch{bodies, boxes, neighbours, distance});
+                                     FaceSearch{bodies, boxes, cell, neighbours, distance});
 }
 
 }  // namespace pulvis::space

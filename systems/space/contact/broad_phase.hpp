@@ -6,14 +6,18 @@
 #include <span>
 #include <vector>
 
-#include "systems/contact/by_slot.hpp"
+#include "systems/contact/neighbours.hpp"
 #include "systems/space/contact/box.hpp"
 
 namespace pulvis::space {
 
-// A face of the particle in `slot` near the particle in `other`, whose face `start` is closest to it.
+using Neighbour = NeighbourIn<ThreeD>;
+
+// A face of the particle in `slot` near another particle, whose face `start` is closest to it.
 struct FaceCandidate {
-  std::int32_t slot, face, other, start;
+  std::int32_t slot, face;
+  Neighbour other;
+  std::int32_t start;
 };
 
 // Bounding boxes of whole particles, and of their faces, by slot.
@@ -23,12 +27,10 @@ struct SurfaceBoxes {
 };
 SurfaceBoxes surface_boxes(const ShapedBodies<ThreeD>& bodies, std::span<const double> positions);
 
-// For every slot, the other particles within `distance` (between boxes), ascending.
-BySlot<std::int32_t> particle_neighbours(const ShapedBodies<ThreeD>& bodies,
-                                         const SurfaceBoxes& boxes, double distance);
-
-// All candidates within `distance`, sorted by (slot, other, face). `neighbours`: found with at least `distance`.
+// All candidates within `distance`, sorted by (slot, other, image, face). `neighbours`: found with at least `distance`;
+// `cell`: null if nothing is periodic.
 BySlot<FaceCandidate> face_candidates(const ShapedBodies<ThreeD>& bodies, const SurfaceBoxes& boxes,
-                                      const BySlot<std::int32_t>& neighbours, double distance);
+                                      const PeriodicCell<ThreeD>* cell,
+                                      const BySlot<Neighbour>& neighbours, double distance);
 
 }  // namespace pulvis::space

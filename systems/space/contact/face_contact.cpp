@@ -50,7 +50,9 @@ class PairPass {
     own_surface_ = s_.bodies.outline_begin(slot);
     its_surface_ = s_.bodies.outline_begin(other);
     hardness_ = PairHardness(s_.faces.hardness, slot, other);
-    approached_ = s_.clock->dt_before * relative_speed(s_.columns.travel.of_surfaces, slot, other);
+    if (s_.columns.images) image_ = OtherImage(*s_.columns.images, row);
+    approached_ = s_.clock->dt_before *
+                  relative_speed(s_.columns.travel.of_surfaces, slot, other, image_.velocity);
   }
 
   void run() {
@@ -93,7 +95,6 @@ class PairPass {
     rubs_ = friction.acts();
     if (rubs_ && !friction.only_coulomb()) weakening_ = &friction;
   }
-
   void find_bonds(int slot, int other) {
     const auto& slots = s_.bodies.bodies->slots;
     const face_contact::Columns::Bonds& bonds = *s_.columns.bonds;
@@ -114,7 +115,6 @@ class PairPass {
     travel += approached_;
     return at_most(&s_.columns.activation(row), static_cast<float>(travel));
   }
-
   // The touching points are scattered among many: their cache lines are prefetched.
   void fetch(Row<FaceContact> row, unsigned active) const {
     for (unsigned left = active; left != 0; left &= left - 1)
@@ -125,7 +125,6 @@ class PairPass {
     prefetch(&(*s_.columns.points.indentation)(row, last));
     hardness_.fetch_own(s_.columns.pair(row, 1));
   }
-
   static int next_active(const std::array<unsigned, rows_at_once>& active, int from, int rows) {
     while (from < rows && entry(active, from) == 0) ++from;
     return from;
@@ -164,6 +163,7 @@ class PairPass {
       sample(rates_, face, active, velocity.data());
     else
       velocity.fill(0);
+    if (image_.is_there) image_.move(x, velocity);
     const pulvis::kernels::Hardness<double> hardness = hardness_.of_own(number);
     const double kappa = share * s_.columns.law(row, Law::stiffness),
                  damping = share * s_.columns.law(row, Law::damping),
@@ -421,6 +421,7 @@ class PairPass {
   OtherFaces faces_;  // of loads_
   PairHardness hardness_;
   PairPoints points_;
+  OtherImage image_;
   double approached_;  // m, by both surfaces since the last step, at most
   std::int32_t first_, end_;
   const Shape *own_, *its_;

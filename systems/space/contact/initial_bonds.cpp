@@ -45,6 +45,7 @@ void initial_bonds::operator()() const {
     const BondRules::Law& law = rows.rules->law(number);
     const double size = entry(bodies.shape_of(slot).faces, face).size;
     const double strength = drawn_strength(law, a.number, b.number);
+    const Point shift = images ? images->shift(row) : Point{};
     for (int g = 0; g < face_points; ++g) {
       const Slopes own = kernels::patch_slopes<double>(
           patch(slot, face), entry(kernels::gauss_at, g % 4), entry(kernels::gauss_at, g / 4));
@@ -53,7 +54,7 @@ void initial_bonds::operator()() const {
       const Slopes there = kernels::patch_slopes<double>(patch(other, static_cast<int>(its)),
                                                          closest[ContactPoint::face_u] - its,
                                                          closest[ContactPoint::v]);
-      const Vec n = normal_of(there), d = own.x - there.x;
+      const Vec n = normal_of(there), d = own.x - Vec{shift[0], shift[1], shift[2]} - there.x;
       const double opening = dot(d, n);
       const Vec along = d - opening * n;
       if (dot(along, along) > beside * beside * size * size || dot(n, normal_of(own)) > facing)

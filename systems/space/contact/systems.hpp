@@ -80,7 +80,11 @@ struct bin_faces {
   Structural<FaceContact> structure;
   NewRows<FaceContact> rows;
   Write<ContactPoint> point;
-  Write<FacePairs> pairs;
+  struct Pairs {
+    Write<FacePairs> list;
+    Optional<Read<PeriodicCell<ThreeD>>> cell;
+    Optional<Write<ContactImage<FaceContact>>> image;
+  } pairs;
   void operator()() const;
 };
 
@@ -133,6 +137,7 @@ struct initial_bonds {
   ShapedBodies<ThreeD> bodies;
   Read<SurfacePosition> position;
   Read<ContactPoint> point;
+  Optional<CellImages<ThreeD>> images;
   NewBonds<FaceContact> rows;
   Write<ReactivationDistance<FaceContact>> activation;
   Write<BondTotals> totals;
@@ -170,6 +175,7 @@ struct face_contact {
       Write<BondSums<Contact>> sums;
     };
     Optional<Bonds> bonds;
+    Optional<CellImages<ThreeD>> images;
   };
   Columns columns;
   Read<ContactRules> rules;

@@ -15,6 +15,7 @@ namespace pulvis::space {
 namespace {
 
 using Gathered = GatheredContact<ThreeD>;
+using Image = ImageIn<ThreeD>;
 
 Point point_of(const SurfaceVector& v) { return {v.x, v.y, v.z}; }
 
@@ -23,14 +24,16 @@ struct Looker {
 
   int number(int slot) const { return entry(s.bodies.bodies->slots, slot).number; }
   // Adds the points of a face with a force: force_at(g), and normal_at(g), which points into the sampled particle.
+  // `shift`: m, from where the sampled particle touches the link's first one to its position.
   template <class ForceAt, class NormalAt>
   void add_points(int slot, int number, double side, const ForceAt& force_at,
-                  const NormalAt& normal_at, Gathered& contact) const {
+                  const NormalAt& normal_at, Gathered& contact, const Point& shift = {}) const {
     for (int g = 0; g < face_points; ++g) {
       const SurfaceVector force = force_at(g);
       if (force.x == 0 && force.y == 0 && force.z == 0) continue;
       const SampledPoint own = sampled_point(s.bodies.patch(s.position.values(), slot, number), g);
-      contact.add({point_of(own.x), point_of(normal_at(g)), point_of(force), own.area}, side);
+      const SurfaceVector at = own.x - SurfaceVector{shift[0], shift[1], shift[2]};
+      contact.add({point_of(at), point_of(normal_at(g)), point_of(force), own.area}, side);
     }
   }
   void add_pair(Row<FaceContact> row, double side, Gathered& contact) const {
@@ -43,7 +46,9 @@ struct Looker {
                            s.pairs->pair(row, 2))
           .normal;
     };
-    add_points(s.pairs->pair(row, 0), s.pairs->pair(row, 1), side, force_at, normal_at, contact);
+    const Point shift = side > 0 || !s.pairs->images ? Point{} : s.pairs->images->shift(row);
+    add_points(s.pairs->pair(row, 0), s.pairs->pair(row, 1), side, force_at, normal_at, contact,
+               shift);
   }
   void add_tool(Row<FaceToolContact> row, Gathered& contact) const {
     const int slot = s.tools->rows.pair(row, 0), face = s.tools->rows.pair(row, 1);
@@ -56,21 +61,30 @@ struct Looker {
     add_points(slot, face, 1, force_at, normal_at, contact);
   }
 
-  // Each pair belongs to its particle with the lower number: searches the rows of that particle and those against it.
+  Image image_of(Row<FaceContact> row) const {
+    return s.pairs->images ? s.pairs->images->of(row) : Image{};
+  }
+  // With that particle, or its image.
+  void add_to(ContactsOfParticle<ThreeD>& partners, int slot, int other, const Image& image,
+              Row<FaceContact> row, double side) const {
+    if (!counts_for_first<ThreeD>(number(slot), other, image)) return;
+    const Point period = s.pairs->images ? s.pairs->images->cell->vectors * image : Point{};
+    add_pair(row, side, partners.with(other, image, period));
+  }
+  // Searches the rows of a particle and those against it.
   void find_pairs(int slot, std::vector<ContactLink<ThreeD>>& found) const {
     ContactsOfParticle<ThreeD> partners(number(slot));
     for (const Row<FaceContact> row : RowRange<FaceContact>::of(s.index->sampled_begin, slot)) {
-      const int other = number(s.pairs->pair(row, 2));
-      if (s.pairs->touches(row) != 0 && other > number(slot))
-        add_pair(row, 1, partners.with(other));
+      if (s.pairs->touches(row) != 0)
+        add_to(partners, slot, number(s.pairs->pair(row, 2)), image_of(row), row, 1);
     }
     const FacePairs& of = *s.pairs->of;
     for (int k = entry(of.other_begin, slot); k < entry(of.other_begin, slot + 1); ++k) {
       for (const Row<FaceContact> row :
            RowRange<FaceContact>::of(of.begin, entry(of.of_other, k))) {
-        const int other = number(s.pairs->pair(row, 0));
-        if (s.pairs->touches(row) != 0 && other > number(slot))
-          add_pair(row, -1, partners.with(other));
+        const Image n = image_of(row);
+        if (s.pairs->touches(row) != 0)
+          add_to(partners, slot, number(s.pairs->pair(row, 0)), {-n[0], -n[1], -n[2]}, row, -1);
       }
     }
     partners.move_to(found, 2);

@@ -69,6 +69,8 @@ struct TouchLooker {
       if (rows.touches(row) == 0) continue;
       const int slot = rows.pair(row, 0), face = rows.pair(row, 1), other = rows.pair(row, 2);
       const PatchNumbers own = s.bodies.patch(s.position.values(), slot, face);
+      const SurfaceVector shift =
+          s.pairs->images ? vector_of(s.pairs->images->shift(row)) : SurfaceVector{};
       for (unsigned left = touching_points(&rows.activation(row)); left != 0; left &= left - 1) {
         const int g = std::countr_zero(left);
         const SurfaceVector f = vector_of(*force++);
@@ -76,7 +78,7 @@ struct TouchLooker {
         const SampledPoint at = sampled_point(own, g);
         const PointOnSurface there =
             closest_point(s.bodies, s.position.values(), s.pairs->point, row, g, other);
-        found.add_overlap(0.5 * at.area, dot(there.x - at.x, there.normal));
+        found.add_overlap(0.5 * at.area, dot(there.x - (at.x - shift), there.normal));
       }
     }
     return found;

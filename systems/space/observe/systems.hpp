@@ -25,6 +25,7 @@ struct contact_network {
     Read<ContactPoint> point;
     Read<ContactPointForce> force;
     Read<FacePairs> of;
+    Optional<CellImages<ThreeD>> images;
   };
   Optional<Pairs> pairs;
   Optional<TouchingTools> tools;
@@ -39,6 +40,7 @@ struct contact_quality {
   struct Pairs {
     contact_force::Pairs rows;
     Read<ContactPoint> point;
+    Optional<CellImages<ThreeD>> images;
   };
   Optional<Pairs> pairs;
   Optional<TouchingTools> tools;

@@ -16,22 +16,26 @@ class Cell:
     def __init__(self, run, frame):
         self.here = "cell" in frame
         self.owner = run.file["mesh/node_particle"][()]
-        self.quads, self.quad_owner = run.file["mesh/quads"][()], run.file["mesh/cell_particle"][()]
         self.position = frame["position"][()]
         self.images = []  # positions of all nodes, particles visible in this image of the powder
-        self.shift = np.zeros((self.owner.max() + 1, 2))  # m, moves each particle into the cell
+        self.shift = np.zeros((self.owner.max() + 1, self.position.shape[1]))  # m, moves each particle into the cell
         if self.here:
             self.corner, self.vectors = frame["cell"][0], frame["cell"][1:]
             self._wrap()
+            if self.position.shape[1] == 2:
+                self.quads, self.quad_owner = run.file["mesh/quads"][()], run.file["mesh/cell_particle"][()]
+                self._find_images()
 
     def _wrap(self):
         inside = self._in_vectors(self.position)
         count = np.bincount(self.owner)
-        centre = np.stack([np.bincount(self.owner, inside[:, k]) / count for k in (0, 1)], axis=1)
+        centre = np.stack([np.bincount(self.owner, along) / count for along in inside.T], axis=1)
         self.shift = -np.floor(centre) @ self.vectors
         self.position = self.position + self.shift[self.owner]
-        inside = inside - np.floor(centre)[self.owner]
-        low, high = np.full(centre.shape, np.inf), np.full(centre.shape, -np.inf)
+
+    def _find_images(self):
+        inside = self._in_vectors(self.position)
+        low, high = np.full(self.shift.shape, np.inf), np.full(self.shift.shape, -np.inf)
         np.minimum.at(low, self.owner, inside)
         np.maximum.at(high, self.owner, inside)
         first, last = np.ceil(-high.max(axis=0)).astype(int), np.floor(1 - low.min(axis=0)).astype(int)
@@ -61,6 +65,14 @@ class Cell:
         low, high = (end(np.concatenate(drawn), axis=0) for end in (np.min, np.max))
         margin = 0.03 * (high - low).max()
         return np.array([low - margin, high + margin])
+
+    def edges(self):
+        """The edges of a cell in three dimensions, [12, 2, 3] m; none without a cell."""
+        if not self.here:
+            return np.zeros((0, 2, 3))
+        ends = np.array([[np.insert(at, axis, along) for along in (0, 1)]
+                         for axis in range(3) for at in np.ndindex(2, 2)])
+        return self.corner + ends @ self.vectors
 
     def outline(self):
         (a, b), corner = self.vectors, self.corner

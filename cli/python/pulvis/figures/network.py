@@ -17,15 +17,14 @@ def need_contacts(run, frame):
 
 
 def network_lines(frame, cell):
-    """Contact lines, from centre to centre or to the contact point on a tool, and their forces."""
+    """Contact lines, m [contacts, 2, axes], from centre to centre or to the contact point on a tool, and normal forces."""
     centre = frame["particle_centre"][()]
     pairs, tools = frame["contacts/ids"][()], frame["tool_contacts/ids"][()]
     end = cell.other_end(pairs, centre, frame["contacts/point"][()])
     lines = np.concatenate([np.stack([centre[pairs[:, 0]], end], axis=1),
                             np.stack([centre[tools[:, 0]], frame["tool_contacts/point"][()]], axis=1)])
     lines += cell.shift[np.concatenate([pairs[:, 0], tools[:, 0]]), None]
-    return 1e3 * lines, np.concatenate([frame["contacts/normal_force"][()],
-                                  frame["tool_contacts/normal_force"][()]])
+    return lines, np.concatenate([frame["contacts/normal_force"][()], frame["tool_contacts/normal_force"][()]])
 
 
 def contact_network(run, options=None, into=None):
@@ -49,7 +48,7 @@ def contact_network(run, options=None, into=None):
     edges = outlines(quads)
     axes.add_collection(LineCollection(1e3 * position[edges], colors="#8b96a3", linewidths=0.5))
     cell.draw(axes, edges=edges)
-    drawn = LineCollection(lines, array=factor * force, cmap=colour_map(options, "viridis_r"),
+    drawn = LineCollection(1e3 * lines, array=factor * force, cmap=colour_map(options, "viridis_r"),
                            capstyle="round", clim=(factor * low, factor * high),
                            linewidths=np.maximum(0.3, points * np.abs(force) / np.abs(force).max()), zorder=3)
     axes.add_collection(drawn)
@@ -59,7 +58,7 @@ def contact_network(run, options=None, into=None):
     options.head(axes, f"Normal contact forces at {moment(frame)}{chains}", run)
     bar_beside(figure, axes, drawn, label(("normal force", "F_n"), unit))
     close_up(figure, options, into)
-    ends = lines.reshape(-1, 4).T / 1e3
+    ends = lines.reshape(-1, 4).T
     figure.table = [*((name, "m", end) for name, end in zip(("x1", "y1", "x2", "y2"), ends)),
                     ("normal force", "N", force)]
     return figure

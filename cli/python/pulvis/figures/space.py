@@ -5,12 +5,13 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 from pulvis.errors import PulvisError
+from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colour_map, colours_of
 from pulvis.figures.densities import draw_profiles, profile_table
 from pulvis.figures.fields import DEFAULT_FIELD, OUTLINE, field_of
 from pulvis.figures.look import NotDrawn, Options, bar_beside, close_up, moment, printed, recorded, seam, set_axes, shape_of, sheet, unit_for
 from pulvis.figures.names import label
-from pulvis.figures.network import need_contacts
+from pulvis.figures.network import need_contacts, network_lines
 from pulvis.figures.quantities import with_unit
 from pulvis.figures.space_mesh import density_along_z, outer_sides, section
 from pulvis.figures.space_tools import cross_section, cut, normals, pieces, rims
@@ -30,8 +31,11 @@ def isometric():
 
 def limits_of(run, frames):
     """Bounds of the projections of all frames, mm: lower left, upper right."""
-    seen = [points @ isometric()[:2].T for frame in frames
-            for points in (frame["position"][()], pieces(run, frame)[0].reshape(-1, 3)) if len(points)]
+    seen = []
+    for frame in frames:
+        cell = Cell(run, frame)
+        drawn = (cell.position, cell.edges().reshape(-1, 3), pieces(run, frame)[0].reshape(-1, 3))
+        seen += [points @ isometric()[:2].T for points in drawn if len(points)]
     low, high = np.min([one.min(axis=0) for one in seen], axis=0), np.max([one.max(axis=0) for one in seen], axis=0)
     margin = 0.03 * (high - low).max()
     return 1e3 * np.array([low - margin, high + margin])
@@ -73,7 +77,8 @@ def shaded(faces, light):
 
 def paint(run, axes, frame, field, colours, options, limits, sides=None):
     """Draws one frame into axes. sides: outer_sides of the mesh."""
-    rows, position = isometric(), frame["position"][()]
+    rows, cell = isometric(), Cell(run, frame)
+    position = cell.position
     quads, cells = sides or outer_sides(run.mesh.cells)
     normal = normals(position[quads]) @ rows.T
     front = normal[:, 2] < 0
@@ -85,6 +90,7 @@ def paint(run, axes, frame, field, colours, options, limits, sides=None):
     colours.paint(faces, field.values[cells[order]])
     shaded(faces, DARKEST + (1 - DARKEST) * np.maximum(0, normal[order] @ LIGHT))
     axes.add_collection(faces)
+    axes.add_collection(LineCollection(1e3 * cell.edges() @ rows[:2].T, colors="#d55e00", linewidths=0.8, zorder=2))
     axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
     axes.axis("off")
     draw_scale(axes, limits)
@@ -118,18 +124,9 @@ def space_picture(run, options=None, axes=None):
     paint(run, place, frame, field, colours, options, limits)
     colours.key(figure, place)
     close_up(figure, options, axes)
-    middle = frame["position"][()][run.mesh.cells].mean(axis=1)
+    middle = Cell(run, frame).position[run.mesh.cells].mean(axis=1)
     figure.table = [*((name, "m", middle[:, k]) for k, name in enumerate("xyz")), (field.key, field.unit, field.values)]
     return figure
-
-
-def network_lines(frame):
-    """Contact lines, m [contacts, 2, 3], from centre to centre or to the contact point on a tool, and normal forces."""
-    centre = frame["particle_centre"][()]
-    pairs, tools = frame["contacts/ids"][()], frame["tool_contacts/ids"][()]
-    lines = np.concatenate([np.stack([centre[pairs[:, 0]], centre[pairs[:, 1]]], axis=1),
-                            np.stack([centre[tools[:, 0]], frame["tool_contacts/point"][()]], axis=1)])
-    return lines, np.concatenate([frame["contacts/normal_force"][()], frame["tool_contacts/normal_force"][()]])
 
 
 def space_network(run, options=None, axes=None):
@@ -139,12 +136,13 @@ def space_network(run, options=None, axes=None):
     if frame is None:
         return None
     need_contacts(run, frame)
-    rows, limits, (lines, force) = isometric(), limits_of(run, [frame]), network_lines(frame)
+    cell = Cell(run, frame)
+    rows, limits, (lines, force) = isometric(), limits_of(run, [frame]), network_lines(frame, cell)
     size, beside = shape_of(limits)
     figure, place = sheet(options, size, axes, beside)
     draw_tools(run, place, frame)
     quads, cells = outer_sides(run.mesh.cells)
-    position, chained = frame["position"][()], frame["force_chain"][()][run.mesh.cell_particle[cells]] > 0
+    position, chained = cell.position, frame["force_chain"][()][run.mesh.cell_particle[cells]] > 0
     seen = 1e3 * position @ rows[:2].T
     for which, shade in ((~chained, "#dfe5ec"), (chained, "#f3b692")):  # seen through: the lines run inside
         place.add_collection(PolyCollection(seen[quads[which]], facecolors=shade, edgecolors="none", alpha=0.12, zorder=1))
@@ -170,10 +168,10 @@ def space_network(run, options=None, axes=None):
     return figure
 
 
-def asked_place(frame, options):
+def asked_place(position, options):
     """`options.at`, if it is in the powder."""
     axis = "xyz".index(options.across)
-    places = frame["position"][()][:, axis]
+    places = position[:, axis]
     low, high = places.min(), places.max()
     if options.at is not None and not low <= options.at <= high:
         raise PulvisError(f"--at {with_unit(options.at, 'm')}: allowed: {with_unit(low, 'm')} to {with_unit(high, 'm')}, where the powder is "
@@ -198,9 +196,9 @@ def section_picture(run, options=None, axes=None):
     if asked is None:
         return None
     (frame, field), axis = asked, "xyz".index(options.across)
-    position, others = frame["position"][()], [name for name in "xyz" if name != options.across]
+    position, others = Cell(run, frame).position, [name for name in "xyz" if name != options.across]
     ends = np.array([position.min(axis=0), position.max(axis=0)])
-    at = fullest(run, position, axis) if asked_place(frame, options) is None else options.at
+    at = fullest(run, position, axis) if asked_place(position, options) is None else options.at
     polygons, cells = section(run.mesh.cells, position, axis, at)
     lines = cut(pieces(run, frame)[0], axis, at)
     limits = np.delete(np.array([np.minimum(ends[0], pieces(run, frame)[0].reshape(-1, 3).min(axis=0, initial=np.inf)),

@@ -270,6 +270,6 @@ class PowderDrawing:
         stages = self.setup["stages"]
         rows = [(stage["name"], stage["kind"],
                  ("at most " if "until" in stage else "") + words.quantity(stage["duration"], "s"),
-                 words.stage_text(stage)) for stage in stages]
+                 words.stage_text(stage, self.setup.get("dimension", 2))) for stage in stages]
         durations = [stage["duration"] for stage in stages]
         return Programme("Stages", rows, f"{words.quantity(sum(durations), 's')} in all", durations)

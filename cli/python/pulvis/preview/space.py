@@ -9,6 +9,7 @@ from pulvis.preview.sheet import INK, MARGIN, SIDE, WIDTH, number_mark, stage_co
 
 TURN, TILT = -np.pi / 4, np.arctan(np.sqrt(0.5))
 LIGHT = np.array([-0.35, 0.5, -0.8]) / np.linalg.norm([-0.35, 0.5, -0.8])
+CELL = "#d55e00"
 GAP = 0.35  # inches between the views
 BELOW = 0.7  # inches below a view from a side: its axis, and the heading of the next view
 
@@ -27,6 +28,14 @@ def normals(corners):
     return cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-300)
 
 
+def cell_edges(cell):
+    """Of the periodic cell, [12, 2, 3] m; none without one."""
+    if not cell:
+        return np.zeros((0, 2, 3))
+    ends = np.array([[np.insert(at, axis, along) for along in (0, 1)] for axis in range(3) for at in np.ndindex(2, 2)])
+    return np.array(cell["corner"]) + ends @ np.array(cell["vectors"])
+
+
 class SpaceDrawing(PowderDrawing):
     def __init__(self, setup):
         faces, colours = [], []
@@ -37,10 +46,11 @@ class SpaceDrawing(PowderDrawing):
         self.faces, self.owner = np.concatenate(faces), np.array(colours)
         self.pieces = [np.reshape(tool["pieces"], (-1, 4, 3)) for tool in setup["tools"]]
         self.held = {tool["name"]: np.array(tool["nodes"]) for tool in setup["tools"] if tool["shape"] == "constraint"}
+        self.edges = cell_edges(setup.get("cell"))
         super().__init__(setup)
 
     def outer_points(self):
-        return self.faces.reshape(-1, 3)
+        return np.concatenate([self.faces.reshape(-1, 3), self.edges.reshape(-1, 3)])
 
     def bodies(self):
         for one in self.setup["particles"]:
@@ -78,6 +88,7 @@ class SpaceDrawing(PowderDrawing):
         axes.set(xlim=self.factor * np.array([low[0], high[0]]), ylim=self.factor * np.array([low[1], high[1]]))
         axes.set_aspect("equal", anchor="N", adjustable="box")
         self.draw_tools(axes, rows)
+        axes.add_collection(LineCollection(self.factor * self.edges @ rows[:2].T, colors=CELL, linewidths=0.9, zorder=3))
         self.draw_particles(axes, rows)
         self.draw_held(axes, rows)
         self.draw_moves(axes, rows)

@@ -89,24 +89,33 @@ def until_text(until):
     return f"ends at a travel of {quantity(until['displacement'], 'm')} of {until['tool']}"
 
 
-STRAINS = {"strain_xx": "ε_xx", "strain_yy": "ε_yy", "strain_xy": "ε_xy"}
-STRESSES = {"stress_xx": "σ_xx", "stress_yy": "σ_yy", "stress_xy": "σ_xy", "mean_stress": "mean stress"}
+PARTS = ("xx", "yy", "zz", "xy", "yz", "zx")
+STRAINS = {f"strain_{part}": f"ε_{part}" for part in PARTS}
+STRESSES = {**{f"stress_{part}": f"σ_{part}" for part in PARTS}, "mean_stress": "mean stress"}
 
 
-def cell_text(drive):
+def rotation_text(rotation):
+    if not isinstance(rotation, list):
+        return degrees(rotation)
+    return ", ".join(f"{degrees(angle)} about {axis}" for angle, axis in zip(rotation, "xyz") if angle)
+
+
+def cell_text(drive, axes):
+    """axes: of the scene, 2 or 3."""
     parts = [f"{symbol} = {number(drive[name])}" for name, symbol in STRAINS.items() if name in drive]
     parts += [f"{symbol} = {quantity(drive[name], 'Pa')}" for name, symbol in STRESSES.items() if name in drive]
     if "stress_ratio" in drive:
-        parts.append(f"σ_xx/σ_yy = {number(drive['stress_ratio'])}")
+        lateral, axial = ("σ_xx", "σ_yy") if axes == 2 else ("σ_xx, σ_yy", "σ_zz")
+        parts.append(f"{lateral} over {axial} = {number(drive['stress_ratio'])}")
     if "rotation" in drive:
-        parts.append(f"rotation {degrees(drive['rotation'])}")
+        parts.append(f"rotation {rotation_text(drive['rotation'])}")
     return "borders: " + (", ".join(parts) if parts else "kept")
 
 
-def stage_text(stage):
+def stage_text(stage, axes=2):
     parts = [move_text(move) for move in stage["moves"]] + [servo_text(servo) for servo in stage["servos"]]
     if "cell" in stage:
-        parts.append(cell_text(stage["cell"]))
+        parts.append(cell_text(stage["cell"], axes))
     if "until" in stage:
         parts.append(until_text(stage["until"]))
     if stage.get("keep_state"):

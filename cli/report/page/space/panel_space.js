@@ -11,7 +11,7 @@ function profileNote({profile: {profile, bound}, time}) {
 }
 
 addPanel({
-  title: "Relative density along z", order: 11, when: run => run.inSpace && run.frames.length > 0,
+  title: "Relative density along z", order: 11, when: run => run.inSpace && run.frames.some(frame => frame.profile),
   draw(report, host) {
     const ends = frames => bounds(frames.filter(frame => frame.profile).map(({profile}) => profile.profile));
     report.figure(host, {

@@ -105,6 +105,7 @@ class SpacePicture {
     if (!(plane && view.slice)) this.drawSurface(uniforms, view, plane);
     if (view.section) this.drawSection(uniforms, view.section, colours);
     if (view.showTools && view.corners) this.drawTools(uniforms, view);
+    if (view.run.frames[view.frame].cell) this.drawCell(uniforms, view);
     if (view.bondLines) this.drawDots(uniforms, view, plane);
     if (view.lines?.length) this.drawNetwork(uniforms, view, plane);
   }
@@ -193,6 +194,22 @@ class SpacePicture {
       this.drawPlain(uniforms, gl.TRIANGLES, at, colour, {nearer});
     }
     gl.disable(gl.BLEND);
+  }
+
+  // The edges of the periodic cell.
+  drawCell(uniforms, view) {
+    const {gl} = this, {width, run: {frames, head: {low}}} = view, {cell} = frames[view.frame];
+    const corner = at => [0, 1, 2].map(k =>
+      (at.reduce((sum, share, j) => sum + share * cell[3 * (j + 1) + k], cell[k]) - low[k]) / width);
+    const ends = [];
+    for (let axis = 0; axis < 3; ++axis)
+      for (const [a, b] of [[0, 0], [0, 1], [1, 0], [1, 1]])
+        for (const along of [0, 1]) {
+          const at = [0, 0, 0];
+          [at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3]] = [along, a, b];
+          ends.push(...corner(at));
+        }
+    this.drawPlain(uniforms, gl.LINES, ends, Array.from({length: 24}, () => [213, 94, 0, 255]).flat());
   }
 
   // Transparent, with lines along the borders of surfaces. Only faces seen from the inside are filled, so that the
