@@ -58,7 +58,7 @@ rotation = "-0.02 rad"
 // The first node of each disc, from the corner, in vectors of the cell.
 std::vector<Point> in_cell(const Experiment& e) {
   const std::vector<double> cell = e.field("cell"), x = e.field("position");
-  const Tensor2 inverse = Tensor2{{cell[2], cell[4], cell[3], cell[5]}}.inverse();
+  const auto inverse = Tensor<TwoD>{{cell[2], cell[4], cell[3], cell[5]}}.inverse();
   std::vector<Point> all;
   for (std::size_t disc = 0; disc < 3; ++disc) {
     const std::size_t first = disc * x.size() / 3;
