@@ -34,7 +34,7 @@ TEST(ProbeScenes, LoadToEveryDensity) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(loading.stages[i].until->relative_density, probe.spec.densities[i]);
     EXPECT_TRUE(loading.stages[i].keep_state);
-    EXPECT_EQ(loading.stages[i].cell->stress_xx, -200e6);
+    EXPECT_EQ(loading.stages[i].cell->stress[0], -200e6);
   }
 }
 
