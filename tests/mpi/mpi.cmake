@@ -44,7 +44,7 @@ add_executable(rebalanced_run ${CMAKE_CURRENT_LIST_DIR}/rebalanced_run.cpp)
 target_link_libraries(rebalanced_run PRIVATE pulvis_cli)
 add_dependencies(rebalanced_run pulvis_mpi)
 optimise(rebalanced_run 1)
-foreach(case friction cell welds space-die space-welds space-stl space-constraints)
+foreach(case friction cell space-cell welds space-die space-welds space-stl space-constraints)
   add_test(NAME mpi.ranks_run_rebalanced_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
                    --case ${case} --quick --rebalanced $<TARGET_FILE:rebalanced_run>)

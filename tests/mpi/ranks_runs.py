@@ -46,6 +46,7 @@ CASES = {
     "space-stl": ("tests/mpi/stl-floor.toml", 240, []),
     "space-welds": ("tests/mpi/space-welds.toml", 2600, []),
     "space-constraints": ("tests/keys/scenes-3d/constraints.toml", 60, []),
+    "space-cell": ("scenes/periodic/spheres-shear.toml", 600, ['stage[0].duration="4 us"', "stage[0].cell.tolerance=1e8"]),
     "space-mixture": ("scenes/compaction-3d/mixture.toml", 60, ["output.density_cells=[2, 2, 2]"]),
 }
 # Bonds that are made and broken in those steps: points at least.

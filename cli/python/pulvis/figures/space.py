@@ -238,6 +238,8 @@ def space_profile(run, options=None, axes=None):
         return None
     numbers = [options.frame] if options.frame is not None else np.unique(
         np.linspace(0, len(run.frames) - 1, PROFILES).round().astype(int))
+    if "cell" in run.frame(int(numbers[0])):
+        raise NotDrawn("a powder without walls has no density along z", run.folder)
     profiles = []
     for frame in (run.frame(int(number)) for number in numbers):
         room = cross_section(run, frame, frame["position"][()])
