@@ -48,7 +48,7 @@ std::string ball(double x, double y, double z) {
       x, y, z);
 }
 
-std::string cube(double edge) {
+std::string cubic_cell(double edge) {
   return fmt::format("[cell]\nwidth = \"{0} mm\"\ndepth = \"{0} mm\"\nheight = \"{0} mm\"\n", edge);
 }
 
@@ -65,7 +65,7 @@ std::string isotropic() {
 }
 
 TEST(CubicCell, BearsWhatASphereBetweenSixPlanesBears) {
-  Experiment cell(own_scene(copper + ball(0.5, 0.5, 0.5) + cube(1) +
+  Experiment cell(own_scene(copper + ball(0.5, 0.5, 0.5) + cubic_cell(1) +
                             cell_stage("press", "0.06 ms", isotropic())));
   cell.run(10);
   std::string planes = copper + ball(0.5, 0.5, 0.5), moves;
@@ -105,7 +105,7 @@ TEST(CubicCell, BearsWhatASphereBetweenSixPlanesBears) {
 TEST(CubicCell, HasNoPreferredAxis) {
   const auto along = [](const char* part) {
     Experiment e(
-        own_scene(copper + ball(0.5, 0.5, 0.5) + cube(1) +
+        own_scene(copper + ball(0.5, 0.5, 0.5) + cubic_cell(1) +
                   cell_stage("press", "0.03 ms", fmt::format("strain_{} = -0.05\n", part))));
     e.run(5);
     return std::array{e.value(fmt::format("cell/stress_{}", part)), e.value("energy/external")};
@@ -121,7 +121,7 @@ TEST(CubicCell, HasNoPreferredAxis) {
 // Pressed along z, then turned by a quarter about x: the stress turns with the powder, and nothing does work.
 TEST(CubicCell, TurnsWithItsStress) {
   Experiment e(
-      own_scene(copper + ball(0.5, 0.5, 0.5) + cube(1) +
+      own_scene(copper + ball(0.5, 0.5, 0.5) + cubic_cell(1) +
                 cell_stage("press", "0.03 ms", "strain_zz = -0.05\n") +
                 cell_stage("turn", "0.3 ms", "rotation = [\"90 deg\", \"0 deg\", \"0 deg\"]\n")));
   double along = 0, plastic = 0;
@@ -151,7 +151,7 @@ std::string four(double x, double y, double z) {
     const auto home = [&](double v) { return v - edge * std::floor(v / edge); };
     text += ball(home(at[0] + x), home(at[1] + y), home(at[2] + z));
   }
-  return text + cube(edge) +
+  return text + cubic_cell(edge) +
          cell_stage("press", "0.03 ms",
                     "strain_xx = -0.05\nstrain_yy = -0.04\nstrain_zz = -0.06\n") +
          cell_stage("shear", "0.03 ms",
