@@ -47,14 +47,16 @@ class Bases {
                fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     keep_first_stage(plane, "cell.toml");
     keep_first_stage(space, "kept.toml");
+    keep_first_stage(space, "cell.toml", "state-cell.h5");
   }
-  static void keep_first_stage(const fs::path& folder, const char* scene) {
+  static void keep_first_stage(const fs::path& folder, const char* scene,
+                               const char* state = "state-press.h5") {
     const LoadedScene loaded = load_scene(folder / scene);
     Simulation simulation(loaded.scene);
     simulation.run_until(loaded.scene.stages.front().duration);
     CheckpointInfo info;
     info.powder_hash = fmt::format("{:016x}", loaded.powder_hash);
-    write_state_file(folder / "data" / "state-press.h5", info, simulation.world());
+    write_state_file(folder / "data" / state, info, simulation.world());
   }
   Bases(const Bases&) = delete;
   Bases& operator=(const Bases&) = delete;

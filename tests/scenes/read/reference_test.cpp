@@ -62,7 +62,10 @@ TEST(Reference, TheSchemaKeepsTheDimensionsApart) {
             std::pair(nlohmann::json(2), nlohmann::json(2)));
   EXPECT_EQ(position(json["$defs"]["three-dimensions"]),
             std::pair(nlohmann::json(3), nlohmann::json(3)));
-  EXPECT_FALSE(json["$defs"]["three-dimensions"]["properties"].contains("cell"));
+  const auto& particle =
+      json["$defs"]["three-dimensions"]["properties"]["particle"]["items"]["properties"];
+  EXPECT_TRUE(particle.contains("shape"));
+  EXPECT_FALSE(particle.contains("outline"));
 }
 
 TEST(Reference, TheReferenceSaysWhereAKeyExists) {
