@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCell{"ramp_of_stresses", scene(tall, body, "stress_yy = \"-1 MPa\"\nramp = 0.2"),
                   "stage[0].cell.ramp", "no effect without a strain"},
         WrongCell{"empty", scene(tall, body, "strain_zz = -0.1"), "stage[0].cell.strain_zz",
-                  "unknown key"}),
+                  "three dimensions only"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
 
 TEST(RightCell, HasTheHeightOfItsPacking) {

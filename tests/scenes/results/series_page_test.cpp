@@ -84,6 +84,7 @@ std::string page() {
   all.add("basic/damped-strut.toml", {});
   all.add("compaction/biaxial.toml", {});
   all.add("periodic/shear.toml", {contacts});
+  all.add("periodic/spheres-shear.toml", {contacts});
   all.add("shear/flat-16.toml", {contacts});
   all.add("bonds/pulled-blocks.toml", {});
   all.add("compaction-3d/tablet-bonded.toml", {});
