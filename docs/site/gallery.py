@@ -57,7 +57,7 @@ CHAPTERS = {
         Picture("compaction-3d/unit-cell-fcc", "The face-centred cubic cell in a closing box.", "effective_stress"),
         Picture("compaction-3d/random-30-316L", "Thirty spheres at random, pressed to a relative density of 0.9 and released.",
                 "effective_stress", frame="50"),
-        Picture("compaction-3d/superquadrics", "Rounded cubes and octahedra.", "effective_stress"),
+        Picture("compaction-3d/superquadrics", "Thirty rounded boxes, pressed.", "effective_stress"),
         Picture("compaction-3d/tablet", "A tablet in a cylindrical die: pressed, unloaded, ejected.", "effective_stress"),
     ),
     "Shear and friction": (
