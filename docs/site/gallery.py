@@ -56,12 +56,13 @@ CHAPTERS = {
         Picture("compaction-3d/one-sphere", "A sphere between two plates, pressed by a quarter of its diameter.", "plastic_strain"),
         Picture("compaction-3d/unit-cell-fcc", "The face-centred cubic cell in a closing box.", "effective_stress"),
         Picture("compaction-3d/random-30-316L", "Thirty spheres at random, pressed to a relative density of 0.9 and released.",
-                "effective_stress", frame="52"),
-        Picture("compaction-3d/superquadrics", "Rounded cubes and octahedra.", "effective_stress"),
+                "effective_stress", frame="50"),
+        Picture("compaction-3d/superquadrics", "Thirty rounded boxes, pressed.", "effective_stress"),
         Picture("compaction-3d/tablet", "A tablet in a cylindrical die: pressed, unloaded, ejected.", "effective_stress"),
     ),
     "Shear and friction": (
         Picture("shear/grooves-16", "A compact drawn over a grooved plate.", "effective_stress"),
+        Picture("shear/irregular-powder", "A hundred irregular particles over a rough surface, under a constant force.", "plastic_strain"),
         Picture("basic/oblique-impact", "A disc hits a wall at an angle, with friction.", "effective_stress"),
     ),
     "Bonds and breakage": (
@@ -71,6 +72,7 @@ CHAPTERS = {
     ),
     "Atomic force microscope": (
         Picture("afm/calibration-v", "A V-shaped cantilever, calibrated with unit forces.", figure="solid"),
+        Picture("afm/loop-beam-12.5", "A friction loop, trace and retrace on a slope.", figure="friction_loop"),
         Picture("afm/jkr-force-curve", "A force curve of a sticky sphere, with snap-in and pull-off.", figure="force_curve"),
     ),
 }
