@@ -58,6 +58,7 @@ CHAPTERS = {
         Picture("compaction-3d/random-30-316L", "Thirty spheres at random, pressed to a relative density of 0.9 and released.",
                 "effective_stress", frame="50"),
         Picture("compaction-3d/superquadrics", "Thirty rounded boxes, pressed.", "effective_stress"),
+        Picture("periodic/spheres-shear", "Thirty copper spheres in a periodic cell, pressed and sheared without walls.", "effective_stress"),
         Picture("compaction-3d/tablet", "A tablet in a cylindrical die: pressed, unloaded, ejected.", "effective_stress"),
     ),
     "Shear and friction": (
