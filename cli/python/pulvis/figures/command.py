@@ -155,7 +155,7 @@ def save_run(run, asked, options, place):
     if (asked.across or asked.at) and (options.series or asked.animate):
         raise PulvisError("--across and --at are for sections: use them without --series and --animate")
     if asked.at and run.frames:
-        asked_place(run.frame(options.frame), options)
+        asked_place(run, run.frame(options.frame), options)
     if options.level != "none" and "images" not in run.file:
         raise PulvisError(f"--level is for raster images, and {asked.folder} has none")
     if options.series and options.field:

@@ -168,10 +168,10 @@ def space_network(run, options=None, axes=None):
     return figure
 
 
-def asked_place(position, options):
+def asked_place(run, frame, options):
     """`options.at`, if it is in the powder."""
     axis = "xyz".index(options.across)
-    places = position[:, axis]
+    places = Cell(run, frame).position[:, axis]
     low, high = places.min(), places.max()
     if options.at is not None and not low <= options.at <= high:
         raise PulvisError(f"--at {with_unit(options.at, 'm')}: allowed: {with_unit(low, 'm')} to {with_unit(high, 'm')}, where the powder is "
@@ -198,7 +198,7 @@ def section_picture(run, options=None, axes=None):
     (frame, field), axis = asked, "xyz".index(options.across)
     position, others = Cell(run, frame).position, [name for name in "xyz" if name != options.across]
     ends = np.array([position.min(axis=0), position.max(axis=0)])
-    at = fullest(run, position, axis) if asked_place(position, options) is None else options.at
+    at = fullest(run, position, axis) if asked_place(run, frame, options) is None else options.at
     polygons, cells = section(run.mesh.cells, position, axis, at)
     lines = cut(pieces(run, frame)[0], axis, at)
     limits = np.delete(np.array([np.minimum(ends[0], pieces(run, frame)[0].reshape(-1, 3).min(axis=0, initial=np.inf)),

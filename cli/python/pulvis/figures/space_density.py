@@ -28,7 +28,7 @@ def density_slice(run, options=None, axes=None):
         return None
     values, lines = frame.density()
     axis, others = "xyz".index(options.across), [k for k in range(3) if "xyz"[k] != options.across]
-    at = asked_place(frame, options)
+    at = asked_place(run, frame, options)
     if at is not None and not lines[axis][0] <= at <= lines[axis][-1]:
         return None  # outside the tools
     layer = layer_of(lines[axis], at)
