@@ -151,6 +151,7 @@ TEST(SelfContact, SoftSidesOfANotchStayInContact) {
   EXPECT_LT(e.results.energy_balance_error(), 1e-4);
 }
 
+// Slowly enough for the arms: in half the time they snap, and the error of the energies is anything from 4e-4 to 7e-3.
 TEST(SelfContact, ArmsOfAStarPressOnEachOther) {
   Experiment e = pressed({.particle = polygon(R"(["7.071 mm", "7.071 mm"], ["0 mm", "4 mm"],
     ["-7.071 mm", "7.071 mm"], ["-4 mm", "0 mm"], ["-7.071 mm", "-7.071 mm"], ["0 mm", "-4 mm"],
@@ -158,9 +159,9 @@ TEST(SelfContact, ArmsOfAStarPressOnEachOther) {
                                               160),
                           .half = 7.2,
                           .way = 8,
-                          .duration = 8});
+                          .duration = 16});
   e.run(20, [&] { EXPECT_LT(deepest_swap(outline(e)), 0.15e-3); });
-  EXPECT_LT(e.results.energy_balance_error(), 1e-3);
+  EXPECT_LT(e.results.energy_balance_error(), 1e-4);
 }
 
 // As the notch begins to close, one point in a million swings between two that are as near to it.
