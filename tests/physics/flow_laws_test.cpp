@@ -192,9 +192,10 @@ TEST(FlowLaws, AReturnThatFindsNoStressStopsTheRun) {
   law = kernels::TabulatedHardening(
       {0, 0.01, 0.02, 1}, {240e6, 250e6, std::numeric_limits<double>::quiet_NaN(), 400e6});
   // A number, or nan: whichever point comes first beside the hole or into it.
-  EXPECT_THAT(message_of<RunFailure>([&] { e.simulation.run_steps(100000); }),
-              testing::ContainsRegex("j2_return_map: particle 4, element [0-9]+: the stress "
-                                     "deviates from the flow stress by [^ ]+ of it at step [0-9]+"));
+  EXPECT_THAT(
+      message_of<RunFailure>([&] { e.simulation.run_steps(100000); }),
+      testing::ContainsRegex("j2_return_map: particle 4, element [0-9]+: the stress "
+                             "deviates from the flow stress by [^ ]+ of it at step [0-9]+"));
 }
 
 }  // namespace
