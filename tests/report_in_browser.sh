@@ -137,6 +137,7 @@ cat >"$work/light_driver.js" <<'JS'
 (async () => {
   const run = await Run.load(JSON.parse(document.getElementById("head").textContent));
   const load = run.values("stress/axial_top"), ratio = run.values("stress/transmission"), most = largest(load);
+  while (!document.body.dataset.ready) await new Promise(done => setTimeout(done, 20));  // the page has its charts
   const light = [...ratio].filter((_, i) => load[i] <= 0.05 * most), heavy = [...ratio].filter((_, i) => load[i] > 0.05 * most);
   document.body.dataset.light = heavy.length && heavy.some(Number.isFinite) && light.every(Number.isNaN) ? "1" : `${light} ${heavy}`;
 })();
