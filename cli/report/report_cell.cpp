@@ -57,6 +57,19 @@ void ReportCell<D>::find_ways(const std::vector<double>& positions) {
 }
 
 template <class D>
+auto ReportCell<D>::ways_of_bonds(const hdf5::File& file, const std::string& frame,
+                                  const std::string& group, std::size_t count) const
+    -> std::vector<Point> {
+  std::vector<Point> ways(count);
+  if (!here()) return ways;
+  const bool cracks = group == "cracks";
+  const auto ids = file.read_integers(cracks ? "/cracks/particle" : frame + "/bonds/ids");
+  const std::size_t each = cracks ? 1 : 2;
+  for (std::size_t i = 0; i < count && each * i < ids.size(); ++i) ways[i] = way(ids[each * i]);
+  return ways;
+}
+
+template <class D>
 std::vector<double> ReportCell<D>::inside(std::vector<double> positions) const {
   if (here())
     for (std::size_t i = 0; i < positions.size(); ++i)

@@ -22,6 +22,10 @@ class ReportCell {
   Point way(std::int32_t particle) const {
     return here() ? way_[static_cast<std::size_t>(particle)] : Point{};
   }
+  // m, [count]: shifts of the particles on which the bonds or cracks of a frame are; `group`: "bonds" or "cracks". If a run was
+  // killed, the table of cracks may lack the newest rows: those are not shifted.
+  std::vector<Point> ways_of_bonds(const hdf5::File& file, const std::string& frame,
+                                   const std::string& group, std::size_t count) const;
   // Coordinates of all nodes, shifted into the cell.
   std::vector<double> inside(std::vector<double> positions) const;
   // For a line from the centre of one particle through its contact point with another: the centre of that image of the

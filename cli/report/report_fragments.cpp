@@ -17,8 +17,12 @@ struct Dots {
   std::size_t all = 0;
   std::vector<float> drawn;
 
-  Dots(const std::vector<double>& position, const std::vector<std::vector<double>>& more)
+  // `ways`: m, by which each is shifted.
+  Dots(std::vector<double> position, const std::vector<Point3>& ways,
+       const std::vector<std::vector<double>>& more)
       : all(position.size() / 3) {
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) position[3 * i + k] += ways[i][k];
     for (const auto& numbers : more) all = std::min(all, numbers.size());
     for (std::size_t i = 0; i < all; i += (all + max_dots - 1) / max_dots) {
       for (std::size_t k = 0; k < 3; ++k) drawn.push_back(static_cast<float>(position[3 * i + k]));
@@ -54,12 +58,17 @@ Json fragments_of(const hdf5::File& file, const std::string& frame) {
 }
 
 void add_space_bonds(const hdf5::File& file, const std::string& frame, const std::string& prefix,
-                     Json& entry, std::vector<ReportSection>& sections) {
+                     const ReportCell<ThreeD>& cell, Json& entry,
+                     std::vector<ReportSection>& sections) {
   if (!file.contains(frame + "/bonds")) return;
-  const Dots bonds(file.read_doubles(frame + "/bonds/position"),
-                   {file.read_doubles(frame + "/bonds/area")});
-  const Dots cracks(file.read_doubles(frame + "/cracks/position"),
-                    {file.read_doubles("/cracks/area"), file.read_doubles("/cracks/shear")});
+  const auto dots = [&](const std::string& group, const std::vector<std::vector<double>>& more) {
+    std::vector<double> position = file.read_doubles(frame + "/" + group + "/position");
+    const std::size_t count = position.size() / 3;
+    return Dots(std::move(position), cell.ways_of_bonds(file, frame, group, count), more);
+  };
+  const Dots bonds = dots("bonds", {file.read_doubles(frame + "/bonds/area")});
+  const Dots cracks =
+      dots("cracks", {file.read_doubles("/cracks/area"), file.read_doubles("/cracks/shear")});
   entry["fragments"] = fragments_of(file, frame);
   entry["bonds"] = bonds.all;
   entry["cracks"] = cracks.all;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/report/report_cell.hpp"
 #include "cli/report/report_data.hpp"
 #include "engine/files/hdf5.hpp"
 
@@ -18,6 +19,7 @@ nlohmann::ordered_json fragments_of(const hdf5::File& file, const std::string& f
 // Adds "fragments", "bonds" and "cracks" (how many there are) to the frame's entry in the report's head, and dots to
 // draw: all of them, or if there are very many, every so many.
 void add_space_bonds(const hdf5::File& file, const std::string& frame, const std::string& prefix,
-                     nlohmann::ordered_json& entry, std::vector<ReportSection>& sections);
+                     const ReportCell<ThreeD>& cell, nlohmann::ordered_json& entry,
+                     std::vector<ReportSection>& sections);
 
 }  // namespace pulvis

@@ -95,7 +95,7 @@ class Observed {
     const std::vector<double> shear =
         cracks ? file_.read_doubles("/cracks/shear") : std::vector<double>(start.size() / 2);
     const std::size_t count = std::min(start.size() / 2, shear.size());
-    const std::vector<Point> ways = ways_of_bonds(group, count);
+    const std::vector<Point> ways = cell_.ways_of_bonds(file_, frame_, group, count);
     std::vector<float> all;
     for (std::size_t i = 0; i < count; ++i) {
       for (const auto& point : {start, end})
@@ -111,16 +111,6 @@ class Observed {
   static Point point_of(const std::vector<double>& points, Number number) {
     const auto n = static_cast<std::size_t>(number);
     return {points[2 * n], points[2 * n + 1]};
-  }
-
-  // m, shifts of the particles whose edges the lines follow.
-  std::vector<Point> ways_of_bonds(const std::string& group, std::size_t count) const {
-    std::vector<Point> ways(count);
-    if (!cell_.here()) return ways;
-    const bool cracks = group == "cracks";
-    const auto ids = file_.read_integers(cracks ? "/cracks/particle" : frame_ + "/bonds/ids");
-    for (std::size_t i = 0; i < count; ++i) ways[i] = cell_.way(ids.at(cracks ? i : 2 * i));
-    return ways;
   }
 
   std::vector<double> numbers(const std::string& name) const {

@@ -80,8 +80,8 @@ class SpaceFrames {
   ReportCell<ThreeD> cell(const std::string& frame) const {
     return {file_, frame, mesh_.node_particle};
   }
-  std::vector<double> positions(const std::string& frame) const {
-    return drawn_.positions(cell(frame).inside(file_.read_doubles(frame + "/position")));
+  std::vector<double> positions(const std::string& frame, const ReportCell<ThreeD>& cell) const {
+    return drawn_.positions(cell.inside(file_.read_doubles(frame + "/position")));
   }
   std::vector<double> values(const std::string& frame, const CellField& field) const {
     return drawn_.values(
@@ -90,9 +90,10 @@ class SpaceFrames {
 
   void find_ranges() {
     for (const auto& frame : frames_) {
-      const auto xyz = positions(frame);
+      const ReportCell<ThreeD> of_frame = cell(frame);
+      const auto xyz = positions(frame, of_frame);
       for (std::size_t i = 0; i < xyz.size(); ++i) widen(box_[i % 3], xyz[i]);
-      for (const Point3& corner : cell(frame).corners())
+      for (const Point3& corner : of_frame.corners())
         for (std::size_t k = 0; k < 3; ++k) widen(box_[k], corner[k]);
       for (auto& field : fields_)
         for (const double value : values(frame, field)) widen(field.range, value);
@@ -108,8 +109,8 @@ class SpaceFrames {
   }
 
   // All axes with the same step length: from 0 to the width.
-  Codes position_codes(const std::string& frame) const {
-    auto xyz = positions(frame);
+  Codes position_codes(const std::string& frame, const ReportCell<ThreeD>& cell) const {
+    auto xyz = positions(frame, cell);
     for (std::size_t i = 0; i < xyz.size(); ++i) xyz[i] -= box_[i % 3].low;
     return quantised(xyz, {0, width()});
   }
@@ -117,7 +118,8 @@ class SpaceFrames {
   void add_frame(std::size_t number) {
     const std::string& frame = frames_[number];
     const std::string prefix = "frame-" + std::to_string(number) + "-";
-    Codes codes = position_codes(frame);
+    const ReportCell<ThreeD> of_frame = cell(frame);
+    Codes codes = position_codes(frame, of_frame);
     if (number == 0) first_ = codes;
     if (number > 0)  // wraps around; so does the decoder
       for (std::size_t i = 0; i < codes.size(); ++i)
@@ -130,13 +132,12 @@ class SpaceFrames {
     add_tool_corners(file_, frame, prefix, sections_);
     head_["frames"].push_back({{"time", file_.number_attribute(frame, "time")},
                                {"step", file_.number_attribute(frame, "step")}});
-    const ReportCell<ThreeD> of_frame = cell(frame);
     if (of_frame.here())
       head_["frames"].back()["cell"] = of_frame.numbers();
     else  // a powder without walls has no ends
       head_["frames"].back()["profile"] = profile(frame);
     add_space_observed(file_, frame, prefix, of_frame, head_["frames"].back(), sections_);
-    add_space_bonds(file_, frame, prefix, head_["frames"].back(), sections_);
+    add_space_bonds(file_, frame, prefix, of_frame, head_["frames"].back(), sections_);
   }
 
   Json profile(const std::string& frame) const {

@@ -199,7 +199,9 @@ def box(frame: Frame) -> str:
     origin, sides, periodic = nodes.min(axis=0), np.diag(np.ptp(nodes, axis=0)), "F F F"
     if "cell" in frame:
         corner, *vectors = frame["cell"][()]
-        origin[:2], sides[:2, :2], periodic = corner, vectors, "T T F"
+        axes = len(corner)
+        origin[:axes], sides[:axes, :axes] = corner, vectors
+        periodic = " ".join("T" if k < axes else "F" for k in range(3))
     if sides[2, 2] == 0:  # a plane
         sides[2, 2] = 0.1 * np.linalg.norm(sides[0])
         origin[2] = -0.5 * sides[2, 2]

@@ -10,6 +10,12 @@ def paler(colours):
     return 1 - PALE * (1 - np.asarray(colours)[..., :3])
 
 
+def cell_edges(corner, vectors):
+    """Of a cell in three dimensions, [12, 2, 3] m."""
+    ends = np.array([[np.insert(at, axis, along) for along in (0, 1)] for axis in range(3) for at in np.ndindex(2, 2)])
+    return corner + ends @ vectors
+
+
 class Cell:
     """Where the particles of a frame are drawn. Without a periodic cell: at their positions, without images."""
 
@@ -68,11 +74,7 @@ class Cell:
 
     def edges(self):
         """The edges of a cell in three dimensions, [12, 2, 3] m; none without a cell."""
-        if not self.here:
-            return np.zeros((0, 2, 3))
-        ends = np.array([[np.insert(at, axis, along) for along in (0, 1)]
-                         for axis in range(3) for at in np.ndindex(2, 2)])
-        return self.corner + ends @ self.vectors
+        return cell_edges(self.corner, self.vectors) if self.here else np.zeros((0, 2, 3))
 
     def outline(self):
         (a, b), corner = self.vectors, self.corner

@@ -3,6 +3,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 from pulvis.figures.bonds import BOND_COLOUR, MODES, SHEAR, cracks_title
+from pulvis.figures.cell import Cell
 from pulvis.figures.colours import fragment_colours
 from pulvis.figures.look import Options, bar_beside, close_up, recorded, shape_of, sheet
 from pulvis.figures.space import draw_scale, draw_tools, isometric, limits_of
@@ -23,19 +24,26 @@ def draw_dots(axes, position, area, points, **look):
     return axes.scatter(*1e3 * seen[order, :2].T, s=sizes, linewidths=0, **look)
 
 
+def places_of_bonds(run, frame, cell):
+    """Where bonds and cracks are drawn, m: with the particles whose faces they are on."""
+    broken = frame["cracks/position"][()]
+    of = run.file["cracks/particle"][:len(broken)]  # the newest rows may be missing if the run was killed
+    return frame["bonds/position"][()] + cell.shift[frame["bonds/ids"][:, 0]], broken[:len(of)] + cell.shift[of]
+
+
 def space_cracks(run, options=None, axes=None):
     """The fragments, each in a different colour, seen through; bonds as grey dots, and cracks coloured by fracture mode."""
     options = options or Options()
     frame = recorded(run, options, "cracks")
     if frame is None:
         return None
-    rows, limits = isometric(), limits_of(run, [frame])
+    rows, limits, cell = isometric(), limits_of(run, [frame]), Cell(run, frame)
     size, beside = shape_of(limits)
     figure, place = sheet(options, size, axes, beside)
     draw_tools(run, place, frame)
     quads, cells = outer_sides(run.mesh.cells)
     colours = fragment_colours(frame["fragment"][()])[run.mesh.cell_particle[cells]]
-    seen = frame["position"][()] @ rows.T
+    seen = cell.position @ rows.T
     corners = seen[quads]
     flat = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     front = flat[:, 2] < 0
@@ -43,10 +51,9 @@ def space_cracks(run, options=None, axes=None):
     place.add_collection(PolyCollection(1e3 * corners[order, :, :2], facecolors=colours[order], edgecolors="none", alpha=0.35, zorder=1))
     wide = (options.width or size[0]) / 1.2 if axes is None else axes.get_window_extent().width / figure.dpi
     points = 72 * wide / (1e-3 * np.ptp(limits[:, 0]))
-    draw_dots(place, frame["bonds/position"][()], frame["bonds/area"][()], points, color=BOND_COLOUR, zorder=3)
-    broken = frame["cracks/position"][()]
+    bonded, broken = places_of_bonds(run, frame, cell)
+    draw_dots(place, bonded, frame["bonds/area"][()], points, color=BOND_COLOUR, zorder=3)
     shear = run.file["cracks/shear"][:len(broken)]
-    broken = broken[:len(shear)]  # the newest rows may be missing if the run was killed
     drawn = draw_dots(place, broken, run.file["cracks/area"][:len(broken)], points, c=shear, cmap=MODES, vmin=0, vmax=1, zorder=4)
     place.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
     place.axis("off")

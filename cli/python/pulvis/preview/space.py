@@ -2,6 +2,7 @@
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
+from pulvis.figures.cell import cell_edges
 from pulvis.preview import tools as drawn_tools
 from pulvis.preview import words
 from pulvis.preview.powder import PowderDrawing
@@ -28,14 +29,6 @@ def normals(corners):
     return cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-300)
 
 
-def cell_edges(cell):
-    """Of the periodic cell, [12, 2, 3] m; none without one."""
-    if not cell:
-        return np.zeros((0, 2, 3))
-    ends = np.array([[np.insert(at, axis, along) for along in (0, 1)] for axis in range(3) for at in np.ndindex(2, 2)])
-    return np.array(cell["corner"]) + ends @ np.array(cell["vectors"])
-
-
 class SpaceDrawing(PowderDrawing):
     def __init__(self, setup):
         faces, colours = [], []
@@ -46,7 +39,8 @@ class SpaceDrawing(PowderDrawing):
         self.faces, self.owner = np.concatenate(faces), np.array(colours)
         self.pieces = [np.reshape(tool["pieces"], (-1, 4, 3)) for tool in setup["tools"]]
         self.held = {tool["name"]: np.array(tool["nodes"]) for tool in setup["tools"] if tool["shape"] == "constraint"}
-        self.edges = cell_edges(setup.get("cell"))
+        cell = setup["cell"]
+        self.edges = cell_edges(np.array(cell["corner"]), np.array(cell["vectors"])) if cell else np.zeros((0, 2, 3))
         super().__init__(setup)
 
     def outer_points(self):
