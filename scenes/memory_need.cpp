@@ -134,6 +134,7 @@ std::uint64_t face_row_bytes(const Scene& scene, const Needs& needs) {
   if (needs.bonds()) bytes += bytes_of<space::BondedPoints<At>, BondDamage<At>, BondStrength<At>>();
   bytes += bytes_if<space::BondOffset<At>>(needs.initial_bonds);
   bytes += bytes_if<space::WeldPressure<At>>(needs.welds);
+  bytes += bytes_if<ContactImage<At>>(needs.cell);
   return bytes;
 }
 

@@ -7,12 +7,12 @@
 #include "components/body.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
+#include "components/servo.hpp"
 #include "components/space/bond.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
 #include "scenes/body_columns.hpp"
 #include "scenes/contact_search.hpp"
-#include "scenes/spec/tool_motion.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
@@ -21,10 +21,10 @@
 namespace pulvis::space {
 namespace {
 
-ContactRules rules_of(const Scene& scene) {
+ContactRules rules_of(const World& world, const Scene& scene) {
   ContactRules rules = contact_rules(scene);
   rules.tool_thickness.assign(scene.tools.size(), std::numeric_limits<double>::infinity());
-  rules.servos = has_servos(scene);
+  rules.servos = world.has<ServoVelocity>();
   return rules;
 }
 
@@ -181,7 +181,7 @@ void add_tool_contact(World& world, const Scene& scene, const Needs& needs) {
 }  // namespace
 
 void add_contact(World& world, const Scene& scene, const Needs& needs) {
-  ContactRules rules = rules_of(scene);
+  ContactRules rules = rules_of(world, scene);
   add_bond_totals(world, scene);
   if (has_bonds(scene)) world.emplace<Fragments>();
   if (!needs.contact()) return;

@@ -127,6 +127,12 @@ class ProbeReader {
                       "[cell] whose last stage has [stage.cell]");
         return;
       }
+      if (scene.in_space()) {
+        problems_.add(at, "scene",
+                      "it has three dimensions, and yield surfaces are those of plane strain, "
+                      "allowed: a scene in two dimensions");
+        return;
+      }
       loading.seed = static_cast<std::int64_t>(scene.seed);
       if (!own) loading.name += fmt::format(",seed={}", seed);
       probe_.loadings.push_back(std::move(loading));

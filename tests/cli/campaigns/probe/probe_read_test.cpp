@@ -57,6 +57,19 @@ TEST(ProbeScenes, HaveEachSeedOnce) {
   fs::remove(file);
 }
 
+// Directions, yield surfaces and moduli are of plane strain.
+TEST(ProbeScenes, HaveTwoDimensions) {
+  namespace fs = std::filesystem;
+  const fs::path file =
+      fs::temp_directory_path() / ("pulvis-spheres" + std::to_string(getpid()) + ".toml");
+  std::ofstream(file) << "densities = [0.7]\n[[path]]\nname = \"spheres\"\nscene = \""
+                      << paths::source_dir()
+                      << "/scenes/periodic/spheres-shear.toml\"\n[probe]\nduration = \"1 us\"\n";
+  const std::string wrong = message_of([&] { load_probe(file); });
+  EXPECT_NE(wrong.find("it has three dimensions"), std::string::npos) << wrong;
+  fs::remove(file);
+}
+
 // By strain and by stress, in a direction and in shear.
 TEST(ProbeScenes, ProbeAsTheyAreAsked) {
   Probe probe = load_probe(paths::source_dir() + "/scenes/probes/cap.toml");
