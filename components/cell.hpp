@@ -110,7 +110,6 @@ struct Tensor {
     return swapped;
   }
   double determinant() const {
-    if constexpr (n == 2) return t[0] * t[3] - t[1] * t[2];
     double sum = 0;
     for (std::size_t j = 0; j < n; ++j) sum += (*this)(0, j) * cofactor(0, j);
     return sum;

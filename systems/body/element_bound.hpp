@@ -73,7 +73,16 @@ inline Lane stable_step(Chunk chunk, Lane density, const FrequencyBound& bound,
   return (*rules)->servos ? min(longest, step) : min(dashpots_too_strict / safety * longest, step);
 }
 
-// `system`: stable_time_step; bounds(visit): calls visit(bound) for every element.
+// `system`: stable_time_step; bounds(visit): calls visit(bound) for every element. Of each particle of the chunk.
+template <class System, class Bounds>
+Lane step_of_particles(const System& system, Chunk chunk, const Bounds& bounds) {
+  FrequencyBound worst;
+  bounds([&](const FrequencyBound& bound) { worst.include(bound); });
+  const Lane density = system.material.density.chunk(chunk)(Row<Particle>());
+  return stable_step(chunk, density, worst, system.damping, system.rules, system.clock->safety);
+}
+
+// The same of each element.
 template <class System, class Bounds>
 StableSteps steps_of_elements(const System& system, Chunk chunk, const Bounds& bounds) {
   const Lane density = system.material.density.chunk(chunk)(Row<Particle>());

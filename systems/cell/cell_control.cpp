@@ -214,27 +214,17 @@ template struct cell_motion<ThreeD>;
 // ---- walls ----------------------------------------------------------------------------------------
 namespace {
 
-TouchSums touching_row(const wall_control<TwoD>& s, Row<ToolContact> row) {
-  return touching_of(row, s.contacts.rows, s.contacts.law, s.rules->stiffest_weld());
-}
-TouchSums touching_row(const wall_control<ThreeD>& s, Row<FaceToolContact> row) {
-  const auto& faces = s.bodies.shape_of(s.contacts.rows.pair(row, 0)).faces;
-  const auto& area = entry(faces, s.contacts.rows.pair(row, 1)).weight;
-  return touching_of(
-      row, s.contacts.rows, s.contacts.law, [&](int g) { return entry(area, g); },
-      s.rules->stiffest_weld());
-}
-
 // Contacts of two planes, each moving by half of the strain, weighted with the squares of their displacements.
 template <class D>
 TouchSums pressed_by(const DrivenWalls::Axis& walls, double size, const wall_control<D>& s) {
+  const auto& [rows, law] = s.contacts;
   TouchSum sums;
   const double square = 0.25 * size * size;
-  for (int r = 0; r < s.contacts.rows.pair.rows(); ++r) {
+  for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<typename D::ToolContact> row(r);
-    const int tool = s.contacts.rows.pair(row, 2);
-    if (s.contacts.rows.touches(row) == 0 || (tool != walls.low && tool != walls.high)) continue;
-    sums.add(touching_row(s, row), square);
+    const int tool = rows.pair(row, 2);
+    if (rows.touches(row) == 0 || (tool != walls.low && tool != walls.high)) continue;
+    sums.add(touching_of(s.bodies, row, rows, law, s.rules->stiffest_weld()), square);
   }
   return sums.of_ranks(s.drive.link);
 }

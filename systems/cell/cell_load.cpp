@@ -6,7 +6,6 @@
 //             l^2 <= (r + r')^2 <= 2 r^2 + 2 r'^2 with the radii about the centres: each side counts (2 r)^2.
 // Runs        after contact_force; the resistance only with the stable time step, which guards the same springs
 #include <algorithm>
-#include <bit>
 
 #include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
@@ -19,38 +18,27 @@ namespace {
 
 using kernels::TouchSums;
 
-void add(const TouchSums& of_row, TouchSums& sums) {
-  sums.stiffness += of_row.stiffness;
-  sums.damping += of_row.damping;
-}
-
 // Springs and dashpots of what a particle samples.
 TouchSums touching_at(const cell_load<TwoD>& s, int slot) {
   TouchSums sums;
   const auto& [index, rules, pairs, law] = s.contacts;
   for (const Row<Contact> row : index->sampled_by(slot))
     if (pairs.rows.touches(row) != 0)
-      add(touching_of(row, pairs.rows, law, rules->stiffest_weld()), sums);
+      sums.include(touching_of(s.bodies, row, pairs.rows, law, rules->stiffest_weld()));
   return sums;
 }
 TouchSums touching_at(const cell_load<ThreeD>& s, int slot) {
   TouchSums sums;
   const auto& [index, rules, pairs, law] = s.contacts;
   const auto& rows = pairs.rows;
+  const double bonds = rules->stiffest_weld();
   const std::int32_t end = entry(index->sampled_begin, slot + 1);
   for (int p = rows.of->from_row(entry(index->sampled_begin, slot)); entry(rows.of->begin, p) < end;
-       ++p) {
-    const std::array<double, 3>* force = entry(rows.loads->pairs, p).own.data();
-    for (const Row<FaceContact> row : RowRange<FaceContact>::of(rows.of->begin, p)) {
-      if (rows.touches(row) == 0) continue;
-      const auto& area = entry(s.bodies.shape_of(slot).faces, rows.pair(row, 1)).weight;
-      for (unsigned left = space::touching_points(&rows.activation(row)); left != 0;
-           left &= left - 1)
-        add(touching_at_point(row, law, *force++, entry(area, std::countr_zero(left)),
-                              rules->stiffest_weld()),
-            sums);
-    }
-  }
+       ++p)
+    space::for_touching_points(rows, p, [&](Row<FaceContact> row, int g, const auto& force) {
+      const auto& face = entry(s.bodies.shape_of(slot).faces, rows.pair(row, 1));
+      sums.include(touching_at_point(row, law, force, entry(face.weight, g), bonds));
+    });
   return sums;
 }
 

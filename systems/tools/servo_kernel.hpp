@@ -34,6 +34,11 @@ namespace pulvis::kernels {
 struct TouchSums {
   double stiffness = 0;  // N/m, tangent
   double damping = 0;    // N s/m
+
+  void include(const TouchSums& more) {
+    stiffness += more.stiffness;
+    damping += more.damping;
+  }
 };
 
 // Tangent of the contact spring kappa g (1 + (g/g_s)^2) at `pressure`, over kappa; an upper bound.

@@ -35,19 +35,24 @@ kernels::TouchSums touching_of(Row<At> row, const TouchingRows<At>& rows,
     std::array<double, At::axes> force;
     for (int k = 0; k < At::axes; ++k)
       entry(force, k) = rows.force(row, PointForce<At>::number(g, k));
-    const kernels::TouchSums of_point = touching_at_point(row, law, force, area(g), bonds);
-    sums.stiffness += of_point.stiffness;
-    sums.damping += of_point.damping;
+    sums.include(touching_at_point(row, law, force, area(g), bonds));
   }
   return sums;
 }
 // Of an edge, whose law has the areas; those of a face are in its shape.
 template <class At>
-requires(At::axes == 2) kernels::TouchSums
-    touching_of(Row<At> row, const TouchingRows<At>& rows, const Read<ContactLaw<At>>& law,
-                double bonds) {
+kernels::TouchSums touching_of(const ShapedBodies<TwoD>&, Row<At> row, const TouchingRows<At>& rows,
+                               const Read<ContactLaw<At>>& law, double bonds) {
   const auto area = [&](int g) { return law(row, ContactLaw<At>::weight + g); };
   return touching_of(row, rows, law, area, bonds);
+}
+template <class At>
+kernels::TouchSums touching_of(const ShapedBodies<ThreeD>& bodies, Row<At> row,
+                               const TouchingRows<At>& rows, const Read<ContactLaw<At>>& law,
+                               double bonds) {
+  const auto& area = entry(bodies.shape_of(rows.pair(row, 0)).faces, rows.pair(row, 1)).weight;
+  return touching_of(
+      row, rows, law, [&](int g) { return entry(area, g); }, bonds);
 }
 
 }  // namespace pulvis

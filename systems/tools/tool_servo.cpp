@@ -11,20 +11,6 @@
 #include "systems/tools/systems.hpp"
 
 namespace pulvis {
-namespace {
-
-kernels::TouchSums touching_row(const tool_servo<TwoD>& s, Row<ToolContact> row) {
-  return touching_of(row, s.rows, s.law, s.servos.rules->stiffest_weld());
-}
-kernels::TouchSums touching_row(const tool_servo<ThreeD>& s, Row<FaceToolContact> row) {
-  const auto& faces = s.bodies.shape_of(s.rows.pair(row, 0)).faces;
-  const auto& area = entry(faces, s.rows.pair(row, 1)).weight;
-  return touching_of(
-      row, s.rows, s.law, [&](int g) { return entry(area, g); }, s.servos.rules->stiffest_weld());
-}
-
-}  // namespace
-
 template <class D>
 void tool_servo<D>::operator()() const {
   drive_tools(servos, [&](int tool) {
@@ -32,7 +18,7 @@ void tool_servo<D>::operator()() const {
     for (int r = 0; r < rows.pair.rows(); ++r) {
       const Row<typename D::ToolContact> row(r);
       if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
-      sums.add(touching_row(*this, row));
+      sums.add(touching_of(bodies, row, rows, law, servos.rules->stiffest_weld()));
     }
     return sums.of_ranks(link);
   });

@@ -92,11 +92,8 @@ void visit_bounds(const stable_time_step<F>& of, Chunk chunk, const Visit& visit
 template <class F>
 [[gnu::flatten]] void stable_time_step<F>::operator()(Chunk chunk) const {
   if (clock->step < clock->next_look) return;
-  FrequencyBound worst;
-  visit_bounds(*this, chunk, [&](const FrequencyBound& bound) { worst.include(bound); });
-  const Row<Particle> particle;
-  stable.chunk(chunk)(particle) = stable_step(chunk, material.density.chunk(chunk)(particle), worst,
-                                              damping, rules, clock->safety);
+  stable.chunk(chunk)(Row<Particle>()) = step_of_particles(
+      *this, chunk, [&](const auto& visit) { visit_bounds(*this, chunk, visit); });
 }
 
 template <class F>

@@ -47,6 +47,18 @@ struct FaceForces {
 // Bit g: point g touches, and so is never inactive.
 inline unsigned touching_points(const float* activation) { return at_most(activation, 0); }
 
+// visit(row, Gauss point, force in N on it) for the touching points of a pair, in the order of their forces. `pairs`: of
+// contact_force.
+template <class Pairs, class Visit>
+void for_touching_points(const Pairs& pairs, int pair, const Visit& visit) {
+  const std::array<double, 3>* force = entry(pairs.loads->pairs, pair).own.data();
+  for (const Row<FaceContact> row : RowRange<FaceContact>::of(pairs.of->begin, pair)) {
+    if (pairs.touches(row) == 0) continue;
+    for (unsigned left = touching_points(&pairs.activation(row)); left != 0; left &= left - 1)
+      visit(row, std::countr_zero(left), *force++);
+  }
+}
+
 // Adds the forces of the touching points, stored consecutively from `force` on, to the sampled face: usually a few.
 inline void add_touching(const std::array<double, 3>* force, unsigned touching, double* face) {
   FaceLoad load;

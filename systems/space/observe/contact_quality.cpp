@@ -8,7 +8,6 @@
 // Active   if contact is possible
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -64,23 +63,18 @@ struct TouchLooker {
   TouchedFaces with_other(int pair) const {
     const contact_force::Pairs& rows = s.pairs->rows;
     TouchedFaces found;
-    const std::array<double, 3>* force = entry(rows.loads->pairs, pair).own.data();
-    for (const Row<FaceContact> row : RowRange<FaceContact>::of(rows.of->begin, pair)) {
-      if (rows.touches(row) == 0) continue;
-      const int slot = rows.pair(row, 0), face = rows.pair(row, 1), other = rows.pair(row, 2);
-      const PatchNumbers own = s.bodies.patch(s.position.values(), slot, face);
-      const SurfaceVector shift =
-          s.pairs->images ? vector_of(s.pairs->images->shift(row)) : SurfaceVector{};
-      for (unsigned left = touching_points(&rows.activation(row)); left != 0; left &= left - 1) {
-        const int g = std::countr_zero(left);
-        const SurfaceVector f = vector_of(*force++);
-        found.add_point(face_of(slot, face), g, f);
-        const SampledPoint at = sampled_point(own, g);
-        const PointOnSurface there =
-            closest_point(s.bodies, s.position.values(), s.pairs->point, row, g, other);
-        found.add_overlap(0.5 * at.area, dot(there.x - (at.x - shift), there.normal));
-      }
-    }
+    const SurfaceVector shift =
+        s.pairs->images
+            ? vector_of(s.pairs->images->shift(Row<FaceContact>(entry(rows.of->begin, pair))))
+            : SurfaceVector{};
+    for_touching_points(rows, pair, [&](Row<FaceContact> row, int g, const auto& force) {
+      const int slot = rows.pair(row, 0), face = rows.pair(row, 1);
+      found.add_point(face_of(slot, face), g, vector_of(force));
+      const SampledPoint at = sampled_point(s.bodies.patch(s.position.values(), slot, face), g);
+      const PointOnSurface there =
+          closest_point(s.bodies, s.position.values(), s.pairs->point, row, g, rows.pair(row, 2));
+      found.add_overlap(0.5 * at.area, dot(there.x - (at.x - shift), there.normal));
+    });
     return found;
   }
   void find_pairs(int slot, std::vector<ContactQuality>& found) const {

@@ -64,30 +64,40 @@ std::string isotropic() {
   return fmt::format("strain_xx = {0}\nstrain_yy = {0}\nstrain_zz = {0}\n", strain);
 }
 
-TEST(CubicCell, BearsWhatASphereBetweenSixPlanesBears) {
-  Experiment cell(own_scene(copper + ball(0.5, 0.5, 0.5) + cubic_cell(1) +
-                            cell_stage("press", "0.06 ms", isotropic())));
-  cell.run(10);
-  std::string planes = copper + ball(0.5, 0.5, 0.5), moves;
-  const double way = (1 - std::exp(strain)) / 2;
+// Around a cube of 1 mm.
+std::string six_planes() {
+  std::string planes;
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {0, 1}) {
-      std::array<double, 3> point{}, normal{}, move{};
+      std::array<double, 3> point{}, normal{};
       point.at(static_cast<std::size_t>(axis)) = side;
       normal.at(static_cast<std::size_t>(axis)) = 1 - 2 * side;
-      move.at(static_cast<std::size_t>(axis)) = way * (1 - 2 * side);
       planes += fmt::format(
           "[[tool]]\nname = \"plane{0}\"\nshape = \"plane\"\npoint = [\"{1} mm\", \"{2} mm\", "
           "\"{3} mm\"]\nnormal = [{4}, {5}, {6}]\n",
           2 * axis + side, point[0], point[1], point[2], normal[0], normal[1], normal[2]);
+    }
+  return planes;
+}
+
+TEST(CubicCell, BearsWhatASphereBetweenSixPlanesBears) {
+  Experiment cell(own_scene(copper + ball(0.5, 0.5, 0.5) + cubic_cell(1) +
+                            cell_stage("press", "0.06 ms", isotropic())));
+  cell.run(10);
+  std::string moves;
+  const double way = (1 - std::exp(strain)) / 2;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {0, 1}) {
+      std::array<double, 3> move{};
+      move.at(static_cast<std::size_t>(axis)) = way * (1 - 2 * side);
       moves += fmt::format(
           "[[stage.move]]\ntool = \"plane{}\"\ndisplacement = [\"{:.17g} mm\", \"{:.17g} mm\", "
           "\"{:.17g} mm\"]\n",
           2 * axis + side, move[0], move[1], move[2]);
     }
   Experiment box(own_scene(
-      planes + "[[stage]]\nname = \"press\"\nkind = \"compact\"\nduration = \"0.06 ms\"\n" +
-      moves));
+      copper + ball(0.5, 0.5, 0.5) + six_planes() +
+      "[[stage]]\nname = \"press\"\nkind = \"compact\"\nduration = \"0.06 ms\"\n" + moves));
   box.run(10);
   ASSERT_LT(box.value("stress/zz"), -15e6);
   for (const char* part : {"xx", "yy", "zz"}) {
@@ -99,6 +109,27 @@ TEST(CubicCell, BearsWhatASphereBetweenSixPlanesBears) {
   EXPECT_NEAR(cell.value("energy/external") / box.value("energy/external"), 1, 0.01);
   EXPECT_NEAR(cell.value("relative_density") / box.value("relative_density"), 1, 1e-9);
   EXPECT_LT(cell.results.energy_balance_error(), 0.003);
+}
+
+// The planes of a box, driven like a cell: the same lattice, as its mirror images are its periods.
+TEST(DrivenBox, BearsWhatACellBears) {
+  const std::string drive = cell_stage("press", "0.06 ms", isotropic()) +
+                            cell_stage("hold", "0.2 ms",
+                                       "stress_xx = \"-10 MPa\"\nstress_yy = \"-10 MPa\"\n"
+                                       "stress_zz = \"-25 MPa\"\n");
+  Experiment cell(own_scene(copper + ball(0.5, 0.5, 0.5) + cubic_cell(1) + drive));
+  Experiment box(own_scene(copper + ball(0.5, 0.5, 0.5) + six_planes() + drive));
+  EXPECT_TRUE(box.simulation.world().resource<ContactRules>().servos);
+  cell.run(10);
+  box.run(10);
+  for (const char* part : {"xx", "yy", "zz"}) {
+    const std::string stress = fmt::format("cell/stress_{}", part),
+                      strain = fmt::format("cell/strain_{}", part);
+    EXPECT_NEAR(box.value(stress) / (part[0] == 'z' ? -25e6 : -10e6), 1, 0.03) << part;
+    EXPECT_NEAR(cell.value(stress) / box.value(stress), 1, 0.05) << part;
+    EXPECT_NEAR(cell.value(strain) / box.value(strain), 1, 0.02) << part;
+  }
+  EXPECT_LT(box.results.energy_balance_error(), 0.003);
 }
 
 // The same lattice pressed along each axis.
