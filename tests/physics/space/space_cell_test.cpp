@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "scenes/results/state_hash.hpp"
+#include "tests/helpers/elastic_ball.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {
@@ -109,6 +110,24 @@ TEST(CubicCell, BearsWhatASphereBetweenSixPlanesBears) {
   EXPECT_NEAR(cell.value("energy/external") / box.value("energy/external"), 1, 0.01);
   EXPECT_NEAR(cell.value("relative_density") / box.value("relative_density"), 1, 1e-9);
   EXPECT_LT(cell.results.energy_balance_error(), 0.003);
+}
+
+// An elastic ball that touches its own images above and below; beside it there is room.
+TEST(CubicCell, BearsTheForceOfHertz) {
+  Experiment e(own_scene(R"(
+family = "compaction"
+dimension = 3
+material = [{ name = "steel", density = "7990 kg/m^3", youngs_modulus = "200 GPa", poissons_ratio = 0.3 }]
+particle = [{ name = "ball", material = "steel", shape = "sphere", diameter = "10 mm", mesh = { divisions = 8, rings = 1 } }]
+body = [{ particle = "ball", position = ["6 mm", "6 mm", "5 mm"] }]
+cell = { width = "12 mm", depth = "12 mm", height = "10 mm" }
+contact = { stiffness = 10, damping = 0.3 }
+)" + cell_stage("press", "0.05 ms", "strain_zz = -0.105\n")));
+  e.run(50);
+  const double force = -e.value("cell/stress_zz") * e.value("cell/width") * e.value("cell/depth");
+  const double approach = (2 * ball_radius - e.value("cell/height")) / 2;
+  // As between plates (hertz_space_test.cpp).
+  EXPECT_NEAR(force / force_on_ball(approach), 1, 0.02);
 }
 
 // The planes of a box, driven like a cell: the same lattice, as its mirror images are its periods.
