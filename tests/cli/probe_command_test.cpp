@@ -2,8 +2,11 @@
 // wrong is refused.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "tests/helpers/program.hpp"
 
@@ -54,7 +57,8 @@ TEST_F(ProbeCommand, FindsVonMisesCylinderInASolid) {
   int sheared = 0;  // and not about to come apart: there the stress is not the same all over
   for (const char* criterion : {"offset_strain", "dissipation"})
     for (const auto& point : state.at("yield").at(criterion).at("points")) {
-      const double angle = point.at("direction").get<double>();
+      if (point.at("set") != "axial") continue;
+      const double angle = point.at("angle").get<double>();
       const double shear = std::abs(std::cos(angle) - std::sin(angle));
       if (shear < 0.5 || point.at("plane_p").get<double>() < 500e6) continue;
       EXPECT_NEAR(std::abs(point.at("q").get<double>()) / 240e6, 1, 0.005) << criterion << angle;
@@ -85,6 +89,51 @@ TEST_F(ProbeCommand, FindsVonMisesCylinderInASolid) {
   const Outcome figure = pulvis({"figure", "probed"});
   EXPECT_EQ(figure.code, 0) << figure.err;
   EXPECT_TRUE(fs::exists(place / "probed/pictures/yield_surfaces.png"));
+}
+
+// A cube in a cubic cell: the axes can be exchanged, and so can the directions of its probes.
+TEST_F(ProbeCommand, FindsTheSymmetryOfACube) {
+  std::ofstream(place / "dense-space.toml") << shared("dense-space.toml");
+  write(shared("probe-space.toml") + "[[direction]]\nname = \"along_x\"\nxx = -1\n");
+  const Outcome outcome = probe();
+  ASSERT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("unloading: 1 run: 1 to do"));
+  const auto group = summary().at("states").at(0), state = group.at("states").at(0);
+  EXPECT_EQ(group.at("dimension"), 3);
+  const auto c = [&](const char* name) { return state.at("stiffness").at(name).get<double>(); };
+  const auto alike = [&](std::array<const char*, 3> names) {
+    for (const char* name : names) EXPECT_NEAR(c(name) / c(names[0]), 1, 3e-3) << name;
+  };
+  alike({"c11", "c22", "c33"});
+  alike({"c12", "c13", "c23"});
+  alike({"c44", "c55", "c66"});
+  for (const char* none : {"c14", "c25", "c36", "c45", "c56"})
+    EXPECT_NEAR(c(none) / c("c11"), 0, 1e-3) << none;
+  EXPECT_NEAR(state.at("off").at("orthotropic").get<double>(), 0, 4e-3);
+  EXPECT_NEAR(state.at("engineering").at("E_x").get<double>() /
+                  state.at("engineering").at("E_z").get<double>(),
+              1, 2e-3);
+  EXPECT_NEAR(state.at("coordination").get<double>(), 6, 1e-9);  // its own images
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(state.at("fabric").at(k).get<double>(), 1.0 / 3, 1e-3);
+
+  std::map<std::string, nlohmann::json> points;
+  for (const auto& point : group.at("yield").at("dissipation").at("points"))
+    points[point.at("direction").get<std::string>()] = point;
+  const auto value = [&](const char* direction, const char* name) {
+    return points.at(direction).at(name).get<double>();
+  };
+  for (const char* name : {"p", "q"})
+    for (const std::array<const char*, 3>& alike_ones :
+         {std::array{"lode=0", "lode=120", "lode=240"},
+          std::array{"shear_xy", "shear_yz", "shear_zx"},
+          std::array{"direction=270", "along_x", "along_x"}})
+      for (const char* one : alike_ones)
+        EXPECT_NEAR(std::abs(value(one, name) / value(alike_ones[0], name)), 1, 5e-3)
+            << one << name;
+  EXPECT_NEAR(value("lode=120", "lode_angle"), 2 * std::numbers::pi / 3, 0.01);
+  const auto& turned = points.at("shear_yz").at("stress");
+  EXPECT_GT(std::abs(turned.at(4).get<double>()), 1e7);  // yz
+  EXPECT_LT(std::abs(turned.at(3).get<double>()), 1e-2 * std::abs(turned.at(4).get<double>()));
 }
 
 TEST_F(ProbeCommand, RefusesWhatCannotBeProbed) {

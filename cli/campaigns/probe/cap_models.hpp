@@ -1,17 +1,17 @@
-// Yield surfaces of powders, fitted to yield points: those used by continuum codes, and those of powder theories.
+// Yield surfaces of powders, fitted to yield points.
 //
-// p: pressure, q: von Mises stress, both Pa. A surface bounds the stresses that a model treats as elastic.
+// p: pressure, q: von Mises stress, both Pa.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cli/campaigns/probe/yield_models.hpp"
 #include "cli/campaigns/probe/yield_points.hpp"
 
 namespace pulvis {
-
-inline constexpr double cap_transition = 0.03;  // -, alpha of the Drucker-Prager cap
 
 // The values of a parameter with which the model fits as well, with a confidence of 95%, when its other parameters follow.
 struct ParameterRange {
@@ -20,43 +20,47 @@ struct ParameterRange {
       low = 0,
       high =
           0;  // 0, infinity: no bound within a factor of 10, of d up to the largest p; beta: pi/2
-  bool determined =
-      true;  // the range is no wider than the value itself, or for d than a tenth of p_b
+  // The range is no wider than the value itself, or for d and p_t than a tenth of the largest p, for alpha than 0.1.
+  bool determined = true;
 };
 
 struct FittedModel {
   std::string name;
   std::vector<std::pair<std::string, double>> parameters;  // Pa, rad or -
-  bool in_plane = false;  // in terms of in-plane pressure and shear instead of p and q
+  YieldModel::Terms terms = YieldModel::Terms::invariants;
   std::vector<ParameterRange>
       ranges;         // of the fitted parameters, not of those that follow from them
   double misfit = 0;  // rms distance to the points along rays, over the largest pressure
-  std::vector<std::pair<double, double>> surface;  // Pa, p and q >= 0 along it, for plotting
+  // For plotting, Pa: p and q along it. q >= 0; of models in terms of the stresses on both sides, in the plane of the axis.
+  std::vector<std::pair<double, double>> surface;
+  // Pa: xx, yy, zz of rows from the axis of pressures outwards; of models in terms of the stresses in three dimensions.
+  std::vector<std::vector<std::array<double, 3>>> shell;
   double parameter(const std::string& of) const;
+  // Whether the points determine it, or what it follows from.
+  bool determines(const std::string& of) const;
 };
 
-// Only points whose in-plane pressure is above a tenth of the largest: where the powder comes apart, what remains is the
-// stress zz that plane strain locks into the particles, not a surface. And only q > 0, compressed more in y: a powder
-// compressed in y has a different surface on the other side, which no isotropic model can represent.
-//   drucker_prager_cap      d, beta, R, p_b (cap on the p axis), alpha (transition), p_a: Abaqus, *CAP PLASTICITY
-//   modified_cam_clay       M, p_c
-//   fleck_kuhn_mcmeeking    p_y: spheres, isotropic, stage I (Fleck, Kuhn & McMeeking 1992, in the form of Redanz,
-//                           Fleck & McMeeking)
-//   gurson                  sigma_y, f = 1 - density (Gurson 1977)
-//   fleck_plane, fleck_plane_cohesive   p_y: cylinders, isotropic, frictionless contacts of constant pressure that carry
-//                           no tension, or as much as compression: Fleck 1995 in two dimensions (docs/theory.md)
-// Fewer than five points: no models.
+// Null: it was not fitted.
+const FittedModel* model_of(const std::vector<FittedModel>& models, const std::string& name);
+
+// All models of yield_models. Those that are isotropic are fitted to the `usable` points, those in terms of the stresses to all
+// that are `closed`. Fewer than five usable points: no models.
 // Without bonds zero stress is an additional point of the cap: nothing holds the powder together.
-std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double relative_density,
-                                  bool bonded);
+std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points,
+                                  const ProbedPowder& powder);
 
 // Of the parameters that the points do not determine, with their ranges: "beta (50 to 90 deg), R (0.2 to 2.1)". Empty: none.
 std::string undetermined(const FittedModel& model);
 
-// Which of the points are used by these fits.
+// Points whose opening pressure is at least a tenth of the largest: where the powder comes apart, what remains in plane strain
+// is the stress zz that is locked into the particles, not a surface.
+std::vector<bool> closed(const std::vector<YieldPoint>& points);
+
+// Of these the ones with q > 0, compressed more along the axis, not by a probe in shear: a powder pressed along the axis has a
+// different surface on the other side, which no isotropic model can represent.
 std::vector<bool> usable(const std::vector<YieldPoint>& points);
 
-// How many of the points are used by these fits, and how many they need.
+// How many are used by the isotropic fits, and how many they need.
 std::size_t usable_points(const std::vector<YieldPoint>& points);
 inline constexpr std::size_t fewest_points = 5;
 

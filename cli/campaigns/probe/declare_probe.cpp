@@ -1,5 +1,7 @@
 #include "cli/campaigns/probe/declare_probe.hpp"
 
+#include <fmt/format.h>
+
 #include "scenes/keys/declare.hpp"
 
 namespace pulvis::schema {
@@ -62,9 +64,9 @@ const TableDeclaration<ProbeSpec>& probe_probe() {
        "direction."},
       {{{.name = "control",
          .kind = Kind::choice,
-         .choices = words_of<ProbeSpec::Control>(
-             {{"strain", "strains xx and yy increase in a fixed ratio"},
-              {"stress", "stresses xx and yy change in a fixed ratio"}}),
+         .choices =
+             words_of<ProbeSpec::Control>({{"strain", "the strains increase in a fixed ratio"},
+                                           {"stress", "the stresses change in a fixed ratio"}}),
          .fallback = value_of("strain"),
          .doc = "Quantity that defines the direction."},
         word_to(&ProbeSpec::control)},
@@ -72,9 +74,19 @@ const TableDeclaration<ProbeSpec>& probe_probe() {
          .kind = Kind::integer,
          .range = within(4, 360),
          .fallback = value_of(12),
-         .doc = "Number of directions, evenly spaced over the full circle in the plane of xx "
-                "and yy. One additional probe applies shear."},
+         .doc = "Number of directions, evenly spaced over the full circle. In two dimensions they "
+                "are in the plane of xx and yy, and one more probe applies shear xy. In three "
+                "they are in the plane of triaxial compression and extension along z, of xx = yy "
+                "and zz, and three more probes apply shear xy, yz and zx."},
         integer_to(&ProbeSpec::directions)},
+       {{.name = "deviatoric",
+         .kind = Kind::integer,
+         .range = within(3, 360),
+         .fallback = value_of(6),
+         .doc = "Number of Lode angles, evenly spaced over the full circle, at which the volume is "
+                "kept; under stress control the pressure. 0 degrees is compression along z, 120 "
+                "along y, 240 along x. Only for paths in three dimensions."},
+        integer_to(&ProbeSpec::deviatoric)},
        {{.name = "size",
          .kind = Kind::number,
          .range = above(0, 1),
@@ -87,15 +99,48 @@ const TableDeclaration<ProbeSpec>& probe_probe() {
          .unit = "s",
          .range = within(1e-15, 1e6),
          .required = true,
-         .doc = "Simulated time of a probe; the preceding unloading takes the same time."},
+         .doc = "Simulated time of a probe. The unloading before the probes of a state takes the "
+                "same time."},
         to(&ProbeSpec::duration)},
        {{.name = "release",
          .kind = Kind::number,
          .range = above(0, 1),
          .fallback = value_of(0.5),
-         .doc = "Fraction of stresses xx and yy of the state to which it is unloaded, so that "
-                "all directions start inside the yield surface."},
+         .doc = "Fraction of the state's stresses to which it is unloaded, so that all directions "
+                "start inside the yield surface. Normal stresses are unloaded, zz in three "
+                "dimensions only, and shear stresses above 5% of the pressure."},
         to(&ProbeSpec::release)}}};
+  return declaration;
+}
+
+const TableDeclaration<GivenDirection>& probe_direction() {
+  const auto part = [](std::size_t k, const char* where) {
+    return Key<GivenDirection>{
+        {.name = tensor_part_names[k],
+         .kind = Kind::number,
+         .range = within(-1, 1),
+         .fallback = value_of(0.0),
+         .doc = fmt::format("Component {} of the direction{}.", tensor_part_names[k], where)},
+        [k](GivenDirection& direction, const Decoded& value) {
+          direction.parts[k] = value.number;
+        }};
+  };
+  constexpr const char* in_space = ", only for paths in three dimensions";
+  static const TableDeclaration<GivenDirection> declaration{
+      {"direction", true, "",
+       "An additional direction of strain, or of the change of stress, as components of a tensor. "
+       "Only their ratios matter: the magnitude is `probe.size`."},
+      {{{.name = "name",
+         .kind = Kind::name,
+         .required = true,
+         .doc = "Name used in tables and folders."},
+        to(&GivenDirection::name)},
+       part(0, ""),
+       part(1, ""),
+       part(2, in_space),
+       part(3, ""),
+       part(4, in_space),
+       part(5, in_space)}};
   return declaration;
 }
 
@@ -106,15 +151,17 @@ const TableDeclaration<ProbeSpec>& probe_yield() {
          .kind = Kind::number,
          .range = above(0, 0.1),
          .fallback = value_of(2e-4),
-         .doc = "Strain magnitude up to which probes count as elastic: moduli are fitted to "
+         .doc = "Strain magnitude up to which probes count as elastic: the stiffness is fitted to "
                 "these parts of all directions."},
         to(&ProbeSpec::elastic_strain)},
        {{.name = "offset_strain",
          .kind = Kind::number,
          .range = above(0, 0.5),
          .fallback = value_of(0.002),
-         .doc = "Magnitude of the plastic strain (xx, yy), i.e. strain minus elastic strain, "
-                "at yield."},
+         .doc =
+             "Magnitude of the plastic strain, i.e. strain minus elastic strain, at yield. It is "
+             "the square root of the sum of squares of all components of the tensor; in two "
+             "dimensions of those in the plane."},
         to(&ProbeSpec::offset_strain)},
        {{.name = "dissipation",
          .kind = Kind::number,
@@ -128,7 +175,8 @@ const TableDeclaration<ProbeSpec>& probe_yield() {
 
 const Language& probe_language() {
   static const Language language{view_of(probe_top_level()), view_of(probe_path()),
-                                 view_of(probe_probe()), view_of(probe_yield())};
+                                 view_of(probe_probe()), view_of(probe_direction()),
+                                 view_of(probe_yield())};
   return language;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -16,23 +17,37 @@ double void_ratio(double density) { return (1 - density) / density; }
 std::vector<double> numbers_of(const std::string& line) {
   std::vector<double> numbers;
   std::istringstream fields(line);
-  for (std::string field; std::getline(fields, field, ',');)
+  for (std::string field; std::getline(fields, field, ',');) {
+    if (field.find('<') != std::string::npos) throw std::runtime_error("not determined:" + field);
     numbers.push_back(field.find_first_not_of(' ') == std::string::npos ? 0 : std::stod(field));
+  }
   return numbers;
 }
 
-// Comments of a block, in its language.
-std::string open_lines(const std::vector<CapRow>& rows, std::string CapRow::*open,
-                       const char* mark) {
-  std::string text;
-  for (const CapRow& row : rows)
-    if (!(row.*open).empty())
-      text += fmt::format(
-          "{0} WARNING: at density {1:.4f} the yield points do not determine {2}:\n{0} values in "
-          "these ranges fit as well.\n",
-          mark, row.density, row.*open);
-  return text;
+// A number, or the range in its place, which no program reads as one.
+std::string written(const BlockValue& value, double factor, const char* format) {
+  if (!value.value) return fmt::format("<{}>", value.range);
+  return fmt::format(fmt::runtime(format), *value.value * factor);
 }
+
+bool is_open(const CapRow& row) {
+  const auto unknown = [](const BlockValue& of) { return !of.value && !of.range.empty(); };
+  return unknown(row.d) || unknown(row.beta) || unknown(row.r) || unknown(row.p_b);
+}
+
+// A comment in the language of the block.
+std::string warning_of_open(const char* mark) {
+  return fmt::format(
+      "{0} The yield points do not determine the parameters in angle brackets: all values between "
+      "these\n"
+      "{0} bounds fit as well. Put in one of your own, e.g. from an experiment.\n",
+      mark);
+}
+
+double bulk_of(const CapRow& row) {
+  return row.youngs_modulus / (3 * (1 - 2 * row.poissons_ratio));
+}
+double shear_of(const CapRow& row) { return row.youngs_modulus / (2 * (1 + row.poissons_ratio)); }
 
 }  // namespace
 
@@ -46,37 +61,48 @@ std::string abaqus_block(const std::string& name, const std::vector<CapRow>& row
   for (const CapRow& row : rows)
     text += fmt::format("{:.6e}, {:.6f}, , {:.6f}\n", row.youngs_modulus, row.poissons_ratio,
                         row.density);
-  text += open_lines(rows, &CapRow::open_cap, "**");
+  if (std::ranges::any_of(rows, is_open)) text += warning_of_open("**");
   text +=
       "** d, beta [deg], R, initial volumetric plastic strain, alpha, K, temperature, density\n"
       "*CAP PLASTICITY, DEPENDENCIES=1\n";
   for (const CapRow& row : rows)
-    text += fmt::format("{:.6e}, {:.6f}, {:.6f}, 0., {:g}, 1., , {:.6f}\n", row.d,
-                        row.beta * degrees_in_radian, row.r, cap_transition, row.density);
+    text += fmt::format("{}, {}, {}, 0., {:g}, 1., , {:.6f}\n", written(row.d, 1, "{:.6e}"),
+                        written(row.beta, degrees_in_radian, "{:.6f}"), written(row.r, 1, "{:.6f}"),
+                        cap_transition, row.density);
   text +=
       "** hydrostatic yield pressure p_b, volumetric plastic strain since the first row\n"
       "*CAP HARDENING\n";
   for (const CapRow& row : rows)
-    text +=
-        fmt::format("{:.6e}, {:.6f}\n", row.p_b, portable::log(row.density / rows.front().density));
+    text += fmt::format("{}, {:.6f}\n", written(row.p_b, 1, "{:.6e}"),
+                        portable::log(row.density / rows.front().density));
   return text;
 }
 
-CamClay cam_clay_of(const std::vector<CapRow>& rows) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0, m = 0;
+std::optional<CamClay> cam_clay_of(const std::vector<CapRow>& rows) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, m = 0, slopes = 0;
+  const CapRow* first = nullptr;
   for (const CapRow& row : rows) {
-    const double pressure = portable::log(row.p_c), e = void_ratio(row.density);
-    n += 1, x += pressure, y += e, xx += pressure * pressure, xy += pressure * e, m += row.m;
+    if (row.m.value) m += *row.m.value, slopes += 1;
+    if (!row.p_c.value) continue;
+    if (first == nullptr) first = &row;
+    const double pressure = portable::log(*row.p_c.value), e = void_ratio(row.density);
+    n += 1, x += pressure, y += e, xx += pressure * pressure, xy += pressure * e;
   }
-  const CapRow &first = rows.front(), &middle = rows[rows.size() / 2];
-  const double bulk = middle.youngs_modulus / (3 * (1 - 2 * middle.poissons_ratio));
-  return {1 - first.density, -(n * xy - x * y) / (n * xx - x * x),
-          0.5 * middle.p_c / (bulk * middle.density), m / n, first.p_c};
+  if (n < 2) return std::nullopt;
+  const CapRow& middle = rows[rows.size() / 2];
+  CamClay clay;
+  clay.porosity = 1 - first->density;
+  clay.lambda = -(n * xy - x * y) / (n * xx - x * x);
+  clay.p_c = *first->p_c.value;
+  const double pressure = middle.p_c.value.value_or(clay.p_c);
+  clay.kappa = 0.5 * pressure / (bulk_of(middle) * middle.density);
+  clay.m = slopes > 0 ? BlockValue(m / slopes) : rows.front().m;
+  return clay;
 }
 
 std::string code_aster_block(const std::string& name, const std::vector<CapRow>& rows) {
-  if (rows.size() < 2) return "";
-  const CamClay clay = cam_clay_of(rows);
+  const std::optional<CamClay> clay = cam_clay_of(rows);
+  if (!clay) return "";
   const CapRow& first = rows.front();
   return fmt::format(
       "# {}: modified Cam-Clay, fitted to yield points of particles by Pulvis. Units: Pa.\n"
@@ -84,11 +110,65 @@ std::string code_aster_block(const std::string& name, const std::vector<CapRow>&
       "pressure.\n"
       "{}{} = DEFI_MATERIAU(\n"
       "    ELAS=_F(E={:.6e}, NU={:.6f}),\n"
-      "    CAM_CLAY=_F(MU={:.6e}, PORO={:.6f}, LAMBDA={:.6f}, KAPA={:.6e}, M={:.6f}, "
+      "    CAM_CLAY=_F(MU={:.6e}, PORO={:.6f}, LAMBDA={:.6f}, KAPA={:.6e}, M={}, "
       "PRES_CRIT={:.6e}))\n",
-      name, first.density, open_lines(rows, &CapRow::open_clay, "#"), name, first.youngs_modulus,
-      first.poissons_ratio, first.youngs_modulus / (2 * (1 + first.poissons_ratio)), clay.porosity,
-      clay.lambda, clay.kappa, clay.m, 0.5 * clay.p_c);
+      name, 1 - clay->porosity, clay->m.value ? "" : warning_of_open("#"), name,
+      first.youngs_modulus, first.poissons_ratio, shear_of(first), clay->porosity, clay->lambda,
+      clay->kappa, written(clay->m, 1, "{:.6f}"), 0.5 * clay->p_c);
+}
+
+namespace {
+
+// Hardening of LS-DYNA's cap: eps_v = W (1 - exp(-D (X - X0))), with W given.
+struct Hardening {
+  double w = 0, d = 0, x_0 = 0;  // -, 1/Pa, Pa
+};
+std::optional<Hardening> hardening_of(const std::vector<CapRow>& rows) {
+  const CapRow* first = nullptr;
+  Hardening law;
+  double products = 0, squares = 0;
+  for (const CapRow& row : rows) {
+    if (!row.p_b.value) continue;
+    if (first == nullptr) {
+      first = &row;
+      law.x_0 = 3 * *row.p_b.value;
+      law.w = -portable::log(row.density);
+      continue;
+    }
+    const double left = 1 - portable::log(row.density / first->density) / law.w;
+    const double pressure = 3 * *row.p_b.value - law.x_0;
+    if (left <= 0) continue;
+    products += -portable::log(left) * pressure, squares += pressure * pressure;
+  }
+  if (squares == 0 || law.w <= 0) return std::nullopt;
+  law.d = products / squares;
+  return law;
+}
+
+}  // namespace
+
+std::string ls_dyna_block(const std::string& name, const std::vector<CapRow>& rows) {
+  const std::optional<Hardening> law = hardening_of(rows);
+  if (!law) return "";
+  const CapRow& row = rows.front();
+  const double root = std::sqrt(3.0);
+  BlockValue alpha = row.d, theta = row.beta, r = row.r;
+  if (theta.value) theta.value = portable::tan(*theta.value) / (3 * root);
+  alpha.range += ", d/sqrt(3)", theta.range += ", tan(beta)/(3 sqrt(3))",
+      r.range += ", 3 sqrt(3) R";
+  return fmt::format(
+      "$ {}: cap model fitted to yield points of particles by Pulvis. Units: Pa, kg, m, s.\n"
+      "$ Relative density {:.4f} at the start; comma-separated free format.\n{}"
+      "*MAT_GEOLOGIC_CAP_MODEL_TITLE\n{}\n"
+      "$ MID, RO, BULK, G, ALPHA, THETA, GAMMA, BETA\n"
+      "1, {}, {:.6e}, {:.6e}, {}, {}, 0., 0.\n"
+      "$ R, D, W, X0, C, N\n{}, {:.6e}, {:.6f}, {:.6e}, 0., 0.\n"
+      "$ PLOT, FTYPE, VEC, TOFF\n0., 2., 0., 0.\n",
+      name, row.density, is_open(row) ? warning_of_open("$") : "", name,
+      row.solid_density > 0 ? fmt::format("{:.6e}", row.density * row.solid_density)
+                            : "<bulk density>",
+      bulk_of(row), shear_of(row), written(alpha, 1 / root, "{:.6e}"), written(theta, 1, "{:.6f}"),
+      written(r, 3 * root, "{:.6f}"), law->d, law->w, law->x_0);
 }
 
 std::vector<CapRow> read_abaqus_block(const std::string& text) {

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "cli/campaigns/probe/declare_probe.hpp"
@@ -13,6 +11,7 @@
 #include "cli/campaigns/probe/probe_read.hpp"
 #include "cli/campaigns/probe/probe_results.hpp"
 #include "cli/campaigns/probe/probe_scenes.hpp"
+#include "cli/campaigns/probe/probe_tables.hpp"
 #include "cli/campaigns/study/saved_settings.hpp"
 #include "cli/campaigns/study/study_runner.hpp"
 #include "cli/interrupt.hpp"
@@ -36,7 +35,7 @@ void require_own_probe(const fs::path& folder, const Probe& probe) {
   std::vector<std::string> names{"probe.toml", "yield_points.csv", "moduli.csv",
                                  "caps.csv",   "summary.json",     "report.html"};
   for (const ProbePath& path : probe.spec.paths)
-    for (const char* ending : {".inp", ".comm"}) names.push_back(path.name + ending);
+    for (const char* ending : {".inp", ".comm", ".k"}) names.push_back(path.name + ending);
   for (const std::string& name : names) {
     require_another(probe.file, folder / name);
     require_own_or_none(folder / name, role::probe);
@@ -68,28 +67,33 @@ std::vector<StudyRun> loading_runs(const fs::path& folder, const Probe& probe) {
   return runs;
 }
 
-// The runs from one state; their angles, none for shear.
+std::string state_of(const std::string& run, const std::string& stage) {
+  return fmt::format("../{}/{}", run, state_file(stage));
+}
+
+StudyRun releasing_run(const fs::path& folder, const ProbeSpec& spec, const ProbeState& state) {
+  const ProbeLoading& loading = *state.loading;
+  const ProbeStart start{state_of(loading.name, density_name(state.asked)), state.stress,
+                         state.pressure()};
+  return written_run(folder, name_of_release(state), release_scene(loading.scene, spec, start));
+}
+
+// The runs from one state.
 struct StateRuns {
-  std::vector<std::optional<double>> angles;
+  std::vector<ProbeDirection> directions;
   std::size_t first = 0;  // index in the list of all runs
 };
 
-StateRuns add_probes(const fs::path& folder, const Probe& probe, const ProbeLoading& loading,
-                     const ProbeState& state, std::vector<StudyRun>& runs) {
+StateRuns add_probes(const fs::path& folder, const ProbeSpec& spec, const ProbeState& state,
+                     const StudyResult& release, std::vector<StudyRun>& runs) {
   StateRuns mine{{}, runs.size()};
-  const ProbeStart start{fmt::format("../{}/state-{}.h5", loading.name, density_name(state.asked)),
-                         {state.stress[0], state.stress[1]},
-                         state.pressure};
-  for (int k = 0; k < probe.spec.directions; ++k) {
-    const double share = static_cast<double>(k) / probe.spec.directions;
-    mine.angles.emplace_back(2 * std::numbers::pi * share);
-    runs.push_back(
-        written_run(folder, name_of_run(state, mine.angles.back()),
-                    probing_scene(loading.scene, probe.spec, start, mine.angles.back())));
-  }
-  mine.angles.emplace_back(std::nullopt);
-  runs.push_back(written_run(folder, name_of_run(state, std::nullopt),
-                             probing_scene(loading.scene, probe.spec, start, std::nullopt)));
+  if (!release.usable) return mine;
+  const ProbeStart start{state_of(name_of_release(state), release_stage), stress_at_end(release),
+                         state.pressure()};
+  mine.directions = directions_of(spec, state.in_space());
+  for (const ProbeDirection& direction : mine.directions)
+    runs.push_back(written_run(folder, name_of_run(state, direction),
+                               probing_scene(state.loading->scene, spec, start, direction)));
   return mine;
 }
 
@@ -116,11 +120,14 @@ void warn_of_soft_contacts(const Probe& probe) {
 }
 
 void print_list(const Probe& probe) {
-  const std::size_t states = probe.loadings.size() * probe.spec.densities.size();
-  for (const ProbeLoading& loading : probe.loadings) tell("{}\n", loading.name);
+  const std::size_t densities = probe.spec.densities.size();
+  std::size_t probes = 0;
+  for (const ProbeLoading& loading : probe.loadings) {
+    tell("{}\n", loading.name);
+    probes += densities * directions_of(probe.spec, loading.scene.scene.in_space()).size();
+  }
   tell("{}: good: {}, {}, {}\n", probe.file.string(), counted(probe.loadings.size(), "loading run"),
-       counted(states, "state"),
-       counted(states * static_cast<std::size_t>(probe.spec.directions + 1), "probe"));
+       counted(probe.loadings.size() * densities, "state"), counted(probes, "probe"));
 }
 
 std::set<fs::path> files_of(const Probe& probe) {
@@ -145,19 +152,26 @@ class Probing {
     std::size_t bad = loader.tell_bad();
     std::vector<std::string> passed;
     for (std::size_t i = 0; i < loaded.size(); ++i)
-      for (ProbeState& state : states_of(probe_.loadings[i], probe_.spec, loaded[i], passed)) {
-        parts_.push_back(add_probes(folder_, probe_, probe_.loadings[i], state, probes_));
+      for (ProbeState& state : states_of(probe_.loadings[i], probe_.spec, loaded[i], passed))
         states_.push_back(std::move(state));
-      }
     for (const std::string& line : passed) tell(stderr, "pulvis: {}\n", line);
+    for (const ProbeState& state : states_)
+      releases_.push_back(releasing_run(folder_, probe_.spec, state));
+    StudyRunner releaser(how, releases_, folder_);
+    if (!went(releaser, "unloading")) return ExitCode::interrupted;
+    const std::vector<StudyResult>& released = releaser.read();
+    bad += releaser.tell_bad();
+    for (std::size_t i = 0; i < states_.size(); ++i)
+      parts_.push_back(add_probes(folder_, probe_.spec, states_[i], released[i], probes_));
     StudyRunner prober(how, probes_, folder_);
     if (!went(prober, "probes")) return ExitCode::interrupted;
     const std::vector<StudyResult>& probed = prober.read();
     bad += prober.tell_bad();
-    const std::vector<ProbeSurface> surfaces = surfaces_of(probed);
+    const std::vector<ProbeSurface> surfaces = surfaces_of(released, probed);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    write_probe(folder_, probe_, surfaces, time.count());
-    tell("{}", caps_text(probe_, surfaces));
+    const std::vector<ProbeGroup> groups = groups_of(probe_.spec, surfaces);
+    write_probe(folder_, probe_, surfaces, groups, time.count());
+    tell("{}", caps_text(groups));
     for (const ProbeSurface& surface : surfaces) {
       warn_of_moduli(surface);
       warn_of_springs(surface);
@@ -178,28 +192,29 @@ class Probing {
          "pulvis: warning: path '{}', relative density {:.4f}, seed {}: {:.0f}% of the energy "
          "released on unloading was in contact springs (limit {:.0f}%): the moduli are too small "
          "by about as much\n",
-         state.path, state.density, state.seed, 100 * *surface.spring_share, 100 * most_in_springs);
+         state.loading->path, state.density, state.loading->seed, 100 * *surface.spring_share,
+         100 * most_in_springs);
   }
   void warn_of_moduli(const ProbeSurface& surface) const {
     const PowderModuli& m = surface.moduli;
-    const bool none = m.c11 == 0 && m.c22 == 0;  // their runs have been reported
-    if (none || m.are_of_a_solid()) return;
+    if (!m.known() || m.are_of_a_solid()) return;  // missing ones: their runs have been reported
     const ProbeState& state = *surface.state;
-    tell(
-        stderr,
-        "pulvis: warning: path '{}', relative density {:.4f}, seed {}: the moduli (c11 {:.3g}, c12 "
-        "{:.3g}, c22 {:.3g}, g {:.3g} GPa) are not physical, nor are the fits: use a smaller "
-        "elastic_strain ({:g}) or a longer duration\n",
-        state.path, state.density, state.seed, m.c11 * 1e-9, m.c12 * 1e-9, m.c22 * 1e-9, m.g * 1e-9,
-        probe_.spec.elastic_strain);
+    tell(stderr,
+         "pulvis: warning: path '{}', relative density {:.4f}, seed {}: the stiffness (E {:.3g} "
+         "GPa, "
+         "nu {:.3g}) is not physical, nor are the fits: use a smaller elastic_strain ({:g}) or a "
+         "longer duration\n",
+         state.loading->path, state.density, state.loading->seed, m.youngs_modulus() * 1e-9,
+         m.poissons_ratio(), probe_.spec.elastic_strain);
   }
-  std::vector<ProbeSurface> surfaces_of(const std::vector<StudyResult>& probed) const {
+  std::vector<ProbeSurface> surfaces_of(const std::vector<StudyResult>& released,
+                                        const std::vector<StudyResult>& probed) const {
     std::vector<ProbeSurface> surfaces;
     for (std::size_t s = 0; s < states_.size(); ++s) {
       std::vector<ProbeRun> runs;
-      for (std::size_t k = 0; k < parts_[s].angles.size(); ++k)
-        runs.push_back({parts_[s].angles[k], &probed[parts_[s].first + k]});
-      surfaces.push_back(surface_of(states_[s], probe_.spec, runs));
+      for (std::size_t k = 0; k < parts_[s].directions.size(); ++k)
+        runs.push_back({parts_[s].directions[k], &probed[parts_[s].first + k]});
+      surfaces.push_back(surface_of(states_[s], probe_.spec, released[s], runs));
     }
     return surfaces;
   }
@@ -209,7 +224,7 @@ class Probing {
   fs::path folder_;
   std::vector<ProbeState> states_;
   std::vector<StateRuns> parts_;  // one per state
-  std::vector<StudyRun> probes_;
+  std::vector<StudyRun> releases_, probes_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/campaigns/probe/declare_probe.hpp"
+#include "cli/campaigns/probe/probe_directions.hpp"
 #include "scenes/language/describe.hpp"
 #include "scenes/language/seed_list.hpp"
 #include "scenes/language/table_reader.hpp"
@@ -34,8 +35,9 @@ scene = "copper-isostatic.toml"
 duration = "0.2 ms"
 ```
 
-Strains and stresses have the sign convention of scenes: tension > 0. A direction is an angle in the plane of (xx, yy):
-225 degrees is equal compression in both. Errors in the probe file or in a scene it names are reported before the first run
+Strains and stresses have the sign convention of scenes: tension > 0. A direction is an angle in a plane of strains, or of
+stresses. In two dimensions it is the plane of (xx, yy): 225 degrees is equal compression in both. In three it is that of
+(sqrt(2) times xx = yy, zz): 215.3 degrees is equal compression in all, 270 degrees compression along z alone. Errors in the probe file or in a scene it names are reported before the first run
 as `file:line:col: key: what is wrong, allowed: what is allowed`.
 )";
 
@@ -65,10 +67,19 @@ class ProbeReader {
       path.mark = paths[i].origin.mark;
       reader.read(schema::probe_path(), paths[i], fmt::format("path[{}]", i), "", path);
     }
+    const document::Array& given = reader.elements(table, "", schema::probe_direction().info);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      GivenDirection& direction = probe_.spec.given.emplace_back();
+      direction.mark = given[i].origin.mark;
+      reader.read(schema::probe_direction(), given[i], fmt::format("direction[{}]", i), "",
+                  direction);
+    }
     problems_.throw_if_any();
     check(reader.origins());
     problems_.throw_if_any();
     for (std::size_t i = 0; i < probe_.spec.paths.size(); ++i) load(i, reader.origins());
+    problems_.throw_if_any();
+    check_dimensions(reader.origins());
     problems_.throw_if_any();
     return std::move(probe_);
   }
@@ -93,12 +104,37 @@ class ProbeReader {
       problems_.add(origins.at("seeds"), "seeds", repeated_seed);
     if (probe_.spec.paths.empty())
       problems_.add({{1, 1}, -1}, "path", "none is given, allowed: at least one [[path]]");
-    for (std::size_t i = 0; i < probe_.spec.paths.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k)
-        if (probe_.spec.paths[i].name == probe_.spec.paths[k].name)
-          problems_.add({probe_.spec.paths[i].mark, -1}, fmt::format("path[{}].name", i),
-                        fmt::format("two are called '{}', allowed: each name once",
-                                    probe_.spec.paths[i].name));
+    for (std::size_t i = 0; i < probe_.spec.given.size(); ++i) {
+      const GivenDirection& one = probe_.spec.given[i];
+      if (std::ranges::all_of(one.parts, [](double part) { return part == 0; }))
+        problems_.add({one.mark, -1}, fmt::format("direction[{}]", i),
+                      "all components are zero, allowed: at least one that is not");
+    }
+  }
+
+  // Once the dimensions of the paths are known.
+  void check_dimensions(const schema::Origins& origins) {
+    const auto in_space = [](const ProbeLoading& one) { return one.scene.scene.in_space(); };
+    const bool any_space = std::ranges::any_of(probe_.loadings, in_space);
+    const bool any_plane = !std::ranges::all_of(probe_.loadings, in_space);
+    if (const auto given = origins.find("probe.deviatoric"); given != origins.end() && !any_space)
+      problems_.add(given->second, "probe.deviatoric",
+                    "no path has three dimensions, allowed: only with a scene that does");
+    for (std::size_t i = 0; i < probe_.spec.given.size(); ++i) {
+      const GivenDirection& one = probe_.spec.given[i];
+      const document::Origin at{one.mark, -1};
+      for (const std::size_t k : {2, 4, 5})
+        if (any_plane && one.parts[k] != 0)
+          problems_.add(at, fmt::format("direction[{}].{}", i, tensor_part_names[k]),
+                        "a path has two dimensions, allowed there: xx, yy and xy");
+      for (const bool space : {false, true})
+        for (const ProbeDirection& own : directions_of({}, space))
+          if ((space ? any_space : any_plane) && own.name == one.name)
+            problems_.add(at, fmt::format("direction[{}].name", i),
+                          fmt::format("'{}' is the name of a direction that is probed anyway, "
+                                      "allowed: another name",
+                                      one.name));
+    }
   }
 
   void load(std::size_t i, const schema::Origins& origins) {
@@ -125,12 +161,6 @@ class ProbeReader {
         problems_.add(at, "scene",
                       "its last stage does not deform a periodic cell, allowed: a scene with "
                       "[cell] whose last stage has [stage.cell]");
-        return;
-      }
-      if (scene.in_space()) {
-        problems_.add(at, "scene",
-                      "it has three dimensions, and yield surfaces are those of plane strain, "
-                      "allowed: a scene in two dimensions");
         return;
       }
       loading.seed = static_cast<std::int64_t>(scene.seed);

@@ -49,38 +49,71 @@ std::vector<double> dissipation_of(const StudyResult& result) {
   return sum;
 }
 
-// From the samples after the release.
-ProbeCurve curve_of(const StudyResult& result, const ProbeSpec& spec) {
+Mandel stress_at(const StudyResult& result, std::size_t sample) {
+  TensorParts parts{};
+  for (std::size_t k = 0; k < tensor_parts; ++k) {
+    const std::vector<double>& one =
+        result.series(fmt::format("cell/stress_{}", tensor_part_names[k]));
+    if (sample < one.size()) parts[k] = one[sample];
+  }
+  if (!result.run->scene.in_space()) parts[2] = result.series("stress/zz").at(sample);
+  return mandel_of(parts);
+}
+
+Mandel strain_at(const StudyResult& result, std::size_t sample) {
+  TensorParts parts{};
+  for (std::size_t k = 0; k < tensor_parts; ++k) {
+    const std::vector<double>& one =
+        result.series(fmt::format("cell/strain_{}", tensor_part_names[k]));
+    if (sample < one.size()) parts[k] = one[sample] - one.front();
+  }
+  return mandel_of(parts);
+}
+
+// m^3, at the start of the run.
+double volume_of(const StudyResult& result) {
+  const Scene& scene = result.run->scene;
+  const auto side = [&](const char* name) { return result.series(name).front(); };
+  const double area = side("cell/width") * side("cell/height");
+  return area * (scene.in_space() ? side("cell/depth") : scene.thickness);
+}
+
+ProbeCurve curve_of(const StudyResult& result, const ProbeDirection& direction) {
   ProbeCurve curve;
-  const std::vector<double>& times = result.series("time");
-  const auto begin = std::ranges::lower_bound(times, (1 - 1e-9) * spec.duration) - times.begin();
-  const auto at = static_cast<std::size_t>(begin);
+  curve.direction = direction;
   const std::vector<double> spent = dissipation_of(result);
-  const std::vector<double>& width = result.series("cell/width");
-  const std::vector<double>& height = result.series("cell/height");
-  const double thickness = result.run->scene.thickness;
-  for (std::size_t i = at; i < times.size(); ++i) {
-    const auto value = [&](const char* name, std::size_t sample) {
-      return result.series(name)[sample];
-    };
-    const auto strain = [&](const char* name) { return value(name, i) - value(name, at); };
-    curve.strain.push_back(
-        {strain("cell/strain_xx"), strain("cell/strain_yy"), strain("cell/strain_xy")});
-    curve.stress.push_back({value("cell/stress_xx", i), value("cell/stress_yy", i),
-                            value("cell/stress_xy", i), value("stress/zz", i)});
-    curve.dissipated.push_back((spent[i] - spent[at]) / (width[at] * height[at] * thickness));
+  for (std::size_t i = 0; i < spent.size(); ++i) {
+    curve.strain.push_back(strain_at(result, i));
+    curve.stress.push_back(stress_at(result, i));
+    curve.dissipated.push_back((spent[i] - spent[0]) / volume_of(result));
   }
   return curve;
 }
 
+// -, by the quality table of the run.
+std::optional<double> spring_share_of(const StudyResult& result) {
+  if (!result.usable || !result.summary.contains("quality")) return std::nullopt;
+  for (const auto& figure : result.summary.at("quality"))
+    if (figure.at("name") == release_figure) return figure.at("value").get<double>();
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::string name_of_run(const ProbeState& state, std::optional<double> angle) {
-  const std::string name = fmt::format("{},density={}", state.loading, density_name(state.asked));
-  if (!angle) return name + ",shear";
-  constexpr double half = 0.5 + 1e-6;  // ties are rounded up, whatever the round-off of the angle
-  const double tenths = std::floor(1800 / std::numbers::pi * *angle + half);
-  return fmt::format("{},direction={:g}", name, tenths / 10);
+std::string name_of_release(const ProbeState& state) {
+  return fmt::format("{},density={},release", state.loading->name, density_name(state.asked));
+}
+std::string name_of_run(const ProbeState& state, const ProbeDirection& direction) {
+  return fmt::format("{},density={},{}", state.loading->name, density_name(state.asked),
+                     direction.name);
+}
+
+Mandel stress_at_end(const StudyResult& result) {
+  return stress_at(result, result.series("time").size() - 1);
+}
+
+ProbedPowder ProbeSurface::powder() const {
+  return {axis_of(state->in_space()), state->density, state->bonded(), state->stress, centre};
 }
 
 std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& spec,
@@ -89,10 +122,11 @@ std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& 
   for (const double density : spec.densities) {
     const std::string name = density_name(density);
     const auto stage = times_of_stage(result, name);
-    if (!stage || !std::filesystem::exists(result.folder / ("state-" + name + ".h5"))) continue;
-    ProbeState state{loading.path, loading.seed, density, loading.name};
-    const auto value_at = [&](double time, const char* series) {
-      return at_time(result.series("time"), result.series(series), time);
+    if (!stage || !std::filesystem::exists(result.folder / state_file(name))) continue;
+    ProbeState state{&loading, density};
+    const auto value_at = [&](double time, const std::string& series) {
+      const std::vector<double>& values = result.series(series);
+      return values.empty() ? 0.0 : at_time(result.series("time"), values, time);
     };
     if (const double before = value_at(stage->begin, "relative_density"); before >= density) {
       passed.push_back(fmt::format(
@@ -100,64 +134,50 @@ std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& 
           loading.name, before, density));
       continue;
     }
-    const auto value = [&](const char* series) { return value_at(stage->end, series); };
+    const auto value = [&](const std::string& series) { return value_at(stage->end, series); };
+    TensorParts stress{}, fabric{};
+    for (std::size_t k = 0; k < tensor_parts; ++k) {
+      stress[k] = value(fmt::format("cell/stress_{}", tensor_part_names[k]));
+      fabric[k] = value(fmt::format("network/fabric_{}", tensor_part_names[k]));
+    }
+    if (!loading.scene.scene.in_space()) stress[2] = value("stress/zz");
     state.density = value("relative_density");
-    state.stress = {value("cell/stress_xx"), value("cell/stress_yy"), value("cell/stress_xy"),
-                    value("stress/zz")};
-    state.pressure = -(state.stress[0] + state.stress[1] + state.stress[3]) / 3;
-    state.bonded = !loading.scene.scene.bonds.empty();
-    states.push_back(std::move(state));
+    state.stress = mandel_of(stress);
+    state.fabric = mandel_of(fabric);
+    state.coordination = value("network/coordination");
+    states.push_back(state);
   }
   return states;
 }
 
-// By the quality tables of the runs.
-std::optional<double> spring_share_of(const std::vector<ProbeRun>& runs) {
-  double sum = 0, count = 0;
-  for (const ProbeRun& run : runs) {
-    if (!run.result->usable || !run.result->summary.contains("quality")) continue;
-    for (const auto& figure : run.result->summary.at("quality"))
-      if (figure.at("name") == release_figure) {
-        sum += figure.at("value").get<double>();
-        count += 1;
-      }
-  }
-  return count > 0 ? std::optional(sum / count) : std::nullopt;
-}
-
-ProbeSurface surface_of(const ProbeState& state, const ProbeSpec& spec,
+ProbeSurface surface_of(const ProbeState& state, const ProbeSpec& spec, const StudyResult& release,
                         const std::vector<ProbeRun>& runs) {
   ProbeSurface surface;
   surface.state = &state;
-  surface.spring_share = spring_share_of(runs);
+  surface.spring_share = spring_share_of(release);
   std::vector<ProbeCurve> curves;
-  std::optional<ProbeCurve> shear;
   for (const ProbeRun& run : runs) {
     if (!run.result->usable) continue;
-    ProbeCurve curve = curve_of(*run.result, spec);
+    ProbeCurve curve = curve_of(*run.result, run.direction);
     if (curve.strain.size() < 2) continue;
-    if (run.angle) {
-      curve.angle = *run.angle;
-      curves.push_back(std::move(curve));
-    } else {
-      shear = std::move(curve);
-    }
+    surface.centre += curve.stress.front();
+    curves.push_back(std::move(curve));
   }
   if (curves.empty()) return surface;
-  surface.moduli = moduli_of(curves, shear ? &*shear : nullptr, spec.elastic_strain);
+  surface.centre /= static_cast<double>(curves.size());
+  surface.moduli = moduli_of(curves, state.in_space(), spec.elastic_strain);
+  if (!surface.moduli.known()) return surface;
   for (const ProbeCurve& curve : curves) {
     if (const auto point = offset_yield(curve, surface.moduli, spec.offset_strain))
       surface.offset.push_back(*point);
     if (const auto point =
-            dissipation_yield(curve, surface.moduli, spec.dissipation * state.pressure))
+            dissipation_yield(curve, surface.moduli, spec.dissipation * state.pressure()))
       surface.dissipation.push_back(*point);
   }
-  const std::array<double, 2> centre{spec.release * state.stress[0],
-                                     spec.release * state.stress[1]};
-  find_normality(surface.offset, centre, spec.directions);
-  find_normality(surface.dissipation, centre, spec.directions);
-  surface.offset_models = fit_caps(surface.offset, state.density, state.bonded);
-  surface.dissipation_models = fit_caps(surface.dissipation, state.density, state.bonded);
+  find_normality(surface.offset, surface.centre, spec.directions);
+  find_normality(surface.dissipation, surface.centre, spec.directions);
+  surface.offset_models = fit_caps(surface.offset, surface.powder());
+  surface.dissipation_models = fit_caps(surface.dissipation, surface.powder());
   return surface;
 }
 

@@ -13,14 +13,15 @@ namespace pulvis {
 
 // A state saved by a loading run.
 struct ProbeState {
-  std::string path;
-  std::int64_t seed = 1;
+  const ProbeLoading* loading = nullptr;
   double asked = 0;                // -, density requested in the probe file
-  std::string loading;             // name of the run
   double density = 0;              // -, relative, as reached
-  std::array<double, 4> stress{};  // Pa: xx yy xy zz
-  double pressure = 0;             // Pa
-  bool bonded = false;             // whether its scene has bonds
+  Mandel stress = Mandel::Zero();  // Pa
+  double coordination = 0;         // -, mean number of other particles that a particle touches
+  Mandel fabric = Mandel::Zero();  // -, mean of n n over the contacts; trace 1
+  double pressure() const { return pressure_of(stress); }  // Pa
+  bool bonded() const { return !loading->scene.scene.bonds.empty(); }
+  bool in_space() const { return loading->scene.scene.in_space(); }
 };
 
 // All states that the loading run has reached.
@@ -28,23 +29,28 @@ struct ProbeState {
 std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& spec,
                                   const StudyResult& result, std::vector<std::string>& passed);
 
+// Pa, at the end of the run.
+Mandel stress_at_end(const StudyResult& result);
+
 struct ProbeSurface {
   const ProbeState* state = nullptr;
   PowderModuli moduli;
-  std::optional<double> spring_share;  // -, of the energy released in its runs: mean
+  Mandel centre = Mandel::Zero();      // Pa, unloaded, where the probes began: mean
+  std::optional<double> spring_share;  // -, of the energy released on unloading
   std::vector<YieldPoint> offset, dissipation;
   std::vector<FittedModel> offset_models, dissipation_models;
+  ProbedPowder powder() const;
 };
 
-// Of the run from this state in the direction `angle`, rad; none: the shear run.
-std::string name_of_run(const ProbeState& state, std::optional<double> angle);
+// Of the run that unloads this state, and of those that probe it.
+std::string name_of_release(const ProbeState& state);
+std::string name_of_run(const ProbeState& state, const ProbeDirection& direction);
 
-// `angle` of each run from this state; none: the shear run.
 struct ProbeRun {
-  std::optional<double> angle;
+  ProbeDirection direction;
   const StudyResult* result = nullptr;
 };
-ProbeSurface surface_of(const ProbeState& state, const ProbeSpec& spec,
+ProbeSurface surface_of(const ProbeState& state, const ProbeSpec& spec, const StudyResult& release,
                         const std::vector<ProbeRun>& runs);
 
 }  // namespace pulvis

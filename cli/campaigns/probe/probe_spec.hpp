@@ -1,18 +1,26 @@
 // A probe: powders loaded along paths in a periodic cell; their states at given densities are probed in many directions
-// for the stress at which they yield.
+// for the stress at which they yield. In two and three dimensions.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "scenes/read.hpp"
+#include "scenes/spec/cell_spec.hpp"
 
 namespace pulvis {
 
 struct ProbePath {  // [[path]]
   std::string name, scene;
+  SourceMark mark;
+};
+
+struct GivenDirection {  // [[direction]]
+  std::string name;
+  std::array<double, tensor_parts> parts{};  // of the strain, or of the change of stress
   SourceMark mark;
 };
 
@@ -25,6 +33,8 @@ struct ProbeSpec {
   std::vector<ProbePath> paths;
   Control control = Control::strain;
   int directions = 12;
+  int deviatoric = 6;  // in three dimensions
+  std::vector<GivenDirection> given;
   double size = 0.02;            // -, strain; or stress over the pressure of the state
   double duration = 0;           // s, of a probe, and of the unloading before it
   double release = 0.5;          // -, fraction of the state's stress

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "cli/campaigns/probe/probe_directions.hpp"
 #include "cli/campaigns/probe/probe_scenes.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/wrong.hpp"
@@ -57,40 +60,110 @@ TEST(ProbeScenes, HaveEachSeedOnce) {
   fs::remove(file);
 }
 
-// Directions, yield surfaces and moduli are of plane strain.
-TEST(ProbeScenes, HaveTwoDimensions) {
-  namespace fs = std::filesystem;
-  const fs::path file =
-      fs::temp_directory_path() / ("pulvis-spheres" + std::to_string(getpid()) + ".toml");
-  std::ofstream(file) << "densities = [0.7]\n[[path]]\nname = \"spheres\"\nscene = \""
-                      << paths::source_dir()
-                      << "/scenes/periodic/spheres-shear.toml\"\n[probe]\nduration = \"1 us\"\n";
-  const std::string wrong = message_of([&] { load_probe(file); });
-  EXPECT_NE(wrong.find("it has three dimensions"), std::string::npos) << wrong;
-  fs::remove(file);
+class ProbeFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    place = std::filesystem::temp_directory_path() / ("pulvis-probes" + std::to_string(getpid()));
+    std::filesystem::create_directory(place);
+  }
+  void TearDown() override { std::filesystem::remove_all(place); }
+  // With a path in each of these dimensions.
+  std::filesystem::path written(const std::string& probe, std::vector<int> dimensions) const {
+    std::ofstream file(place / "probe.toml");
+    file << "densities = [0.9]\n";
+    for (const int dimension : dimensions)
+      file << "[[path]]\nname = \"" << dimension << "D\"\nscene = \"" << paths::source_dir()
+           << "/scenes/periodic/" << (dimension == 3 ? "spheres-shear" : "cap-isostatic")
+           << ".toml\"\n";
+    file << "[probe]\nduration = \"1 us\"\n" << probe;
+    return place / "probe.toml";
+  }
+  std::string refusal(const std::string& probe, std::vector<int> dimensions) const {
+    return message_of([&] { load_probe(written(probe, std::move(dimensions))); });
+  }
+  std::filesystem::path place;
+};
+
+TEST_F(ProbeFiles, AreReadInBothDimensions) {
+  const Probe probe = load_probe(written("directions = 8\ndeviatoric = 3\n", {2, 3}));
+  ASSERT_EQ(probe.loadings.size(), 2U);
+  EXPECT_EQ(directions_of(probe.spec, false).size(), 9U);
+  EXPECT_EQ(directions_of(probe.spec, true).size(), 14U);
 }
 
-// By strain and by stress, in a direction and in shear.
+TEST_F(ProbeFiles, HaveDirectionsThatTheirPathsHave) {
+  EXPECT_NE(refusal("deviatoric = 6\n", {2}).find("probe.deviatoric: no path has three"),
+            std::string::npos);
+  const std::string oblique = "[[direction]]\nname = \"oblique\"\nxx = -1\nzz = 0.5\n";
+  EXPECT_NE(refusal(oblique, {2}).find("direction[0].zz: a path has two dimensions"),
+            std::string::npos);
+  EXPECT_EQ(refusal(oblique, {3}), "");
+  EXPECT_NE(refusal(oblique + oblique, {3}).find("'oblique' is the name of another direction"),
+            std::string::npos);
+  EXPECT_NE(refusal("[[direction]]\nname = \"none\"\n", {3}).find("all components are zero"),
+            std::string::npos);
+  EXPECT_NE(refusal("[[direction]]\nname = \"shear_xy\"\nxy = 1\n", {3})
+                .find("the name of a direction that is probed anyway"),
+            std::string::npos);
+}
+
+// In three dimensions all are unit vectors, deviatoric ones keep the volume, and the axial plane has isotropic compression.
+TEST(ProbeDirections, AreUnitVectors) {
+  ProbeSpec spec;
+  spec.given.push_back({"oblique", {-2, 0, 1, 0, 0, 0.5}, {}});
+  for (const bool in_space : {false, true})
+    for (const ProbeDirection& direction : directions_of(spec, in_space)) {
+      EXPECT_NEAR(direction.unit.norm(), 1, 1e-12) << direction.name;
+      if (direction.set == ProbeDirection::Set::deviatoric) {
+        EXPECT_NEAR(pressure_of(direction.unit), 0, 1e-12) << direction.name;
+      }
+      if (direction.set == ProbeDirection::Set::axial && in_space) {
+        EXPECT_NEAR(direction.unit[0], direction.unit[1], 1e-12) << direction.name;
+      }
+    }
+  const std::vector<ProbeDirection> all = directions_of(spec, true);
+  const auto lode = std::ranges::find(all, "lode=120", &ProbeDirection::name);
+  ASSERT_NE(lode, all.end());
+  EXPECT_NEAR(lode->unit[1], -std::sqrt(2.0 / 3), 1e-12);  // compressed along y
+  EXPECT_NEAR(lode_angle(lode->unit), lode->angle, 1e-12);
+}
+
+// By strain and by stress, in a direction and in shear, from the state that is unloaded first.
 TEST(ProbeScenes, ProbeAsTheyAreAsked) {
   Probe probe = load_probe(paths::source_dir() + "/scenes/probes/cap.toml");
-  const ProbeStart start{"state-0.9.h5", {-60e6, -70e6}, 64e6};
-  const auto drive = [&](std::optional<double> angle) {
-    const std::string text = probing_scene(probe.loadings[0].scene, probe.spec, start, angle);
+  const LoadedScene& scene = probe.loadings[0].scene;
+  const ProbeStart start{"state-0.9.h5", mandel_of({-60e6, -70e6, -62e6}), 64e6};
+  const auto cell_of = [&](const std::string& text) {
     const auto root = document::parse(text);
     const auto& stages = document::find(root, "stage")->value.get<document::Array>();
-    EXPECT_EQ(stages.size(), 2U);
-    EXPECT_EQ(*document::find_text(root, "initial_state"), start.state);
-    const auto& release = document::find(stages[0].get<document::Table>(), "cell")->value;
-    EXPECT_EQ(*document::find_text(release.get<document::Table>(), "stress_yy"), "-35000000 Pa");
-    return document::find(stages[1].get<document::Table>(), "cell")->value.get<document::Table>();
+    EXPECT_EQ(stages.size(), 1U);
+    EXPECT_EQ(*document::find_text(root, "initial_state"), start.file);
+    return document::find(stages[0].get<document::Table>(), "cell")->value.get<document::Table>();
   };
-  EXPECT_EQ(document::find(drive(0.0), "strain_xx")->value.get<double>(), probe.spec.size);
-  EXPECT_EQ(document::find(drive({}), "strain_xy")->value.get<double>(), probe.spec.size);
+  const document::Table release = cell_of(release_scene(scene, probe.spec, start));
+  EXPECT_EQ(*document::find_text(release, "stress_yy"), "-35000000 Pa");
+  EXPECT_EQ(document::find(release, "stress_xy"), nullptr);
+  EXPECT_EQ(document::find(release, "stress_zz"), nullptr);
+  ProbeStart sheared = start;
+  sheared.stress[3] = 10e6;
+  EXPECT_NE(document::find(cell_of(release_scene(scene, probe.spec, sheared)), "stress_xy"),
+            nullptr);
+
+  const std::vector<ProbeDirection> all = directions_of(probe.spec, false);
+  const auto drive = [&](const ProbeDirection& direction) {
+    return cell_of(probing_scene(scene, probe.spec, start, direction));
+  };
+  const ProbeDirection &along_x = all.front(), &shear = all.back();
+  EXPECT_EQ(document::find(drive(along_x), "strain_xx")->value.get<double>(), probe.spec.size);
+  EXPECT_NEAR(document::find(drive(shear), "strain_xy")->value.get<double>(),
+              probe.spec.size / std::sqrt(2), 1e-12);
   probe.spec.control = ProbeSpec::Control::stress;
   probe.spec.size = 0.5;
-  EXPECT_EQ(*document::find_text(drive(0.0), "stress_xx"), "2000000 Pa");  // -30 + 0.5 64 MPa
-  EXPECT_EQ(*document::find_text(drive({}), "stress_xy"), "32000000 Pa");
-  EXPECT_EQ(document::find(drive({}), "strain_xy"), nullptr);
+  EXPECT_EQ(*document::find_text(drive(along_x), "stress_xx"), "-28000000 Pa");  // -60 + 0.5 64 MPa
+  EXPECT_EQ(*document::find_text(drive(along_x), "stress_yy"), "-70000000 Pa");
+  EXPECT_EQ(*document::find_text(drive(shear), "stress_xx"), "-60000000 Pa");
+  EXPECT_NE(document::find(drive(shear), "stress_xy"), nullptr);
+  EXPECT_EQ(document::find(drive(shear), "strain_xy"), nullptr);
 }
 
 }  // namespace
