@@ -57,6 +57,24 @@ const TableDeclaration<ProbePath>& probe_path() {
   return declaration;
 }
 
+const TableDeclaration<ProbePowder>& probe_powder() {
+  static const TableDeclaration<ProbePowder> declaration{
+      {"powder", true, "",
+       "A variant of the powder: every path is run with each of them, and its yield surfaces are "
+       "compared. Without this table there is one powder, that of the scenes."},
+      {{{.name = "name",
+         .kind = Kind::name,
+         .required = true,
+         .doc = "Name used in tables, figures and folders, after that of the path."},
+        to(&ProbePowder::name)},
+       {{.name = "overrides",
+         .kind = Kind::texts,
+         .doc = "What is different: changes to the scene of every path, written as for `--set`.",
+         .fallback_doc = "none: the powder of the scenes"},
+        [](ProbePowder& powder, const Decoded& value) { powder.overrides = value.texts; }}}};
+  return declaration;
+}
+
 const TableDeclaration<ProbeSpec>& probe_probe() {
   static const TableDeclaration<ProbeSpec> declaration{
       {"probe", false, "",
@@ -175,8 +193,8 @@ const TableDeclaration<ProbeSpec>& probe_yield() {
 
 const Language& probe_language() {
   static const Language language{view_of(probe_top_level()), view_of(probe_path()),
-                                 view_of(probe_probe()), view_of(probe_direction()),
-                                 view_of(probe_yield())};
+                                 view_of(probe_powder()),    view_of(probe_probe()),
+                                 view_of(probe_direction()), view_of(probe_yield())};
   return language;
 }
 

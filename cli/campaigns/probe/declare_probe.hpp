@@ -8,6 +8,7 @@ namespace pulvis::schema {
 
 const TableDeclaration<ProbeSpec>& probe_top_level();
 const TableDeclaration<ProbePath>& probe_path();
+const TableDeclaration<ProbePowder>& probe_powder();
 const TableDeclaration<ProbeSpec>& probe_probe();
 const TableDeclaration<GivenDirection>& probe_direction();
 const TableDeclaration<ProbeSpec>& probe_yield();

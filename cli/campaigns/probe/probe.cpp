@@ -34,8 +34,8 @@ constexpr const char* scenes_folder = "scenes";
 void require_own_probe(const fs::path& folder, const Probe& probe) {
   std::vector<std::string> names{"probe.toml", "yield_points.csv", "moduli.csv",
                                  "caps.csv",   "summary.json",     "report.html"};
-  for (const ProbePath& path : probe.spec.paths)
-    for (const char* ending : {".inp", ".comm", ".k"}) names.push_back(path.name + ending);
+  for (const std::string& history : probe.histories)
+    for (const char* ending : {".inp", ".comm", ".k"}) names.push_back(history + ending);
   for (const std::string& name : names) {
     require_another(probe.file, folder / name);
     require_own_or_none(folder / name, role::probe);
@@ -112,9 +112,9 @@ bool went(StudyRunner& runner, const char* what) {
 void warn_of_soft_contacts(const Probe& probe) {
   std::set<std::string> paths;
   for (const ProbeLoading& loading : probe.loadings) {
-    if (!paths.insert(loading.path).second) continue;
+    if (!paths.insert(loading.history).second) continue;
     const std::string line = soft_contact_warning(
-        loading.scene.scene, fmt::format("path '{}' is probed for moduli", loading.path));
+        loading.scene.scene, fmt::format("path '{}' is probed for moduli", loading.history));
     if (!line.empty()) tell(stderr, "pulvis: warning: {}\n", line);
   }
 }
@@ -169,7 +169,7 @@ class Probing {
     bad += prober.tell_bad();
     const std::vector<ProbeSurface> surfaces = surfaces_of(released, probed);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    const std::vector<ProbeGroup> groups = groups_of(probe_.spec, surfaces);
+    const std::vector<ProbeGroup> groups = groups_of(probe_, surfaces);
     write_probe(folder_, probe_, surfaces, groups, time.count());
     tell("{}", caps_text(groups));
     for (const ProbeSurface& surface : surfaces) {
@@ -192,7 +192,7 @@ class Probing {
          "pulvis: warning: path '{}', relative density {:.4f}, seed {}: {:.0f}% of the energy "
          "released on unloading was in contact springs (limit {:.0f}%): the moduli are too small "
          "by about as much\n",
-         state.loading->path, state.density, state.loading->seed, 100 * *surface.spring_share,
+         state.loading->history, state.density, state.loading->seed, 100 * *surface.spring_share,
          100 * most_in_springs);
   }
   void warn_of_moduli(const ProbeSurface& surface) const {
@@ -204,7 +204,7 @@ class Probing {
          "GPa, "
          "nu {:.3g}) is not physical, nor are the fits: use a smaller elastic_strain ({:g}) or a "
          "longer duration\n",
-         state.loading->path, state.density, state.loading->seed, m.youngs_modulus() * 1e-9,
+         state.loading->history, state.density, state.loading->seed, m.youngs_modulus() * 1e-9,
          m.poissons_ratio(), probe_.spec.elastic_strain);
   }
   std::vector<ProbeSurface> surfaces_of(const std::vector<StudyResult>& released,

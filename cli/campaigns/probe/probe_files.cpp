@@ -150,15 +150,15 @@ void write_probe(const std::filesystem::path& folder, const Probe& probe,
   write_own(folder / "yield_points.csv", role::probe, points_csv(surfaces));
   write_own(folder / "moduli.csv", role::probe, moduli_csv(surfaces));
   write_own(folder / "caps.csv", role::probe, caps_csv(groups));
-  for (const ProbePath& path : probe.spec.paths) {
-    const std::vector<CapRow> rows = cap_rows(path.name, groups);
+  for (const std::string& history : probe.histories) {
+    const std::vector<CapRow> rows = cap_rows(history, groups);
     if (rows.empty()) continue;
     const auto write = [&](const char* ending, const std::string& block) {
-      if (!block.empty()) write_own(folder / (path.name + ending), role::probe, block);
+      if (!block.empty()) write_own(folder / (history + ending), role::probe, block);
     };
-    write(".inp", abaqus_block(path.name, rows));
-    write(".comm", code_aster_block(path.name, rows));
-    write(".k", ls_dyna_block(path.name, rows));
+    write(".inp", abaqus_block(history, rows));
+    write(".comm", code_aster_block(history, rows));
+    write(".k", ls_dyna_block(history, rows));
   }
   Json json{{"title", probe.spec.title},
             {"version", program_version()},

@@ -38,17 +38,16 @@ const std::vector<FittedModel>& ProbeGroup::fits(const Criterion& criterion) con
   return models_[static_cast<std::size_t>(&criterion - criteria.data())];
 }
 
-std::vector<ProbeGroup> groups_of(const ProbeSpec& spec,
-                                  const std::vector<ProbeSurface>& surfaces) {
+std::vector<ProbeGroup> groups_of(const Probe& probe, const std::vector<ProbeSurface>& surfaces) {
   std::vector<ProbeGroup> groups;
-  for (const ProbePath& path : spec.paths)
-    for (const double density : spec.densities) {
+  for (const std::string& history : probe.histories)
+    for (const double density : probe.spec.densities) {
       std::vector<const ProbeSurface*> mine;
       for (const ProbeSurface& surface : surfaces)
-        if (surface.state->loading->path == path.name && surface.state->asked == density &&
+        if (surface.state->loading->history == history && surface.state->asked == density &&
             surface.moduli.known())
           mine.push_back(&surface);
-      if (!mine.empty()) groups.emplace_back(path.name, density, std::move(mine));
+      if (!mine.empty()) groups.emplace_back(history, density, std::move(mine));
     }
   return groups;
 }

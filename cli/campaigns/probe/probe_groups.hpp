@@ -42,6 +42,6 @@ class ProbeGroup {
   std::array<std::vector<FittedModel>, criteria.size()> models_ = {};
 };
 
-std::vector<ProbeGroup> groups_of(const ProbeSpec& spec, const std::vector<ProbeSurface>& surfaces);
+std::vector<ProbeGroup> groups_of(const Probe& probe, const std::vector<ProbeSurface>& surfaces);
 
 }  // namespace pulvis

@@ -61,23 +61,15 @@ class ProbeReader {
       const document::Value none{document::Table{}, {{1, 1}, -1}};
       reader.read(*one, entry != nullptr ? entry->value : none, one->info.path, "", probe_.spec);
     }
-    const document::Array& paths = reader.elements(table, "", schema::probe_path().info);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      ProbePath& path = probe_.spec.paths.emplace_back();
-      path.mark = paths[i].origin.mark;
-      reader.read(schema::probe_path(), paths[i], fmt::format("path[{}]", i), "", path);
-    }
-    const document::Array& given = reader.elements(table, "", schema::probe_direction().info);
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      GivenDirection& direction = probe_.spec.given.emplace_back();
-      direction.mark = given[i].origin.mark;
-      reader.read(schema::probe_direction(), given[i], fmt::format("direction[{}]", i), "",
-                  direction);
-    }
+    read_all(reader, table, schema::probe_path(), probe_.spec.paths);
+    read_all(reader, table, schema::probe_powder(), probe_.spec.powders);
+    read_all(reader, table, schema::probe_direction(), probe_.spec.given);
     problems_.throw_if_any();
     check(reader.origins());
     problems_.throw_if_any();
-    for (std::size_t i = 0; i < probe_.spec.paths.size(); ++i) load(i, reader.origins());
+    const std::size_t powders = std::max<std::size_t>(1, probe_.spec.powders.size());
+    for (std::size_t i = 0; i < probe_.spec.paths.size(); ++i)
+      for (std::size_t k = 0; k < powders; ++k) load(i, k, reader.origins());
     problems_.throw_if_any();
     check_dimensions(reader.origins());
     problems_.throw_if_any();
@@ -85,6 +77,18 @@ class ProbeReader {
   }
 
  private:
+  template <class Element>
+  static void read_all(schema::TableReader& reader, const document::Table& table,
+                       const schema::TableDeclaration<Element>& declaration,
+                       std::vector<Element>& all) {
+    const document::Array& elements = reader.elements(table, "", declaration.info);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      all.emplace_back().mark = elements[i].origin.mark;
+      reader.read(declaration, elements[i], fmt::format("{}[{}]", declaration.info.path, i), "",
+                  all.back());
+    }
+  }
+
   document::Table parsed() {
     try {
       return document::parse(probe_.text);
@@ -137,17 +141,26 @@ class ProbeReader {
     }
   }
 
-  void load(std::size_t i, const schema::Origins& origins) {
+  // With the k-th powder.
+  void load(std::size_t i, std::size_t k, const schema::Origins& origins) {
     const ProbePath& path = probe_.spec.paths[i];
     const document::Origin at = origins.at(fmt::format("path[{}].scene", i));
+    std::string history = path.name;
+    std::vector<std::string> changes = probe_.spec.overrides;
+    if (k < probe_.spec.powders.size()) {
+      const ProbePowder& powder = probe_.spec.powders[k];
+      history += "," + powder.name;
+      changes.insert(changes.end(), powder.overrides.begin(), powder.overrides.end());
+    }
+    probe_.histories.push_back(history);
     std::vector<std::int64_t> seeds = probe_.spec.seeds;
     const bool own = seeds.empty();
     if (own) seeds.push_back(0);
     for (const std::int64_t seed : seeds) {
-      std::vector<std::string> overrides = probe_.spec.overrides;
+      std::vector<std::string> overrides = changes;
       overrides.insert(overrides.end(), overrides_.begin(), overrides_.end());
       if (!own) overrides.push_back(fmt::format("seed={}", seed));
-      ProbeLoading loading{path.name, path.name, seed, {}};
+      ProbeLoading loading{history, history, seed, {}};
       try {
         loading.scene = load_scene(probe_.file.parent_path() / path.scene, overrides);
       } catch (const SceneError& error) {
@@ -155,7 +168,7 @@ class ProbeReader {
           problems_.add(at, "scene", problem.text());
         return;
       }
-      refuse_replaced(loading.scene.replaced, origins);
+      refuse_replaced(loading.scene.replaced, changes.size(), origins);
       const Scene& scene = loading.scene.scene;
       if (scene.afm || !scene.cell || scene.stages.empty() || !scene.stages.back().cell) {
         problems_.add(at, "scene",
@@ -169,13 +182,20 @@ class ProbeReader {
     }
   }
 
+  static document::Origin file_overrides(const schema::Origins& origins) {
+    const auto found = std::ranges::find_if(origins, [](const auto& one) {
+      return one.first == "overrides" || one.first.ends_with(".overrides");
+    });
+    return found == origins.end() ? document::Origin{{1, 1}, -1} : found->second;
+  }
+
   // The seed of the probe is the last setting: one of the scene's own would have no effect.
-  void refuse_replaced(const std::vector<ReplacedOverride>& replaced,
+  // `listed` come from the file.
+  void refuse_replaced(const std::vector<ReplacedOverride>& replaced, std::size_t listed,
                        const schema::Origins& origins) {
-    const std::size_t listed = probe_.spec.overrides.size();
     for (const auto [earlier, later] : replaced)
       if (later == listed + overrides_.size() && !std::exchange(seed_told_, true))
-        problems_.add(earlier < listed ? origins.at("overrides")
+        problems_.add(earlier < listed ? file_overrides(origins)
                                        : document::Origin{{}, static_cast<int>(earlier - listed)},
                       earlier < listed ? "overrides" : "seed",
                       "the probe has its own `seeds`, allowed: a seed in one of the two places");

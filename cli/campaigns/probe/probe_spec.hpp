@@ -18,6 +18,12 @@ struct ProbePath {  // [[path]]
   SourceMark mark;
 };
 
+struct ProbePowder {  // [[powder]]
+  std::string name;
+  std::vector<std::string> overrides;  // as for --set
+  SourceMark mark;
+};
+
 struct GivenDirection {  // [[direction]]
   std::string name;
   std::array<double, tensor_parts> parts{};  // of the strain, or of the change of stress
@@ -31,6 +37,7 @@ struct ProbeSpec {
   std::vector<std::int64_t> seeds;     // none: those of each scene
   std::vector<std::string> overrides;  // as for --set
   std::vector<ProbePath> paths;
+  std::vector<ProbePowder> powders;  // none: that of each scene
   Control control = Control::strain;
   int directions = 12;
   int deviatoric = 6;  // in three dimensions
@@ -45,8 +52,8 @@ struct ProbeSpec {
 
 // A run that loads a powder, along one path and with one seed; it saves a state at each density.
 struct ProbeLoading {
-  std::string name;  // "isostatic,seed=1"
-  std::string path;
+  std::string name;     // "isostatic,rough,seed=1"
+  std::string history;  // "isostatic,rough": path and powder
   std::int64_t seed = 1;
   LoadedScene scene;
 };
@@ -56,6 +63,7 @@ struct Probe {
   std::filesystem::path file;
   std::string text;  // of the file
   std::vector<std::string> overrides;
+  std::vector<std::string> histories;  // every path with every powder
   std::vector<ProbeLoading> loadings;
 };
 

@@ -78,7 +78,7 @@ std::string points_csv(const std::vector<ProbeSurface>& surfaces) {
             set == ProbeDirection::Set::axial || set == ProbeDirection::Set::deviatoric;
         text += fmt::format(
             "{},{},{:.6f},{},{},{},{},{}{:.6e},{:.6e},{:.1f},{}{}\n",
-            csv_word(surface.state->loading->path), surface.state->loading->seed,
+            csv_word(surface.state->loading->history), surface.state->loading->seed,
             surface.state->density, criterion.name, csv_word(name), name_of(set),
             has_angle ? fmt::format("{:.1f}", angle * degrees_in_radian) : "",
             numbers_text(point.stress, "{:.6e}"), point.pressure(), point.deviatoric(),
@@ -102,7 +102,7 @@ std::string moduli_csv(const std::vector<ProbeSurface>& surfaces) {
     const PowderModuli& m = surface.moduli;
     if (!m.known()) continue;
     const ProbeState& state = *surface.state;
-    text += fmt::format("{},{},{:.6f},{:.6e},{:.4f},{}", csv_word(state.loading->path),
+    text += fmt::format("{},{},{:.6f},{:.6e},{:.4f},{}", csv_word(state.loading->history),
                         state.loading->seed, state.density, state.pressure(), state.coordination,
                         numbers_text(state.fabric, "{:.5f}"));
     for (int row = 1; row <= parts; ++row)

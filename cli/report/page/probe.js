@@ -40,7 +40,7 @@ function surfaceLines(head, path, criterion) {
       return marks(label, "Pa", found.map(({p}) => p), found.map(({q}) => q), more);
     };
     const cap = modelOf(state, criterion, CAP), others = [CLAY, TURNED].map(name => modelOf(state, criterion, name)).filter(Boolean);
-    return [of(`density ${density}`, true, {hue, fit: cap && curve(cap)}), of(`${density}, q < 0 or shear`, false, {colour: paler(hue)}),
+    return [of(`density ${density}`, true, {hue, fit: cap && curve(cap)}), of(`${density}, other points`, false, {colour: paler(hue)}),
             ...others.map(model => ({label: `${density}, ${MODELS[model.name].replace("modified ", "")}`, unit: "Pa", hue,
                                      dash: DASHED[model.name], ...curve(model)}))];
   }).filter(line => line.values.length);
@@ -81,14 +81,15 @@ function parameter(state, criterion, name, key) {
 }
 
 function pathCharts(head, path, criterion) {
-  const inSpace = isInSpace(statesOf(head, path)[0]);
+  const states = statesOf(head, path), inSpace = isInSpace(states[0]), isFitted = states.some(state => modelOf(state, criterion, CAP));
   return [
     {title: `Yield surfaces: ${path}`, x: {label: "pressure p", unit: "Pa", values: []}, y: "von Mises stress q",
-     lines: surfaceLines(head, path, criterion), note: `q > 0: compressed more along ${inSpace ? "z" : "y"}. Solid: Drucker–Prager cap, dashed: ` +
-       `modified Cam-Clay, both fitted to the full points; dotted: turned ellipsoid (S-CLAY1), in the plane of the axis, fitted to the pale ones as well.`},
+     lines: surfaceLines(head, path, criterion), note: `q > 0: compressed more along ${inSpace ? "z" : "y"}.` + (!isFitted ? "" : " Solid: Drucker–Prager " +
+       "cap, dashed: modified Cam-Clay, both fitted to the points of full colour; dotted: turned ellipsoid (S-CLAY1) in the plane of the axis, " +
+       "fitted to the others too, but those of low pressure.")},
     {title: `Stresses at yield: ${path}`, isEqual: true, x: {label: inSpace ? "√2 × lateral pressure" : "pressure along x", unit: "Pa", values: []},
      y: `pressure along ${inSpace ? "z" : "y"}`, lines: stressLines(head, path, criterion),
-     note: inSpace ? "Directions in the plane of the axis (Rendulic plane). Dotted: S-CLAY1." : ""},
+     note: inSpace ? `Directions in the plane of the axis (Rendulic plane).${isFitted ? " Dotted: S-CLAY1." : ""}` : ""},
     ...inSpace ? [deviatoricChart(head, path, criterion)] : []];
 }
 
@@ -107,6 +108,112 @@ function chartsOf(head, criterion) {
     againstDensity(head, "Coordination number", "coordination number Z", "-", [["", mean(one => one.coordination)]]),
     againstDensity(head, "Fabric", `fabric ${axes}`, "-", [["", state => modulus(state, one => alongAxis(state, one.fabric))]])]
     .filter(chart => chart.lines.length);
+}
+
+// Columns of which at least one cell has a value.
+const filled = columns => columns.filter(({cells}) => cells.some(cell => cell !== null && cell !== undefined && !Number.isNaN(cell)));
+
+function fillParameters(head, criterion) {
+  const {states} = head, spread = pick => states.map(state => modulus(state, pick)), has = name => states.some(state => modelOf(state, criterion, name));
+  const scaled = (found, factor) => found && {mean: found.mean * factor, deviation: found.deviation > 0 ? found.deviation * factor : undefined};
+  const column = (title, unit, name, key, factor = 1) =>
+    states.some(state => key in (modelOf(state, criterion, name)?.parameters || {}))
+      ? [{title, unit, cells: states.map(state => scaled(parameter(state, criterion, name, key), factor))}] : [];
+  const misfit = (title, name) => has(name) ? [{title, cells: states.map(state => {
+    const model = modelOf(state, criterion, name);
+    return model ? percent(model.misfit) : null;
+  })}] : [];
+  const counts = (title, key) => ({title, cells: states.map(state => {
+    const points = pointsOf(state, criterion);
+    return `${points.filter(point => point[key]).length} of ${points.length}`;
+  })});
+  fillColumns(document.getElementById("parameters"), [
+    {title: "path", cells: states.map(({path}) => path)}, {title: "density", cells: states.map(densityText)},
+    {title: "E", unit: "Pa", cells: spread(one => one.youngs_modulus)}, {title: "ν", unit: "-", cells: spread(one => one.poissons_ratio)},
+    counts("points fitted", "fitted"), column("d, cap", "Pa", CAP, "d"), column("β, cap [°]", "-", CAP, "beta", DEGREES),
+    column("R, cap", "-", CAP, "R"), column("p_b, cap", "Pa", CAP, "p_b"), misfit("off, cap", CAP),
+    column("M, Cam-Clay", "-", CLAY, "M"), column("p_c, Cam-Clay", "Pa", CLAY, "p_c"), misfit("off, Cam-Clay", CLAY),
+    counts("points fitted, S-CLAY1", "fitted_in_stresses"), column("M, S-CLAY1", "-", TURNED, "M"), column("p_c, S-CLAY1", "Pa", TURNED, "p_c"),
+    column("α, S-CLAY1", "-", TURNED, "alpha"), column("p_t, S-CLAY1", "Pa", TURNED, "p_t"), misfit("off, S-CLAY1", TURNED)].flat()
+    .map(one => ({...one, title: one.title.replaceAll("-", "\u2011")})));  // names of models stay on one line
+}
+
+const SYMBOLS = {beta: "β", alpha: "α", sigma_y: "σ_y"}, PRESSURES = ["d", "p_b", "p_c", "p_a", "p_t", "p_y", "sigma_y"];
+
+function fillOpen(head, criterion) {
+  const told = (key, value) => value === null ? "no bound" : key === "beta" ? degreesText(value) : withUnit(value, PRESSURES.includes(key) ? "Pa" : "-", 3);
+  const rows = head.states.flatMap(state => state.yield[criterion].models.flatMap(({name, not_determined, ranges}) =>
+    not_determined.map(key => [state.path, densityText(state), MODELS[name] || words(name), SYMBOLS[key] || key, ...ranges[key].map(end => told(key, end))])));
+  document.getElementById("open-section").hidden = !rows.length;
+  if (rows.length) fillTexts("open", ["path", "density", "model", "parameter", "from", "to"], rows);
+}
+
+// The states of all seeds, with what they share.
+const seedsOf = head => head.states.flatMap(state => state.states.map(one => ({...one, path: state.path, dimension: state.dimension})));
+
+function fillStates(head) {
+  const all = seedsOf(head), of = (title, pick, unit = "-") => ({title, unit, cells: all.map(one => pick(one) ?? null)});
+  const fabric = axis => of(`fabric ${axis}${axis}`, one => axisOf(one) === axis ? alongAxis(one, one.fabric) : null);
+  const shares = (title, pick) => ({title, cells: all.map(one => { const share = pick(one); return Number.isFinite(share) ? percent(share) : null; })});
+  fillColumns(document.getElementById("states"), filled([
+    {title: "loading run", cells: all.map(({run}) => reportOf(run, run))},
+    {title: "density", cells: all.map(densityText)}, {title: "seed", cells: all.map(({seed}) => String(seed))},
+    of("pressure", one => one.pressure, "Pa"), of("q", one => one.q, "Pa"), of("coordination number", one => one.coordination), fabric("y"), fabric("z"),
+    of("E", one => one.youngs_modulus, "Pa"), of("ν", one => one.poissons_ratio),
+    ...["isotropic", "transversely_isotropic", "orthotropic"].map(key => shares(`off ${words(key)}`, one => one.off?.[key])),
+    shares("in springs", one => one.released_by_springs)]));
+  document.getElementById("symmetry").hidden = !all.some(({off}) => off);
+}
+
+// A matrix in one unit.
+function fillStiffness(head) {
+  const {stiffness = {}} = seedsOf(head)[document.getElementById("stiffness-state").value], {factor, label} = unitFor("Pa", largest(Object.values(stiffness)));
+  const value = (i, k) => stiffness[`c${Math.min(i, k) + 1}${Math.max(i, k) + 1}`] * factor, parts = STRESSES.map((_, i) => i).filter(i => Number.isFinite(value(i, i)));
+  document.getElementById("stiffness").hidden = !parts.length;
+  if (parts.length) fillColumns(document.getElementById("stiffness"), [{title: `c [${label}]`, cells: parts.map(i => `${i + 1} (${STRESSES[i]})`)},
+    ...parts.map(k => ({title: `${k + 1} (${STRESSES[k]})`, unit: "-", cells: parts.map(i => value(i, k))}))]);
+}
+
+function fillEngineering(head) {
+  const all = seedsOf(head).filter(({engineering}) => engineering);
+  document.getElementById("engineering-section").hidden = !all.length;
+  if (!all.length) return;
+  const constants = Object.keys(all[0].engineering);
+  fillColumns(document.getElementById("engineering"), [{title: "loading run", cells: all.map(({run}) => reportOf(run, run))},
+    {title: "density", cells: all.map(densityText)}, {title: "seed", cells: all.map(({seed}) => String(seed))},
+    ...constants.map(key => ({title: key.replace("nu", "ν"), unit: key.startsWith("nu") ? "-" : "Pa", cells: all.map(one => one.engineering[key])}))]);
+}
+
+const fitsOf = ({fitted, fitted_in_stresses}) => fitted && fitted_in_stresses ? "all" : fitted ? "cap, Cam-Clay" : fitted_in_stresses ? "S-CLAY1" : "none";
+// Of a plastic strain: the components that are not about 0.
+const plasticText = parts => parts.map((value, k) => Math.abs(value) < 0.005 ? "" : `${STRESSES[k]} ${digits(value, 3)}`).filter(Boolean).join(", ");
+
+function fillPoints(head, criterion) {
+  const all = head.states.flatMap(state => pointsOf(state, criterion).map(point => ({...point, path: state.path, density: densityText(state)})));
+  document.getElementById("points-section").hidden = !all.length;
+  document.body.dataset.points = all.length;
+  if (!all.length) return;
+  const of = (title, pick) => ({title, unit: "Pa", cells: all.map(pick)}), most = largest(all.flatMap(({stress}) => stress));
+  const stresses = STRESSES.map((part, k) => of(`σ${part}`, ({stress}) => stress[k])).filter(({cells}) => largest(cells) > 1e-9 * most);
+  const degrees = (title, pick) => ({title, cells: all.map(one => Number.isFinite(pick(one)) ? `${digits(pick(one) * DEGREES, 3)}°` : null)});
+  fillColumns(document.getElementById("points"), filled([
+    {title: "direction", cells: all.map(point => reportOf(point.run, directionText(point)))},
+    {title: "path", cells: all.map(({path}) => path)}, {title: "density", cells: all.map(({density}) => density)},
+    of("p", ({p}) => p), of("q", ({q}) => q), degrees("Lode angle", one => one.lode_angle), ...stresses,
+    {title: "plastic strain", cells: all.map(({plastic}) => plasticText(plastic))}, degrees("off the normal", one => one.angle_to_normal),
+    {title: "in the fits", cells: all.map(fitsOf)}]));
+}
+
+const TABLES = [fillParameters, fillOpen, fillStates, fillStiffness, fillEngineering, fillPoints];
+
+// What depends on the dimension, and the choice of a stiffness.
+function tellStates(head) {
+  const axes = [...new Set(head.states.map(axisOf))], choice = document.getElementById("stiffness-state");
+  document.querySelector("#points-section .axis").textContent = axes.join(" or ");
+  document.getElementById("directions").textContent = "Direction: the angle of the strain or stress path" +
+    (axes.includes("y") ? ", in two dimensions in the x, y plane" : "") + (axes.includes("z") ? ", in three dimensions in the plane of the lateral " +
+    "component times √2 and z. Lode angle: 0 when compressed along z, 120° along y, 240° along x" : "") + ".";
+  seedsOf(head).forEach((one, i) => choice.add(new Option(`${one.run}, density ${densityText(one)}, seed ${one.seed}`, i)));
 }
 
 function leadText(head) {
