@@ -25,7 +25,7 @@ std::vector<double> numbers_of(const std::string& line) {
 }
 
 // A number, or the range in its place, which no program reads as one.
-std::string written(const BlockValue& value, double factor, const char* format) {
+std::string number_or_range(const BlockValue& value, double factor, const char* format) {
   if (!value.value) return fmt::format("<{}>", value.range);
   return fmt::format(fmt::runtime(format), *value.value * factor);
 }
@@ -66,14 +66,14 @@ std::string abaqus_block(const std::string& name, const std::vector<CapRow>& row
       "** d, beta [deg], R, initial volumetric plastic strain, alpha, K, temperature, density\n"
       "*CAP PLASTICITY, DEPENDENCIES=1\n";
   for (const CapRow& row : rows)
-    text += fmt::format("{}, {}, {}, 0., {:g}, 1., , {:.6f}\n", written(row.d, 1, "{:.6e}"),
-                        written(row.beta, degrees_in_radian, "{:.6f}"), written(row.r, 1, "{:.6f}"),
-                        cap_transition, row.density);
+    text += fmt::format("{}, {}, {}, 0., {:g}, 1., , {:.6f}\n", number_or_range(row.d, 1, "{:.6e}"),
+                        number_or_range(row.beta, degrees_in_radian, "{:.6f}"),
+                        number_or_range(row.r, 1, "{:.6f}"), cap_transition, row.density);
   text +=
       "** hydrostatic yield pressure p_b, volumetric plastic strain since the first row\n"
       "*CAP HARDENING\n";
   for (const CapRow& row : rows)
-    text += fmt::format("{}, {:.6f}\n", written(row.p_b, 1, "{:.6e}"),
+    text += fmt::format("{}, {:.6f}\n", number_or_range(row.p_b, 1, "{:.6e}"),
                         portable::log(row.density / rows.front().density));
   return text;
 }
@@ -114,7 +114,7 @@ std::string code_aster_block(const std::string& name, const std::vector<CapRow>&
       "PRES_CRIT={:.6e}))\n",
       name, 1 - clay->porosity, clay->m.value ? "" : warning_of_open("#"), name,
       first.youngs_modulus, first.poissons_ratio, shear_of(first), clay->porosity, clay->lambda,
-      clay->kappa, written(clay->m, 1, "{:.6f}"), 0.5 * clay->p_c);
+      clay->kappa, number_or_range(clay->m, 1, "{:.6f}"), 0.5 * clay->p_c);
 }
 
 namespace {
@@ -167,8 +167,9 @@ std::string ls_dyna_block(const std::string& name, const std::vector<CapRow>& ro
       name, row.density, is_open(row) ? warning_of_open("$") : "", name,
       row.solid_density > 0 ? fmt::format("{:.6e}", row.density * row.solid_density)
                             : "<bulk density>",
-      bulk_of(row), shear_of(row), written(alpha, 1 / root, "{:.6e}"), written(theta, 1, "{:.6f}"),
-      written(r, 3 * root, "{:.6f}"), law->d, law->w, law->x_0);
+      bulk_of(row), shear_of(row), number_or_range(alpha, 1 / root, "{:.6e}"),
+      number_or_range(theta, 1, "{:.6f}"), number_or_range(r, 3 * root, "{:.6f}"), law->d, law->w,
+      law->x_0);
 }
 
 std::vector<CapRow> read_abaqus_block(const std::string& text) {

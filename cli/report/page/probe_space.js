@@ -152,7 +152,8 @@ class StressSpace {
         ctx.fillText(told(tick), x - side * dy * 17, y + side * dx * 12);
       }
       ctx.fillStyle = colours.ink;
-      ctx.fillText(`−σ${name}${name} [${label}]`, Math.min(Math.max(b[0] + 38 * dx, 40), this.width - 40), Math.min(Math.max(b[1] + 13 * dy, 8), this.drawnHeight - 8));
+      const x = b[0] + 38 * dx, within = Math.min(Math.max(x, 40), this.width - 40), y = b[1] + 13 * dy + (x === within ? 0 : 13);
+      ctx.fillText(`−σ${name}${name} [${label}]`, within, Math.min(Math.max(y, 8), this.drawnHeight - 8));
       ctx.fillStyle = colours.soft;
     });
     ctx.setLineDash([6, 4]);
