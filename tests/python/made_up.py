@@ -319,29 +319,64 @@ def fit_groups(parameters, x, x_ends, y, y_ends):
     return groups
 
 
-def probe(folder, title="Copper discs of three sizes"):
+def probe(folder, title="Copper discs of three sizes", dimension=2):
     """Yield surfaces of two paths at three densities, with models and their scatter."""
     folder.mkdir(parents=True)
     (folder / "probe.toml").write_text("", encoding="utf-8")
-    states = [probe_state(path, density, strength) for path in ("isostatic", "die")
+    states = [probe_state(path, density, strength, dimension) for path in ("isostatic", "die")
               for density, strength in ((0.85, 2e7), (0.9, 6e7), (0.95, 1.8e8))]
     (folder / "summary.json").write_text(json.dumps({"title": title, "offset_strain": 0.002, "dissipation": 0.01, "states": states}),
                                          encoding="utf-8")
     return folder
 
 
-def probe_state(path, density, strength):
-    angles = np.linspace(-np.pi, np.pi, 16, endpoint=False)
-    points = [{"p": strength * (1 + 0.8 * np.cos(a)), "q": strength * np.sin(a), "plane_p": strength * (1 + 0.8 * np.cos(a)),
-               "plane_shear": 0.6 * strength * np.sin(a), "fitted": bool(np.sin(a) > -0.9), "plastic": [-np.cos(a), -np.sin(a)],
-               "stress": [-strength * (1 + np.cos(a)), -strength * (1 + np.sin(a))]} for a in angles]
+def probe_in_space(folder):
+    """The same in three dimensions, with points in the deviatoric plane and in shear."""
+    return probe(folder, "Copper spheres of three sizes", 3)
+
+
+def yield_point(strength, angle, kind, dimension):
+    """A point of a set of directions; q changes its sign with the angle."""
+    sine, cosine = np.sin(angle), np.cos(angle)
+    pair = {"across_along": [strength * (1 + cosine), strength * (1 + sine)], "plastic_across_along": [cosine, sine]}
+    plane = {"plane_p": strength * (1 + 0.8 * cosine), "plane_shear": 0.6 * strength * sine}
+    return {"set": kind, "p": strength * (1 + 0.8 * cosine), "q": strength * sine, "fitted": bool(sine > -0.1) and kind != "shear",
+            "fitted_in_stresses": True, **(pair if kind == "axial" else {}), **({"lode_angle": angle} if dimension == 3 else plane)}
+
+
+def ball(strength):
+    """A net of stresses, as of a model in terms of them."""
+    polar, lode = np.meshgrid(np.linspace(0, np.pi, 17), np.linspace(0, 2 * np.pi, 24, endpoint=False), indexing="ij")
+    mean, across, up = -np.ones(3) / np.sqrt(3), np.array([1, -1, 0]) / np.sqrt(2), np.array([1, 1, -2]) / np.sqrt(6)
+    ways = (np.cos(polar)[..., None] * mean + np.sin(polar)[..., None]
+            * (np.sin(lode)[..., None] * across + np.cos(lode)[..., None] * up))
+    return (strength * (np.sqrt(3) * mean + ways)).tolist()
+
+
+def probe_models(strength, dimension):
+    """Those of the probes in this dimension; a parameter that the points do not determine has no value."""
+    names = ["drucker_prager_cap", "modified_cam_clay", "s_clay", "fleck_kuhn_mcmeeking", "gurson",
+             *(["fleck_plane", "fleck_plane_cohesive"] if dimension == 2 else [])]
     turn = np.linspace(0, np.pi, 20)
     surface = strength * np.column_stack([1 + np.cos(turn), np.sin(turn)])
-    models = [{"name": name, "surface": surface.tolist(), "misfit": 0.0123 * (k + 1), "scatter": {one: {"deviation": 0.1} for one in ("R", "M")},
-               "parameters": {"p_b": 2.2 * strength, "R": 0.61, "p_c": 2 * strength, "M": 0.91}}
-              for k, name in enumerate(("drucker_prager_cap", "modified_cam_clay", "fleck_kuhn_mcmeeking", "gurson", "fleck_plane",
-                                        "fleck_plane_cohesive"))]
-    found = {"points": points, "models": models}
-    return {"path": path, "asked": density, "relative_density": density + 0.0013, "yield": {"offset_strain": found, "dissipation": found},
-            "states": [{"stress": [-strength, -strength * s], "youngs_modulus": 200 * strength * s, "poissons_ratio": 0.32 * s}
-                       for s in (1, 1.06)]}
+    both = np.concatenate([surface, surface[::-1] * [1, -1]])
+    values = {"p_b": 2.2 * strength, "R": 0.61, "p_c": 2 * strength, "M": 0.91, "alpha": 0.35}
+    models = [{"name": name, "surface": (both if name == "s_clay" else surface).tolist(), "misfit": 0.0123 * (k + 1),
+               "parameters": dict(values), "scatter": {one: {"deviation": 0.1} for one in ("R", "M")}} for k, name in enumerate(names)]
+    models[0]["parameters"]["R"] = None if strength < 3e7 else 0.61
+    if dimension == 3:
+        models[2]["shell"] = ball(strength)
+    return models
+
+
+def probe_state(path, density, strength, dimension):
+    points = [yield_point(strength, angle, "axial", dimension) for angle in np.linspace(-np.pi, np.pi, 16, endpoint=False)]
+    if dimension == 3:
+        points += [yield_point(strength, angle, "deviatoric", dimension) for angle in np.linspace(0, 2 * np.pi, 12, endpoint=False)]
+    points += [yield_point(strength, 0.7, "shear", dimension)]
+    found = {"points": points, "models": probe_models(strength, dimension)}
+    seeds = [{"stress": [-strength, -strength * s, -strength, 0, 0, 0], "across_along": [strength, strength * s], "coordination": 6.1 * s,
+              "fabric": [0.31, 0.33, 0.36 * s, 0, 0, 0], "youngs_modulus": 200 * strength * s, "poissons_ratio": 0.32 * s,
+              **({"off": {"isotropic": 0.1 * s}} if dimension == 3 else {})} for s in (1, 1.06)]
+    return {"path": path, "asked": density, "relative_density": density + 0.0013, "dimension": dimension,
+            "yield": {"offset_strain": found, "dissipation": found}, "states": seeds}

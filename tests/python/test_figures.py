@@ -9,6 +9,7 @@ matplotlib.use("Agg")
 import numpy as np
 from matplotlib import pyplot as plt
 
+import made_up
 from pulvis.figures import afm, bonds, cell, colours, look, network, probe, study
 
 plt.rcParams.update(look.STYLE)
@@ -86,14 +87,14 @@ class FiguresTest(unittest.TestCase):
 
     def test_arrows_of_a_yield_surface_stay_in_its_frame(self):
         angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-        points = [{"stress": [-50e6 * (1 + np.cos(a)), -50e6 * (1 + np.sin(a))], "plastic": [-np.cos(a), -np.sin(a)]} for a in angle]
-        state = {"asked": 0.9, "yield": {"offset_strain": {"points": points}}, "states": [{"stress": [-50e6, -50e6]}]}
+        points = [made_up.yield_point(50e6, a, "axial", 2) for a in angle]
+        state = {"asked": 0.9, "dimension": 2, "yield": {"offset_strain": {"points": points, "models": []}}, "states": [{"across_along": [50e6, 50e6]}]}
         _, axes = plt.subplots()
         probe.draw_stresses(axes, [state], "offset_strain", {0.9: "k"}, 1e-6)
         low, high = axes.get_xlim()
         length = (high - low) / probe.ARROWS
         for point in points:
-            tip = -1e-6 * np.array(point["stress"]) - length * np.array(point["plastic"])
+            tip = 1e-6 * np.array(point["across_along"]) + length * np.array(point["plastic_across_along"])
             for at, (first, last) in zip(tip, (axes.get_xlim(), axes.get_ylim())):
                 self.assertTrue(first < at < last)
 
@@ -101,7 +102,7 @@ class FiguresTest(unittest.TestCase):
         points = [{"p": 1e6 * p, "q": 1e6 * q, "plane_p": 1e6 * p, "plane_shear": 1e6 * q, "fitted": q > 0}
                   for p, q in ((10, -5), (10, 5), (20, 4))]
         law = {"name": "modified_cam_clay", "surface": [[0, 0], [2e7, 0]], "misfit": 0.01}
-        state = {"path": "iso", "relative_density": 0.9, "yield": {"dissipation": {"points": points, "models": [law]}}}
+        state = {"path": "iso", "relative_density": 0.9, "dimension": 2, "yield": {"dissipation": {"points": points, "models": [law]}}}
         figure = probe.models({"title": "", "states": [state]}, look.Options())
         figure.canvas.draw()
         axes = figure.axes[0]
@@ -109,6 +110,30 @@ class FiguresTest(unittest.TestCase):
         self.assertEqual((len(full.get_xdata()), len(hollow.get_xdata())), (2, 1))
         self.assertEqual(hollow.get_markerfacecolor(), "none")
         self.assertLess(axes.get_legend().get_window_extent().y1, axes.get_window_extent().y0)
+
+    def test_a_parameter_that_is_not_determined_is_left_out(self):
+        states = [made_up.probe_state("die", density, strength, 3) for density, strength in ((0.85, 2e7), (0.9, 6e7))]
+        _, axes = plt.subplots()
+        probe.draw_parameter(axes, states, probe.SHAPES[0], "k")
+        self.assertEqual(axes.lines[0].get_xdata().tolist(), [states[1]["relative_density"]])
+        for state in states:
+            for model in state["yield"]["dissipation"]["models"]:
+                model["parameters"] = dict.fromkeys(model["parameters"])
+        for seen in probe.parameters({"title": "", "states": states}, look.Options()).axes[2:]:
+            self.assertEqual([text.get_text() for text in seen.texts], ["not determined\nby the points"])
+
+    def test_a_ball_is_cut_in_a_circle_of_the_deviatoric_plane(self):
+        ring = probe.section_of(made_up.ball(5e7), 4e7)  # about the pressure of 5e7 with this radius
+        np.testing.assert_allclose(np.hypot(*ring.T), np.sqrt(5e7**2 - 3 * 1e7**2), rtol=1e-3)
+        np.testing.assert_array_equal(ring[0], ring[-1])
+        self.assertEqual(len(probe.section_of(made_up.ball(5e7), 2e8)), 0)
+
+    def test_an_ellipsoid_about_the_pressures_is_symmetric_to_them_in_the_axial_plane(self):
+        places = probe.in_axial_plane([[3e7, 0], [2e7, 1e7], [2e7, -1e7]])
+        np.testing.assert_allclose(places[0], 3e7 * np.array([np.sqrt(2), 1]))
+        middle = 0.5 * (places[1] + places[2])
+        np.testing.assert_allclose(middle, 2e7 * np.array([np.sqrt(2), 1]))
+        self.assertAlmostEqual((places[1] - places[2]) @ [np.sqrt(2), 1], 0, places=3)  # at right angles
 
     def test_fragments_are_counted_in_whole_numbers(self):
         series = {"time": np.linspace(0, 1, 5), "bonds/fragments": np.ones(5)}

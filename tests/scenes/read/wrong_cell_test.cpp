@@ -108,6 +108,71 @@ INSTANTIATE_TEST_SUITE_P(
                   "three dimensions only"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
 
+// ---- in three dimensions --------------------------------------------------------------------------------
+std::string space_scene(const std::string& cell, const std::string& powder,
+                        const std::string& drive, const std::string& more = "") {
+  std::string text = scene(cell, powder, drive, more);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("family = \"compaction\"\n", "family = \"compaction\"\ndimension = 3\n");
+  replace("outline = \"disc\"", "shape = \"sphere\"");
+  return text;
+}
+
+constexpr const char* flat = "[cell]\nwidth = \"4 mm\"\nheight = \"4 mm\"\n";
+constexpr const char* deep = "[cell]\nwidth = \"4 mm\"\ndepth = \"4 mm\"\nheight = \"4 mm\"\n";
+constexpr const char* open = "[cell]\nwidth = \"4 mm\"\ndepth = \"4 mm\"\n";
+constexpr const char* ball =
+    "[[body]]\nparticle = \"disc\"\nposition = [\"2 mm\", \"2 mm\", \"2 mm\"]\n";
+
+std::string random_balls(const char* depth) {
+  return fmt::format(
+      "[[packing]]\nkind = \"random\"\nwidth = \"4 mm\"\n{}\ndensity = 0.5\nclass = [{{ particle = "
+      "\"disc\", number = 9 }}]\n",
+      depth);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    InThreeDimensions, WrongCells,
+    testing::Values(
+        WrongCell{"no_depth", space_scene(flat, ball, "strain_zz = -0.1"), "cell.depth", "missing"},
+        WrongCell{"no_height", space_scene(open, ball, "strain_zz = -0.1"), "cell",
+                  "height is missing"},
+        WrongCell{"angle",
+                  space_scene(std::string(deep) + "angle = \"10 deg\"\n", ball, "strain_zz = -0.1"),
+                  "cell.angle", "two dimensions only"},
+        WrongCell{"height_twice",
+                  space_scene(deep, random_balls("depth = \"4 mm\""), "strain_zz = -0.1"),
+                  "cell.height", "it follows from the random packing"},
+        WrongCell{"other_depth",
+                  space_scene(open, random_balls("depth = \"5 mm\""), "strain_zz = -0.1"),
+                  "packing[0].depth", "0.004 m"},
+        WrongCell{"both", space_scene(deep, ball, "strain_zx = 0.1\nstress_zx = \"1 MPa\""),
+                  "stage[0].cell.stress_zx", "has a strain as well"},
+        WrongCell{"other_name", space_scene(deep, ball, "strain_xz = 0.1"),
+                  "stage[0].cell.strain_xz", "strain_zx"},
+        WrongCell{"ratio_and_depth",
+                  space_scene(deep, ball, "stress_ratio = 0.5\nstress_yy = \"-1 MPa\""),
+                  "stage[0].cell.stress_ratio", "yy is prescribed twice"},
+        WrongCell{"scalar_rotation", space_scene(deep, ball, "rotation = \"1 deg\""),
+                  "stage[0].cell.rotation", "allowed: "},
+        WrongCell{
+            "constraint",
+            space_scene(deep, ball, "strain_zz = -0.1",
+                        "[[tool]]\nname = \"held\"\nshape = \"constraint\"\nholds = \"all\"\n"
+                        "low = [\"0 mm\", \"0 mm\", \"0 mm\"]\nhigh = [\"4 mm\", \"4 mm\", \"4 "
+                        "mm\"]\n"),
+            "tool[0]", "has no walls"},
+        WrongCell{
+            "densities",
+            space_scene(deep, ball, "strain_zz = -0.1", "[output]\ndensity_cells = [2, 2, 2]\n"),
+            "output.density_cells", "do not enclose"},
+        WrongCell{"until_force",
+                  space_scene(deep, ball, "strain_zz = -0.1", "[stage.until]\nforce = \"1 N\""),
+                  "stage[0].until.force", "tool"}),
+    [](const auto& wrong) { return std::string(wrong.param.name); });
+
 TEST(RightCell, HasTheHeightOfItsPacking) {
   const Scene right =
       load_scene_text(scene(cell, random_packing, "strain_yy = -0.1"), "cell.toml").scene;

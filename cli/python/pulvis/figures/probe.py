@@ -16,9 +16,9 @@ CAP, CLAY, TURNED = "drucker_prager_cap", "modified_cam_clay", "s_clay"
 SURFACES = {CAP: ("Drucker–Prager cap", "-"), CLAY: ("modified Cam-Clay", "--"), TURNED: ("turned ellipsoid (S-CLAY1)", ":")}
 MODELS = {CAP: SURFACES[CAP], CLAY: SURFACES[CLAY], "fleck_kuhn_mcmeeking": ("Fleck–Kuhn–McMeeking", ":"), "gurson": ("Gurson", "-.")}
 PLANE_MODELS = {"fleck_plane": ("Fleck, no cohesion", "-"), "fleck_plane_cohesive": ("Fleck, full cohesion", ":")}
-PRESSURES = ((CAP, "p_b", "-"), (CLAY, "p_c", "--"), (TURNED, "p_c", ":"))
-SHAPES = ((CAP, "R", "-"), (CLAY, "M", "--"), (TURNED, "M", ":"), (TURNED, "alpha", "-."))
-
+LOOKS = {CAP: "o-", CLAY: "s--", TURNED: "^:"}  # of parameters
+PRESSURES = [(CAP, "p_b", LOOKS[CAP]), (CLAY, "p_c", LOOKS[CLAY]), (TURNED, "p_c", LOOKS[TURNED])]
+SHAPES = [(CAP, "R", LOOKS[CAP]), (CLAY, "M", LOOKS[CLAY]), (TURNED, "M", LOOKS[TURNED]), (TURNED, "alpha", "v-.")]
 
 WIDE_LEGEND = 4.4  # inches of a figure for each axes, from which their legend has two columns
 WORDS_FROM = 6  # inches: narrower figures have symbols only, or one column
@@ -181,7 +181,9 @@ def section_of(shell, pressure):
             found.append(line[i] + share * (line[(i + 1) % len(line)] - line[i]))
     xx, yy, zz = np.array(found).reshape(-1, 3).T
     ring = np.column_stack([(xx - yy) / np.sqrt(2), (xx + yy - 2 * zz) / np.sqrt(6)])
-    ring = ring[np.argsort(np.arctan2(*(ring - ring.mean(axis=0)).T))] if len(ring) else ring
+    if len(ring):
+        ring = ring[np.argsort(np.arctan2(*(ring - ring.mean(axis=0)).T))]
+        ring = finer(ring, 8) if len(ring) == columns else ring
     return np.concatenate([ring, ring[:1]])
 
 
@@ -260,7 +262,7 @@ def models(summary, options):
         return None
     kinds = {"p": MODELS, "plane_p": PLANE_MODELS}
     panels = [(state, x) for state in found.values() for x in (("p",) if in_space([state]) else kinds)]
-    columns = 1 if is_short(options) else 2  # else each pair one above the other
+    columns = 1 if is_short(options) or len(panels) == 1 else 2
     size = (4.8, 3.1 * len(panels)) if columns == 1 else (9.6, 4.6 * -(-len(panels) // 2))
     figure, axes = subplots(-(-len(panels) // columns), columns, figsize=options.size(*size), squeeze=False)
     for side in axes.flat[len(panels):]:
@@ -298,12 +300,12 @@ def draw_moduli(axes, summary, colour, pick, name, unit):
 
 def draw_parameter(axes, states, of, colour, factor=1):
     """A parameter of a model against density, with its standard deviation over seeds. States without it are left out."""
-    name, key, line = of
+    name, key, look = of
     found = [(state["relative_density"], model["parameters"][key], model["scatter"].get(key, {"deviation": 0})["deviation"])
              for state in states if (model := model_of(state, "dissipation", name)) and model["parameters"].get(key) is not None]
     if found:
         density, value, bars = np.array(found).T
-        axes.errorbar(density, factor * value, factor * bars, linestyle=line, marker="o", markersize=4, capsize=3, color=colour)
+        axes.errorbar(density, factor * value, factor * bars, fmt=look, markersize=4, capsize=3, color=colour)
 
 
 def draw_parameters(axes, summary, colour, parts, factor=1):
@@ -322,7 +324,7 @@ def colours_of_paths(summary):
 
 
 def keys_of_paths(colour):
-    return [Line2D([], [], color=shade, marker="o", markersize=4, linestyle="-", label=path) for path, shade in colour.items()]
+    return [Line2D([], [], color=shade, linestyle="-", linewidth=3, label=path) for path, shade in colour.items()]
 
 
 def parameters(summary, options):
@@ -334,9 +336,9 @@ def parameters(summary, options):
     draw_parameters(axes[1][1], summary, colour, SHAPES)
     axes[1][0].set_ylabel("Yield pressure $p_b$, $p_c$ / MPa")
     axes[1][1].set_ylabel(r"$R$, $M$, $\alpha$" if is_short(options) else r"Eccentricity $R$, slope $M$, rotation $\alpha$")
-    lines = (("-", "$p_b$, $R$: Drucker–Prager cap"), ("--", "$p_c$, $M$: modified Cam-Clay"), (":", "$p_c$, $M$: S-CLAY1"),
-             ("-.", r"$\alpha$: S-CLAY1"))
-    keys = [Line2D([], [], color="0.4", linestyle=line, label=text) for line, text in lines]
+    texts = ("$p_b$, $R$: Drucker–Prager cap", "$p_c$, $M$: modified Cam-Clay", "$p_c$, $M$: S-CLAY1", r"$\alpha$: S-CLAY1")
+    keys = [Line2D([], [], color="0.4", linestyle=look[1:], marker=look[0], markersize=4, label=text)
+            for (_, _, look), text in zip(SHAPES, texts)]
     legend_below(figure, [*keys_of_paths(colour), *keys], not options.height)
     if options.title:
         figure.suptitle(f"{summary['title']}: parameters, bars: standard deviation over seeds", x=0.01, ha="left")
