@@ -1,4 +1,8 @@
-"""Spack recipe. In a clone: spack repo add cli/packaging/spack; spack dev-build pulvis@main. See docs/installing.md."""
+"""Spack recipe, for Spack 1.0 and later. In a clone: spack repo add cli/packaging/spack/spack_repo/pulvis. See docs/installing.md."""
+import os
+
+from spack_repo.builtin.build_systems.cmake import CMakePackage, generator
+
 from spack.package import *
 
 
@@ -50,7 +54,7 @@ class Pulvis(CMakePackage):
             self.define("PULVIS_BENCH", False),
             self.define("PULVIS_INSTRUCTION_SETS", "all" if self.spec.satisfies("+portable") else "native"),
             self.define("PULVIS_PYTHON", "ON" if self.spec.satisfies("+python") else "OFF"),
-            self.define("PULVIS_PYTHON_DESTINATION", python_platlib),
+            self.define("PULVIS_PYTHON_DESTINATION", os.path.relpath(python_platlib, self.prefix)),
             self.define("Python3_EXECUTABLE", python.path),
             self.define_from_variant("PULVIS_MPI", "mpi"),
         ]
