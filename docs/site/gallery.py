@@ -2,7 +2,7 @@
 """Makes docs/gallery.md: every scene below is run by the built program, and its picture drawn.
 
   /usr/bin/python3 docs/site/gallery.py             all of them; runs that the same program has made before are kept
-  /usr/bin/python3 docs/site/gallery.py ring salt   only those whose scene has one of these in its name
+  /usr/bin/python3 docs/site/gallery.py ring salt   only those whose scene has one of these in its name; the others stay as they are
   /usr/bin/python3 docs/site/gallery.py --kept      the page of what has been run so far, by any version of the program; nothing is run
   /usr/bin/python3 docs/site/gallery.py --list
 
@@ -59,7 +59,7 @@ CHAPTERS = {
                 "effective_stress", frame="50"),
         Picture("compaction-3d/superquadrics", "Thirty rounded boxes, pressed.", "effective_stress"),
         Picture("periodic/spheres-shear", "Thirty copper spheres in a periodic cell, pressed and sheared without walls.", "effective_stress"),
-        Picture("compaction-3d/tablet", "A tablet in a cylindrical die: pressed, unloaded, ejected.", "effective_stress"),
+        Picture("compaction-3d/tablet", "A tablet in a cylindrical die: pressed, unloaded, ejected. Nothing bonds its particles, so they part outside.", "effective_stress"),
     ),
     "Shear and friction": (
         Picture("shear/grooves-16", "A compact drawn over a grooved plate.", "effective_stress"),
@@ -124,12 +124,16 @@ def time_text(seconds):
     return "less than a second" if seconds < 1 else f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
-def page(rows):
-    cpu = re.search(r"model name\s*:\s*(.*)", pathlib.Path("/proc/cpuinfo").read_text())
+def processor():
+    found = re.search(r"model name\s*:\s*(.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    return f"an {found[1]}" if found else "this machine"
+
+
+def page(rows, machine):
     lines = ["# Gallery", "",
              "Every picture is the result of one command, made by the program as it is "
              "(`/usr/bin/python3 docs/site/gallery.py`). Times are processor times of one run on "
-             f"{'this machine' if not cpu else 'an ' + cpu[1]}.", ""]
+             f"{machine}.", ""]
     for chapter, pictures in CHAPTERS.items():
         lines += [f"## {chapter}", ""]
         for picture in [p for p in pictures if p.name in rows]:
@@ -138,6 +142,15 @@ def page(rows):
                       f"{picture.sentence} Processor time {rows[picture.name][1]}.", "", "```",
                       picture.command(), "```", ""]
     (ROOT / "docs/gallery.md").write_text("\n".join(lines))
+
+
+def rows_of_page(pictures):
+    """Titles and times that the page has now, and the processor of these times."""
+    text = (ROOT / "docs/gallery.md").read_text()
+    found = {p.name: re.search(rf"^!\[(.*)\]\(pictures/gallery/{re.escape(p.name)}\.png\)\n\n.*Processor time (.*)\.$", text, flags=re.M)
+             for p in pictures}
+    return ({name: (match[1], match[2]) for name, match in found.items() if match},
+            re.search(r"processor times of one run on (.*)\.$", text, flags=re.M)[1])
 
 
 def title(folder):
@@ -159,17 +172,17 @@ def main():
     if options.kept:
         pictures = [p for p in pictures if (RUNS / f"{p.name}.json").exists()]
     chosen = [p for p in pictures if not options.name or any(n in p.name for n in options.name)]
-    rows = {}
+    rows, machine = rows_of_page(pictures) if options.name else ({}, processor())
+    other = "" if machine == processor() else f" on {processor()}"
     for picture in chosen:
         if options.kept:
             folder, seconds = RUNS / picture.name, json.loads((RUNS / f"{picture.name}.json").read_text())["seconds"]
         else:
             folder, seconds = run(picture)
             draw(picture, folder)
-        rows[picture.name] = (title(folder), time_text(seconds))
+        rows[picture.name] = (title(folder), time_text(seconds) + other)
         print(f"{picture.scene}: {rows[picture.name][1]}", flush=True)
-    if len(chosen) == len(pictures):
-        page(rows)
+    page(rows, machine)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ list(TRANSFORM readers PREPEND "${CMAKE_SOURCE_DIR}/")
 add_executable(replay_over_release fuzz/replay.cpp fuzz/targets.cpp ${readers})
 target_link_libraries(replay_over_release PRIVATE ${PULVIS_PROGRAMS_OF}/cli/libpulvis_cli.a
                       ${PULVIS_PROGRAMS_OF}/scenes/libpulvis_scenes.a pulvis_core
-                      PkgConfig::tomlplusplus fcl nlohmann_json::nlohmann_json pugixml::pugixml spdlog::spdlog ${UDUNITS2} ${RE2}
+                      tomlplusplus::tomlplusplus fcl nlohmann_json::nlohmann_json pugixml::pugixml spdlog::spdlog ${UDUNITS2} ${RE2}
                       ${CMAKE_DL_LIBS} z)
 precompile(replay_over_release)
 add_test(NAME memory.readers COMMAND replay_over_release ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus)
