@@ -6,10 +6,10 @@ import unittest
 import matplotlib
 
 matplotlib.use("Agg")
+import made_up
 import numpy as np
 from matplotlib import pyplot as plt
 
-import made_up
 from pulvis.figures import afm, bonds, cell, colours, look, network, probe, study
 
 plt.rcParams.update(look.STYLE)

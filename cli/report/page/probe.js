@@ -10,6 +10,7 @@ const CAP = "drucker_prager_cap", CLAY = "modified_cam_clay", TURNED = "s_clay";
 const MODELS = {[CAP]: "Drucker–Prager cap", [CLAY]: "modified Cam-Clay", [TURNED]: "S-CLAY1", fleck_kuhn_mcmeeking: "Fleck–Kuhn–McMeeking",
                 gurson: "Gurson", fleck_plane: "Fleck, no cohesion", fleck_plane_cohesive: "Fleck, full cohesion"};
 const DASHED = {[CLAY]: [5, 4], [TURNED]: [2, 3]};
+const ROUND_OFF = 1e-8;  // of the largest value
 const STRESSES = ["xx", "yy", "zz", "xy", "yz", "zx"];
 
 const densityText = state => digits(state.relative_density, 3);
@@ -158,8 +159,8 @@ function fillStates(head) {
   fillColumns(document.getElementById("states"), filled([
     {title: "loading run", cells: all.map(({run}) => reportOf(run, run))},
     {title: "density", cells: all.map(densityText)}, {title: "seed", cells: all.map(({seed}) => String(seed))},
-    of("pressure", one => one.pressure, "Pa"), of("q", one => one.q, "Pa"), of("coordination number", one => one.coordination), fabric("y"), fabric("z"),
-    of("E", one => one.youngs_modulus, "Pa"), of("ν", one => one.poissons_ratio),
+    of("pressure", one => one.pressure, "Pa"), of("q", ({q, pressure}) => q < ROUND_OFF * pressure ? 0 : q, "Pa"),
+    of("coordination number", one => one.coordination), fabric("y"), fabric("z"), of("E", one => one.youngs_modulus, "Pa"), of("ν", one => one.poissons_ratio),
     ...["isotropic", "transversely_isotropic", "orthotropic"].map(key => shares(`off ${words(key)}`, one => one.off?.[key])),
     shares("in springs", one => one.released_by_springs)]));
   document.getElementById("symmetry").hidden = !all.some(({off}) => off);
@@ -168,7 +169,9 @@ function fillStates(head) {
 // A matrix in one unit.
 function fillStiffness(head) {
   const {stiffness = {}} = seedsOf(head)[document.getElementById("stiffness-state").value], {factor, label} = unitFor("Pa", largest(Object.values(stiffness)));
-  const value = (i, k) => stiffness[`c${Math.min(i, k) + 1}${Math.max(i, k) + 1}`] * factor, parts = STRESSES.map((_, i) => i).filter(i => Number.isFinite(value(i, i)));
+  const most = largest(Object.values(stiffness)), shown = value => Math.abs(value) < ROUND_OFF * most ? 0 : value * factor;
+  const value = (i, k) => shown(stiffness[`c${Math.min(i, k) + 1}${Math.max(i, k) + 1}`]);
+  const parts = STRESSES.map((_, i) => i).filter(i => Number.isFinite(value(i, i)));
   document.getElementById("stiffness").hidden = !parts.length;
   if (parts.length) fillColumns(document.getElementById("stiffness"), [{title: `c [${label}]`, cells: parts.map(i => `${i + 1} (${STRESSES[i]})`)},
     ...parts.map(k => ({title: `${k + 1} (${STRESSES[k]})`, unit: "-", cells: parts.map(i => value(i, k))}))]);
@@ -194,7 +197,7 @@ function fillPoints(head, criterion) {
   document.body.dataset.points = all.length;
   if (!all.length) return;
   const of = (title, pick) => ({title, unit: "Pa", cells: all.map(pick)}), most = largest(all.flatMap(({stress}) => stress));
-  const stresses = STRESSES.map((part, k) => of(`σ${part}`, ({stress}) => stress[k])).filter(({cells}) => largest(cells) > 1e-9 * most);
+  const stresses = STRESSES.map((part, k) => of(`σ${part}`, ({stress}) => stress[k])).filter(({cells}) => largest(cells) > ROUND_OFF * most);
   const degrees = (title, pick) => ({title, cells: all.map(one => Number.isFinite(pick(one)) ? `${digits(pick(one) * DEGREES, 3)}°` : null)});
   fillColumns(document.getElementById("points"), filled([
     {title: "direction", cells: all.map(point => reportOf(point.run, directionText(point)))},
@@ -232,10 +235,18 @@ function drawCharts(head, criterion) {
   document.body.dataset.drawnLines = charts.reduce((sum, {lines}) => sum + lines.length, 0);
 }
 
+// No run got to a state.
+function tellNothing() {
+  document.querySelectorAll("main > *").forEach(part => { part.hidden = true; });
+  document.getElementById("lead").textContent += " No state was reached: the terminal and the log of each run tell why.";
+  Object.assign(document.body.dataset, {points: 0, drawnLines: 0, ready: "1"});
+}
+
 function main() {
   const head = JSON.parse(document.getElementById("head").textContent), choice = document.getElementById("criterion");
   document.getElementById("lead").textContent = leadText(head);
   placeSettings(document.getElementById("settings"), new Set(["Pa"]), false);
+  if (!head.states.length) { tellNothing(); return; }
   Object.entries(CRITERIA).forEach(([name, told]) => choice.add(new Option(told(head), name)));
   tellStates(head);
   const showSpace = placeSpace(head, () => choice.value), fillTables = () => TABLES.forEach(fill => fill(head, choice.value));

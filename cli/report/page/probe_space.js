@@ -39,7 +39,8 @@ function sectionOf(shell, pressure) {
   return shell[0].flatMap((_, k) => {
     const i = shell.findIndex((row, n) => n > 0 && (pressureOf(row[k]) - pressure) * (pressureOf(shell[n - 1][k]) - pressure) < 0);
     if (i < 0) return [];
-    const four = shell.slice(Math.max(0, i - 2), i + 2).map(row => row[k]), falls = list => list.every((stress, n) => !n || pressureOf(stress) < pressureOf(list[n - 1]));
+    const four = shell.slice(Math.max(0, i - 2), i + 2).map(row => row[k]);
+    const falls = list => list.every((stress, n) => !n || pressureOf(stress) < pressureOf(list[n - 1]));
     const used = falls(four) ? four : [shell[i - 1][k], shell[i][k]], at = used.map(pressureOf);
     const shares = at.map((p, n) => at.reduce((product, other, m) => m === n ? product : product * (pressure - other) / (p - other), 1));
     return [[0, 1, 2].map(part => used.reduce((sum, stress, n) => sum + shares[n] * stress[part], 0))];
@@ -60,7 +61,8 @@ function deviatoricChart(head, path, criterion) {
     const found = pointsOf(state, criterion).filter(({set, q}) => set === "deviatoric" && q !== 0), shell = modelOf(state, criterion, TURNED)?.shell;
     if (!found.length) return [];
     const places = found.map(({q, lode_angle}) => inDeviatoricPlane(Math.sqrt(2 / 3) * Math.abs(q), lode_angle));
-    const cut = shell ? sectionOf(shell, found.reduce((sum, {p}) => sum + p, 0) / found.length).map(placeInPlane) : [], round = roundThrough(cut), ring = [...round, ...round.slice(0, 1)];
+    const cut = shell ? sectionOf(shell, found.reduce((sum, {p}) => sum + p, 0) / found.length).map(placeInPlane) : [];
+    const round = roundThrough(cut), ring = [...round, ...round.slice(0, 1)];
     return [marks(`density ${densityText(state)}`, "Pa", places.map(([x]) => x), places.map(([, y]) => y), {hue}),
             {label: `${densityText(state)}, S-CLAY1`, unit: "Pa", hue, dash: DASHED[TURNED], x: ring.map(([x]) => x), values: ring.map(([, y]) => y)}];
   }).filter(({values}) => values.length);
@@ -69,7 +71,8 @@ function deviatoricChart(head, path, criterion) {
   return {title: `Deviatoric plane: ${path}`, isEqual: true, x: {label: "√(2/3) q sin θ", unit: "Pa", values: []}, y: "√(2/3) q cos θ",
           note: "θ: Lode angle. Compressed along z: up, along y: right below, along x: left below. Points of the directions of constant volume or pressure" +
             (lines.some(({dash}) => dash) ? "; dotted: S-CLAY1 at the mean of their pressures." : "."),
-          lines: lines.length ? [...lines, {label: "compression along z, y, x", unit: "Pa", colour: "edge", x: axes.map(([x]) => x), values: axes.map(([, y]) => y)}] : []};
+          lines: lines.length ? [...lines, {label: "compression along z, y, x", unit: "Pa", colour: "edge",
+                                            x: axes.map(([x]) => x), values: axes.map(([, y]) => y)}] : []};
 }
 
 const DIAGONAL = Math.atan(Math.SQRT1_2), LOOKS = {free: ["From the side", -2.9, 0.3], h: ["Along equal pressures", -0.75 * Math.PI, DIAGONAL],
@@ -96,12 +99,14 @@ class StressSpace {
     const low = Math.min(0, ...[...this.points.map(({at}) => at), ...this.net.flat()].flat());
     this.middle = (this.most + low) / 2;
     this.radius = 0.5 * Math.sqrt(3) * (this.most - low);
+    this.tip.hidden = true;
     this.draw();
     this.tell();
   }
 
   layout() {
-    const ratio = Math.min(devicePixelRatio || 1, 2), {canvas} = this, [ct, st, cu, su] = [Math.cos(this.turn), Math.sin(this.turn), Math.cos(this.tilt), Math.sin(this.tilt)];
+    const ratio = Math.min(devicePixelRatio || 1, 2), {canvas, turn, tilt} = this;
+    const [ct, st, cu, su] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
     this.width = canvas.parentElement.clientWidth;
     const height = this.drawnHeight = Math.min(this.height, Math.round(0.9 * this.width));
     canvas.style.height = height + "px";
@@ -152,8 +157,10 @@ class StressSpace {
         ctx.fillText(told(tick), x - side * dy * 17, y + side * dx * 12);
       }
       ctx.fillStyle = colours.ink;
-      const x = b[0] + 38 * dx, within = Math.min(Math.max(x, 40), this.width - 40), y = b[1] + 13 * dy + (x === within ? 0 : 13);
-      ctx.fillText(`−σ${name}${name} [${label}]`, within, Math.min(Math.max(y, 8), this.drawnHeight - 8));
+      // Beyond the end of the axis; where there is no room, beside it.
+      const x = b[0] + 38 * dx, y = b[1] + 13 * dy, isBeside = y < 8 || y > this.drawnHeight - 8;
+      const within = Math.min(Math.max(x + (isBeside ? 42 : 0), 40), this.width - 40);
+      ctx.fillText(`−σ${name}${name} [${label}]`, within, isBeside ? Math.min(Math.max(y, 8), this.drawnHeight - 8) : y + (within === x ? 0 : 13));
       ctx.fillStyle = colours.soft;
     });
     ctx.setLineDash([6, 4]);
@@ -195,7 +202,8 @@ class StressSpace {
 
   // Which dots are which, on the left above.
   drawKey(ctx, colours) {
-    const sets = Object.entries(SETS).filter(([set]) => this.points.some(({point}) => point.set === set)), hasOpen = this.points.some(({point}) => !point.fitted_in_stresses);
+    const sets = Object.entries(SETS).filter(([set]) => this.points.some(({point}) => point.set === set));
+    const hasOpen = this.points.some(({point}) => !point.fitted_in_stresses);
     const rows = [...sets.map(([, [text, hue]]) => [text, colours.lines[hue]]), ...hasOpen ? [["open: not in the fit", null]] : [], ["+ loaded to", null]];
     Object.assign(ctx, {textAlign: "left", textBaseline: "middle"});
     rows.forEach(([text, colour], row) => {
@@ -232,7 +240,8 @@ class StressSpace {
   tell() {
     const {points, chosen, told, canvas} = this;
     canvas.setAttribute("aria-label", `Yield points in the space of the normal stresses, ${this.name}: ${counted(points.length, "point")}` +
-      `${this.net.length ? ", with the net of S-CLAY1" : ""}. Arrows turn, plus and minus zoom, x, y, z and h look along an axis, n and p choose a point, 0 shows all.`);
+      `${this.net.length ? ", with the net of S-CLAY1" : ""}. Arrows turn, plus and minus zoom, x, y, z and h look along an axis, ` +
+      "n and p choose a point, 0 shows all.");
     if (chosen === null) { told.textContent = points.length ? "No point chosen." : "No yield point."; return; }
     const {point, at} = points[chosen], {factor, label} = unitFor("Pa", largest(at));
     told.replaceChildren(`${titled(directionText(point))}: pressures ${at.map((part, k) => `${"xyz"[k]} ${digits(part * factor)}`).join(", ")} ${label}. `,
@@ -265,11 +274,12 @@ class StressSpace {
     }, {passive: false});
     canvas.addEventListener("pointerdown", event => {
       canvas.setPointerCapture(event.pointerId);
-      this.pressed = {x: event.offsetX, y: event.offsetY};
+      this.pressed = this.last = {x: event.offsetX, y: event.offsetY};
     });
-    canvas.addEventListener("pointermove", event => {
-      if (event.buttons & 1) this.turnBy(0.008 * event.movementX, 0.008 * event.movementY);
-      else this.hover(event.offsetX, event.offsetY);
+    canvas.addEventListener("pointermove", ({buttons, offsetX: x, offsetY: y}) => {
+      if (!(buttons & 1 && this.last)) { this.hover(x, y); return; }
+      this.turnBy(0.008 * (x - this.last.x), 0.008 * (y - this.last.y));
+      this.last = {x, y};
     });
     canvas.addEventListener("pointerup", ({offsetX: x, offsetY: y}) => {
       if (this.pressed && Math.hypot(x - this.pressed.x, y - this.pressed.y) < 4) this.choose(this.dotAt(x, y)?.i ?? null);

@@ -52,6 +52,11 @@ def all_points(states, criterion, key):
     return np.array([point[key] for state in states for point in state["yield"][criterion]["points"]])
 
 
+def dot_size(axes):
+    """Points, of the marks of yield points."""
+    return 3.5 if axes.figure.get_figwidth() / axes.get_gridspec().ncols > 0.5 * WORDS_FROM else 2.2
+
+
 def model_of(state, criterion, name):
     return next((model for model in state["yield"][criterion]["models"] if model["name"] == name), None)
 
@@ -67,13 +72,14 @@ def draw_invariants(axes, states, criterion, colour, factor):
         shade, mine = colour[state["asked"]], state["yield"][criterion]
         for fitted, look in ((True, {}), (False, OPEN)):
             points = [point for point in mine["points"] if point["fitted"] == fitted]
-            axes.plot([factor * point["p"] for point in points], [factor * point["q"] for point in points], "o", markersize=3.5,
-                      color=shade, **look)
+            axes.plot([factor * point["p"] for point in points], [factor * point["q"] for point in points], "o",
+                      markersize=dot_size(axes), color=shade, **look)
         for model in mine["models"]:
             if model["name"] in SURFACES:
                 axes.plot(*(factor * np.array(model["surface"]).T), SURFACES[model["name"]][1], color=shade, linewidth=1)
     highest = factor * max((point["p"] for state in states for point in state["yield"][criterion]["points"]), default=1)
-    axes.set_xlim(-0.1 * highest, 1.08 * highest)
+    ends = [line.get_xdata().max() for line in axes.lines if len(line.get_xdata())]
+    axes.set_xlim(-0.1 * highest, 1.08 * min(max(ends, default=highest), 1.3 * highest))
     axes.axhline(0, color="0.8", linewidth=0.6)
 
 
@@ -97,9 +103,10 @@ def draw_stresses(axes, states, criterion, colour, factor):
     for state in states:
         points, shade = [point for point in state["yield"][criterion]["points"] if point["set"] == "axial"], colour[state["asked"]]
         x, y = factor * np.array([point["across_along"] for point in points]).reshape(-1, 2).T
-        axes.plot(x, y, "o", markersize=3, color=shade)
+        axes.plot(x, y, "o", markersize=dot_size(axes) - 0.5, color=shade)
         plastic = np.array([point["plastic_across_along"] for point in points]).reshape(-1, 2)
-        axes.quiver(x, y, plastic[:, 0], plastic[:, 1], color=shade, angles="xy", width=0.003, scale=ARROWS)
+        axes.quiver(x, y, plastic[:, 0], plastic[:, 1], color=shade, angles="xy", scale_units="width", scale=ARROWS,
+                    units="inches", width=0.012 if dot_size(axes) > 3 else 0.006)
         middle = factor * np.mean([one["across_along"] for one in state["states"]], axis=0)
         axes.plot(*middle, "+", color=shade, markersize=9)
         turned = model_of(state, criterion, TURNED)
@@ -196,7 +203,7 @@ def draw_deviators(axes, states, criterion, colour, factor):
             continue
         length = factor * np.sqrt(2 / 3) * np.abs([point["q"] for point in points])
         angle = np.array([point["lode_angle"] for point in points])
-        axes.plot(length * np.sin(angle), length * np.cos(angle), "o", markersize=3.5, color=shade)
+        axes.plot(length * np.sin(angle), length * np.cos(angle), "o", markersize=dot_size(axes), color=shade)
         turned, ring = model_of(state, criterion, TURNED), np.zeros((0, 2))
         if turned and "shell" in turned:
             ring = factor * section_of(turned["shell"], np.mean([point["p"] for point in points]))
@@ -217,8 +224,9 @@ def deviatoric_plane(summary, criterion, options):
         return None
     colour, paths = colours(summary["states"]), paths_of({"states": states})
     factor, unit = unit_for("Pa", all_points(states, criterion, "q"))
-    figure, axes = subplots(-(-len(paths) // 2), min(2, len(paths)), figsize=options.size(4.8 * min(2, len(paths)), 4.8 * -(-len(paths) // 2)),
-                            squeeze=False)
+    columns = 1 if is_short(options) else min(2, len(paths))
+    rows = -(-len(paths) // columns)
+    figure, axes = subplots(rows, columns, figsize=options.size(4.8 * columns, 4.8 * rows), squeeze=False)
     for side in axes.flat[len(paths):]:
         side.set_visible(False)
     for side, path in zip(axes.flat, paths):
@@ -328,6 +336,8 @@ def keys_of_paths(colour):
 
 
 def parameters(summary, options):
+    if not summary["states"]:
+        return None
     figure, axes = subplots(2, 2, figsize=options.size(8.4, 9.2 if is_short(options) else 6.8))
     colour = colours_of_paths(summary)
     draw_moduli(axes[0][0], summary, colour, lambda one: one["youngs_modulus"], "Young's modulus", "Pa")

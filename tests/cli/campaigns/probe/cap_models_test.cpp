@@ -277,9 +277,10 @@ TEST(KeywordBlocks, OfLsDynaBoundTheSameStresses) {
 // Points on the surface along many directions of stress, from a powder pressed along z.
 std::vector<YieldPoint> turned_points(double m, double p_c, double alpha, double p_t) {
   const Mandel n = unit_deviator(0);
+  ProbeSpec spec;
+  spec.directions = 24, spec.deviatoric = 12;
   std::vector<YieldPoint> points;
-  for (const ProbeDirection& direction :
-       directions_of({.directions = 24, .deviatoric = 12}, true)) {
+  for (const ProbeDirection& direction : directions_of(spec, true)) {
     const Mandel centre = mandel_of({-0.4 * p_c, -0.4 * p_c, -0.4 * p_c});
     double low = 0, high = 10 * p_c;
     for (int i = 0; i < 80; ++i) {
@@ -310,7 +311,9 @@ TEST(TurnedEllipsoids, ComeBack) {
     EXPECT_NEAR(fit.parameter("M"), m, 2e-3);
     EXPECT_NEAR(fit.parameter("p_c") / p_c, 1, 2e-3);
     EXPECT_NEAR(fit.parameter("alpha"), alpha, 2e-3);
-    if (bonded) EXPECT_NEAR(fit.parameter("p_t") / p_t, 1, 0.05);
+    if (bonded) {
+      EXPECT_NEAR(fit.parameter("p_t") / p_t, 1, 0.05);
+    }
     EXPECT_LT(fit.misfit, 1e-3);
     for (const char* name : {"M", "p_c", "alpha"}) EXPECT_TRUE(fit.determines(name)) << name;
     EXPECT_GT(model(fits, "modified_cam_clay").misfit, 0.02);
