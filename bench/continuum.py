@@ -89,11 +89,11 @@ def convergence():
     print("case                     " + "  ".join(f"{d:13}" for d in densities) + "   steps   wall, s")
     base = ['stage[0].cell.strain_zz=-0.42', 'stage[0].duration="0.2 ms"']
     cases = [("60 spheres", [])]
-    cases += [(f"60 spheres, seed {seed}", [f"seed={seed}"]) for seed in (2, 3, 4)]
-    for count, side in ((30, 3), (120, 4.8), (250, 6.1)):
+    cases += [(f"60 spheres, seed {seed}", [f"seed={seed}"]) for seed in (2, 3)]
+    for count, side in ((30, 3), (120, 4.8)):
         cases += [(f"{count} spheres", in_cell(count, side))]
     cases += [("60 spheres, half speed", ['stage[0].duration="0.4 ms"']), ("60 spheres, double speed", ['stage[0].duration="0.1 ms"']),
-              *((f"60 spheres, mesh {divisions},1", [f"particle.ball.mesh.divisions={divisions}"]) for divisions in (6, 8))]
+              *((f"60 spheres, mesh {divisions},1", [f"particle.ball.mesh.divisions={divisions}"]) for divisions in (6,))]
     for name, settings in cases:
         history, summary = run(DIE, [*base, *settings])
         axial = -history["cell/stress_zz"]

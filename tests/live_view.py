@@ -22,7 +22,7 @@ import urllib.request
 
 PROGRAM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 SCENE = SOURCE / "scenes/compaction/regular-25.toml"
-PATIENCE = 60  # s, on a busy machine
+PATIENCE = 180  # s, on a busy machine
 
 
 def run_of(folder, *options):
