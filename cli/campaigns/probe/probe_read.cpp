@@ -7,6 +7,7 @@
 
 #include "cli/campaigns/probe/declare_probe.hpp"
 #include "cli/campaigns/probe/probe_directions.hpp"
+#include "cli/campaigns/probe/probe_scenes.hpp"
 #include "scenes/language/describe.hpp"
 #include "scenes/language/seed_list.hpp"
 #include "scenes/language/table_reader.hpp"
@@ -113,6 +114,9 @@ class ProbeReader {
       if (std::ranges::all_of(one.parts, [](double part) { return part == 0; }))
         problems_.add({one.mark, -1}, fmt::format("direction[{}]", i),
                       "all components are zero, allowed: at least one that is not");
+      if (one.name == release_stage)
+        problems_.add({one.mark, -1}, fmt::format("direction[{}].name", i),
+                      "it is that of the run that unloads, allowed: another name");
     }
   }
 

@@ -100,6 +100,9 @@ TEST_F(ProbeFiles, HaveDirectionsThatTheirPathsHave) {
   EXPECT_EQ(refusal(oblique, {3}), "");
   EXPECT_NE(refusal(oblique + oblique, {3}).find("'oblique' is the name of another direction"),
             std::string::npos);
+  EXPECT_NE(
+      refusal("[[direction]]\nname = \"release\"\nxx = 1\n", {3}).find("the run that unloads"),
+      std::string::npos);
   EXPECT_NE(refusal("[[direction]]\nname = \"none\"\n", {3}).find("all components are zero"),
             std::string::npos);
   EXPECT_NE(refusal("[[direction]]\nname = \"shear_xy\"\nxy = 1\n", {3})
