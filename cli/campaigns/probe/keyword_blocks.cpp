@@ -30,6 +30,13 @@ std::string number_or_range(const BlockValue& value, double factor, const char* 
   return fmt::format(fmt::runtime(format), *value.value * factor);
 }
 
+// A name that every code reads as one word: that of a path with a powder has a comma.
+std::string word_of(std::string name) {
+  for (char& c : name)
+    if ((c < 'a' || c > 'z') && (c < 'A' || c > 'Z') && (c < '0' || c > '9')) c = '_';
+  return name;
+}
+
 bool is_open(const CapRow& row) {
   const auto unknown = [](const BlockValue& of) { return !of.value && !of.range.empty(); };
   return unknown(row.d) || unknown(row.beta) || unknown(row.r) || unknown(row.p_b);
@@ -44,6 +51,9 @@ std::string warning_of_open(const char* mark) {
       mark);
 }
 
+bool has_p_c(const CapRow& row) { return row.p_c.value.has_value(); }
+bool has_p_b(const CapRow& row) { return row.p_b.value.has_value(); }
+
 double bulk_of(const CapRow& row) {
   return row.youngs_modulus / (3 * (1 - 2 * row.poissons_ratio));
 }
@@ -57,7 +67,7 @@ std::string abaqus_block(const std::string& name, const std::vector<CapRow>& row
       "** Units: Pa. Field variable 1 is the relative density; set it by *INITIAL CONDITIONS, "
       "TYPE=FIELD\n** and update it in USDFLD as density * exp(-volume strain).\n"
       "*MATERIAL, NAME={}\n*ELASTIC, DEPENDENCIES=1\n",
-      name, name);
+      name, word_of(name));
   for (const CapRow& row : rows)
     text += fmt::format("{:.6e}, {:.6f}, , {:.6f}\n", row.youngs_modulus, row.poissons_ratio,
                         row.density);
@@ -103,7 +113,7 @@ std::optional<CamClay> cam_clay_of(const std::vector<CapRow>& rows) {
 std::string code_aster_block(const std::string& name, const std::vector<CapRow>& rows) {
   const std::optional<CamClay> clay = cam_clay_of(rows);
   if (!clay) return "";
-  const CapRow& first = rows.front();
+  const CapRow& first = *std::ranges::find_if(rows, &has_p_c);
   return fmt::format(
       "# {}: modified Cam-Clay, fitted to yield points of particles by Pulvis. Units: Pa.\n"
       "# Relative density {:.4f} at the start; PRES_CRIT is half of the preconsolidation "
@@ -112,7 +122,7 @@ std::string code_aster_block(const std::string& name, const std::vector<CapRow>&
       "    ELAS=_F(E={:.6e}, NU={:.6f}),\n"
       "    CAM_CLAY=_F(MU={:.6e}, PORO={:.6f}, LAMBDA={:.6f}, KAPA={:.6e}, M={}, "
       "PRES_CRIT={:.6e}))\n",
-      name, 1 - clay->porosity, clay->m.value ? "" : warning_of_open("#"), name,
+      name, 1 - clay->porosity, clay->m.value ? "" : warning_of_open("#"), word_of(name),
       first.youngs_modulus, first.poissons_ratio, shear_of(first), clay->porosity, clay->lambda,
       clay->kappa, number_or_range(clay->m, 1, "{:.6f}"), 0.5 * clay->p_c);
 }
@@ -150,7 +160,7 @@ std::optional<Hardening> hardening_of(const std::vector<CapRow>& rows) {
 std::string ls_dyna_block(const std::string& name, const std::vector<CapRow>& rows) {
   const std::optional<Hardening> law = hardening_of(rows);
   if (!law) return "";
-  const CapRow& row = rows.front();
+  const CapRow& row = *std::ranges::find_if(rows, &has_p_b);
   const double root = std::sqrt(3.0);
   BlockValue alpha = row.d, theta = row.beta, r = row.r;
   if (theta.value) theta.value = portable::tan(*theta.value) / (3 * root);
@@ -164,7 +174,7 @@ std::string ls_dyna_block(const std::string& name, const std::vector<CapRow>& ro
       "1, {}, {:.6e}, {:.6e}, {}, {}, 0., 0.\n"
       "$ R, D, W, X0, C, N\n{}, {:.6e}, {:.6f}, {:.6e}, 0., 0.\n"
       "$ PLOT, FTYPE, VEC, TOFF\n0., 2., 0., 0.\n",
-      name, row.density, is_open(row) ? warning_of_open("$") : "", name,
+      name, row.density, is_open(row) ? warning_of_open("$") : "", word_of(name),
       row.solid_density > 0 ? fmt::format("{:.6e}", row.density * row.solid_density)
                             : "<bulk density>",
       bulk_of(row), shear_of(row), number_or_range(alpha, 1 / root, "{:.6e}"),

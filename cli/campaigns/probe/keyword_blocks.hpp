@@ -52,10 +52,10 @@ struct CamClay {
 // None: p_c is not determined for two rows.
 std::optional<CamClay> cam_clay_of(const std::vector<CapRow>& rows);
 
-// code_aster: DEFI_MATERIAU with CAM_CLAY, for the first row. Empty: no slope is defined.
+// code_aster: DEFI_MATERIAU with CAM_CLAY, for the first row with p_c. Empty: no slope is defined.
 std::string code_aster_block(const std::string& name, const std::vector<CapRow>& rows);
 
-// LS-DYNA: *MAT_GEOLOGIC_CAP_MODEL (MAT_025), for the first row, with hardening over all. Its failure line is that of
+// LS-DYNA: *MAT_GEOLOGIC_CAP_MODEL (MAT_025), for the first row with p_b, with hardening over all. Its failure line is that of
 // Drucker-Prager: ALPHA = d/sqrt(3), THETA = tan(beta)/(3 sqrt(3)), GAMMA = BETA = 0; R = 3 sqrt(3) times the R of Abaqus,
 // since its abscissa is 3 p and its ordinate q/sqrt(3). Hardening eps_v = W (1 - exp(-D (X - X0))) with X = 3 p_b, W the
 // compaction left to full density, and D by least squares. Empty: fewer than two rows with p_b.

@@ -152,11 +152,15 @@ void write_probe(const std::filesystem::path& folder, const Probe& probe,
   write_own(folder / "caps.csv", role::probe, caps_csv(groups));
   for (const std::string& history : probe.histories) {
     const std::vector<CapRow> rows = cap_rows(history, groups);
-    if (rows.empty()) continue;
+    // A block of an earlier run, which the points do not give any more, must not stay.
     const auto write = [&](const char* ending, const std::string& block) {
-      if (!block.empty()) write_own(folder / (history + ending), role::probe, block);
+      const std::filesystem::path file = folder / (history + ending);
+      if (block.empty())
+        std::filesystem::remove(file);
+      else
+        write_own(file, role::probe, block);
     };
-    write(".inp", abaqus_block(history, rows));
+    write(".inp", rows.empty() ? "" : abaqus_block(history, rows));
     write(".comm", code_aster_block(history, rows));
     write(".k", ls_dyna_block(history, rows));
   }

@@ -233,6 +233,13 @@ TEST(KeywordBlocks, HaveNoNumberForWhatThePointsDoNotDetermine) {
   EXPECT_THAT(aster, HasSubstr("M=<M: 0.2 to 1.5>"));
   EXPECT_THAT(dyna, HasSubstr("<beta: 50 to 90, tan(beta)/(3 sqrt(3))>"));
   EXPECT_THROW(read_abaqus_block(abaqus), std::runtime_error);
+  EXPECT_THAT(abaqus_block("die,rough", rows), HasSubstr("NAME=die_rough\n"));
+  EXPECT_THAT(code_aster_block("die,rough", rows), HasSubstr("die_rough = DEFI_MATERIAU"));
+  // All of a block is of its first row.
+  rows.insert(rows.begin(), {0.8, 20e9, 0.2, 1e6, 0.5, 0.8, BlockValue(std::nullopt, "p_b: 1 to 9"),
+                             0.9, BlockValue(std::nullopt, "p_c: 1 to 9"), 8940});
+  EXPECT_THAT(code_aster_block("die", rows), HasSubstr("E=3.000000e+10"));
+  EXPECT_THAT(ls_dyna_block("die", rows), HasSubstr("Relative density 0.8500"));
 }
 
 // The cap of LS-DYNA in its own variables J1 = 3 p and sqrt(J2) = q/sqrt(3) is that of Abaqus but for the transition.
